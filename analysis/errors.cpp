@@ -1,0 +1,35 @@
+#include "analysis/errors.hpp"
+
+#include <algorithm>
+
+namespace gyrostat {
+
+HeadingExcursion heading_excursion(const Series& series, const Track& track) {
+  HeadingExcursion heading;
+  for (std::size_t i = 1; i < series.size(); ++i) {
+    const double e = rate_error_dps(series, track, i);
+    if (!std::isnan(e)) heading.end_deg += e * (series.t_s[i] - series.t_s[i - 1]);
+    heading.min_deg = std::min(heading.min_deg, heading.end_deg);
+    heading.max_deg = std::max(heading.max_deg, heading.end_deg);
+  }
+  return heading;
+}
+
+TrackErrors track_errors(const Series& series, const Track& track) {
+  const auto over_time = [&](const auto& error) { return error_moments(series.size(), error); };
+  TrackErrors errors;
+  errors.rate = over_time([&](std::size_t i) { return rate_error_dps(series, track, i); });
+  errors.nis = over_time([&](std::size_t i) {
+    return track.innovation_dps[i] * track.innovation_dps[i] / track.innovation_variance[i];
+  });
+  errors.heading = heading_excursion(series, track);
+  if (!has_truth(series)) return errors;
+  errors.bias = over_time([&](std::size_t i) { return bias_error_dps(series, track, i); });
+  errors.nees = over_time([&](std::size_t i) {
+    const double error = bias_error_dps(series, track, i);
+    return error * error / track.estimate_variance[i];
+  });
+  return errors;
+}
+
+}  // namespace gyrostat

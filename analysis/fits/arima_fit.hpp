@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "core/models/arima111.hpp"
+#include "core/types.hpp"
+
+namespace gyrostat {
+
+/// What a fit of ARIMA(1,1,1) + white noise to a static recording says.
+struct ArimaFit {
+  Arima111<double> parameters;
+  Arima111<double> standard_errors;
+  /// Of phi, delta1, delta2 and sqrt(R), in that order and in their units.
+  Matrix<double, 4> covariance = Matrix<double, 4>::Zero();
+  bool converged = false;
+  std::string message;
+  int iterations = 0;
+  std::size_t samples = 0;
+  /// Maximum likelihood: the log-likelihood. Moments: the chi-square of the misfit.
+  double objective = 0.0;
+};
+
+}  // namespace gyrostat

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "core/models/thermal.hpp"
+#include "core/series.hpp"
+
+namespace gyrostat {
+
+/// A least-squares fit of B_f = a T + b T' + c, with its uncertainty.
+struct ThermalFit {
+  ThermalDrift<double> parameters;
+  ThermalDrift<double> standard_errors;
+  double residual_std_dps = 0.0;   ///< of one interval's mean rate
+  double temperature_span_C = 0.0;
+  std::size_t points = 0;
+  std::string message;
+};
+
+/// Regresses the mean rate error of successive intervals (gyro minus reference, or the gyro itself
+/// where there is no reference: a static recording) on the temperature at their ends and its
+/// difference over them, [B eq. 2, 5]. Standard errors allow for heteroscedastic and autocorrelated
+/// residuals (Newey and West 1987). Where the temperature spans less than 1 °C, a and b are not
+/// assessable: they are 0, with infinite standard errors, and c is the mean. Throws InputError for
+/// fewer than 4 whole intervals.
+ThermalFit fit_thermal_drift(const Series& series, double interval_s = 10.0);
+
+/// Standard deviation, dps, of the bias measurements M that the compass of `series` gives against
+/// `drift` [B]; NaN where there are none.
+double bias_measurement_std(const Series& series, const ThermalDrift<double>& drift,
+                            double interval_s = 10.0);
+
+}  // namespace gyrostat

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string_view>
+
+#include "analysis/errors.hpp"
+
+namespace gyrostat::metrics {
+
+/// Highest heading error over time.
+struct HeadingMax {
+  static constexpr std::string_view title = "heading error, highest";
+  static constexpr std::string_view unit = "deg";
+
+  double operator()(const TrackErrors& errors) const { return errors.heading.max_deg; }
+};
+
+}  // namespace gyrostat::metrics

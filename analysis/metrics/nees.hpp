@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string_view>
+
+#include "analysis/errors.hpp"
+
+namespace gyrostat::metrics {
+
+/// Mean over time of the squared bias estimation error over the variance that the filter states
+/// (Bar-Shalom et al. 2001, sec. 5.4.2): 1 for a consistent filter. Needs the truth.
+struct Nees {
+  static constexpr std::string_view title = "normalised estimation error squared, mean";
+  static constexpr std::string_view unit = "1";
+
+  double operator()(const TrackErrors& errors) const { return errors.nees.mean; }
+};
+
+}  // namespace gyrostat::metrics

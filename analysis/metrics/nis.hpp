@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string_view>
+
+#include "analysis/errors.hpp"
+
+namespace gyrostat::metrics {
+
+/// Mean over time of nu^2 / S (Bar-Shalom et al. 2001, sec. 5.4.2): 1 for a consistent filter.
+struct Nis {
+  static constexpr std::string_view title = "normalised innovation squared, mean";
+  static constexpr std::string_view unit = "1";
+
+  double operator()(const TrackErrors& errors) const { return errors.nis.mean; }
+};
+
+}  // namespace gyrostat::metrics

@@ -1,0 +1,206 @@
+#include "analysis/spectra/allan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include <boost/math/distributions/chi_squared.hpp>
+
+#include "core/error.hpp"
+
+namespace gyrostat {
+namespace {
+
+void require(bool holds, const std::string& place, const std::string& problem) {
+  if (!holds) throw InputError(place, problem);
+}
+
+/// Running sum of the rate about its mean, from 0: the phase, in samples times the rate's unit.
+std::vector<double> phase_of(std::span<const double> rate, std::span<const std::size_t> clusters) {
+  const std::size_t n = rate.size();
+  require(n >= 2, "rate", std::to_string(n) + " samples; at least 2 are needed");
+  for (const std::size_t m : clusters)
+    require(m >= 1 && m <= n / 2, "clusters",
+            std::to_string(m) + " is outside [1, " + std::to_string(n / 2) + "]");
+  for (std::size_t i = 0; i < n; ++i)
+    require(std::isfinite(rate[i]), "rate[" + std::to_string(i) + "]",
+            "is missing or not finite; fill the gap or pass a stretch without one");
+  const double mean = std::reduce(rate.begin(), rate.end()) / static_cast<double>(n);
+  std::vector<double> phase(n + 1, 0.0);
+  for (std::size_t i = 0; i < n; ++i) phase[i + 1] = phase[i] + (rate[i] - mean);
+  return phase;
+}
+
+/// Difference of the sums over the two clusters of m samples that start at i.
+double haar(const std::vector<double>& phase, std::size_t i, std::size_t m) {
+  return phase[i + 2 * m] - 2.0 * phase[i + m] + phase[i];
+}
+
+double lag1_autocorrelation(const std::vector<double>& z) {
+  const double mean = std::reduce(z.begin(), z.end()) / static_cast<double>(z.size());
+  double product = 0.0;
+  double square = 0.0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    square += (z[i] - mean) * (z[i] - mean);
+    if (i > 0) product += (z[i] - mean) * (z[i - 1] - mean);
+  }
+  return square > 0.0 ? product / square : 0.0;
+}
+
+/// Exponent alpha in [-2, 2] of the rate's spectrum f^alpha about 1/(m samples).
+int power_law_exponent(const std::vector<double>& phase, std::size_t m) {
+  std::vector<double> z;
+  for (std::size_t i = m; i < phase.size(); i += m) z.push_back(phase[i] - phase[i - m]);
+  int differences = 0;
+  const auto half_exponent = [&] {
+    const double r1 = lag1_autocorrelation(z);
+    return r1 / (1.0 + r1);
+  };
+  double delta = half_exponent();
+  if (delta >= 0.25) {
+    std::adjacent_difference(z.begin(), z.end(), z.begin());
+    z.erase(z.begin());
+    delta = half_exponent();
+    differences = 1;
+  }
+  return std::clamp(-static_cast<int>(std::lround(2.0 * delta)) - 2 * differences, -2, 2);
+}
+
+/// Greenhall & Riley's s_w: the generalised autocovariance of the phase, up to a factor.
+double phase_covariance(double t, int alpha) {
+  t = std::abs(t);
+  if (t == 0.0) return 0.0;
+  switch (alpha) {
+    case 2:
+      return -t;
+    case 1:
+      return t * t * std::log(t);
+    case 0:
+      return t * t * t;
+    case -1:
+      return -t * t * t * t * std::log(t);
+    default:
+      return -t * t * t * t * t;
+  }
+}
+
+/// Equivalent degrees of freedom of the overlapping Allan variance (Greenhall & Riley 2003, full
+/// sum). For alpha <= 0 more than 64 steps a cluster add nothing, and cost O(m) and cancellation.
+double equivalent_degrees_of_freedom(int alpha, std::size_t n, std::size_t m) {
+  const std::size_t steps = alpha > 0 ? m : std::min<std::size_t>(m, 64);
+  const double s = static_cast<double>(steps);
+  const auto rate = [&](double t) {
+    return 2.0 * phase_covariance(t, alpha) - phase_covariance(t - 1.0 / s, alpha) -
+           phase_covariance(t + 1.0 / s, alpha);
+  };
+  const auto coefficient = [&](double t) {
+    return 6.0 * rate(t) - 4.0 * (rate(t - 1.0) + rate(t + 1.0)) + rate(t - 2.0) + rate(t + 2.0);
+  };
+  const double variance = coefficient(0.0);
+  const std::size_t count = 1 + steps * (n - 2 * m) / m;
+  double sum = 1.0;
+  for (std::size_t j = 1; j < std::min(count, 3 * steps); ++j) {
+    const double correlation = coefficient(static_cast<double>(j) / s) / variance;
+    sum += 2.0 * (1.0 - static_cast<double>(j) / static_cast<double>(count)) * correlation *
+           correlation;
+  }
+  return static_cast<double>(count) / sum;
+}
+
+}  // namespace
+
+std::vector<std::size_t> allan_clusters(std::size_t samples) {
+  std::vector<std::size_t> clusters;
+  const double longest = std::max(1.0, static_cast<double>(samples / 4));
+  for (int k = 0; std::round(std::pow(10.0, k / 8.0)) <= longest; ++k) {
+    const auto m = static_cast<std::size_t>(std::lround(std::pow(10.0, k / 8.0)));
+    if (clusters.empty() || m != clusters.back()) clusters.push_back(m);
+  }
+  return clusters;
+}
+
+std::vector<AllanPoint> overlapping_allan_deviation(std::span<const double> rate, double rate_hz,
+                                                    std::span<const std::size_t> clusters,
+                                                    double confidence) {
+  require(rate_hz > 0.0, "rate_hz", std::to_string(rate_hz) + " is outside (0, inf)");
+  require(confidence > 0.0 && confidence < 1.0, "confidence",
+          std::to_string(confidence) + " is outside (0, 1)");
+  const std::size_t n = rate.size();
+  const auto by_default = clusters.empty() ? allan_clusters(n) : std::vector<std::size_t>{};
+  if (clusters.empty()) clusters = by_default;
+  const auto phase = phase_of(rate, clusters);
+
+  std::vector<AllanPoint> points;
+  for (const std::size_t m : clusters) {
+    const std::size_t count = n - 2 * m + 1;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i) sum += haar(phase, i, m) * haar(phase, i, m);
+    const double length = static_cast<double>(m);
+    const double deviation = std::sqrt(sum / (2.0 * static_cast<double>(count))) / length;
+    const int alpha = power_law_exponent(phase, std::min(m, std::max<std::size_t>(1, n / 32)));
+    const double edf = equivalent_degrees_of_freedom(alpha, n, m);
+    const boost::math::chi_squared chi_squared(edf);
+    const auto bound = [&](double probability) {
+      return deviation * std::sqrt(edf / quantile(chi_squared, probability));
+    };
+    points.push_back({length / rate_hz, deviation, bound(0.5 + confidence / 2.0),
+                      bound(0.5 - confidence / 2.0), edf, m});
+  }
+  return points;
+}
+
+std::vector<double> without_spikes(std::span<const double> rate) {
+  constexpr std::size_t reach = 4;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < rate.size(); ++i)
+    if (std::isfinite(rate[i] - rate[i - 1])) steps.push_back(std::abs(rate[i] - rate[i - 1]));
+  require(!steps.empty(), "rate", "no two neighbouring samples are present");
+  const auto q90 = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() * 9 / 10);
+  std::nth_element(steps.begin(), q90, steps.end());
+  const double threshold = 6.0 * *q90 / (1.6448536269514722 * std::sqrt(2.0));
+
+  std::vector<double> clean(rate.begin(), rate.end());
+  double median =
+      *std::find_if(rate.begin(), rate.end(), [](double y) { return std::isfinite(y); });
+  for (std::size_t i = 0; i < rate.size(); ++i) {
+    std::array<double, 2 * reach + 1> window{};
+    auto end = window.begin();
+    for (std::size_t k = i - std::min(i, reach); k < std::min(i + reach + 1, rate.size()); ++k)
+      if (std::isfinite(rate[k])) *end++ = rate[k];
+    const auto middle = window.begin() + (end - window.begin()) / 2;
+    std::nth_element(window.begin(), middle, end);
+    if (end != window.begin()) median = *middle;
+    const bool spike = threshold > 0.0 && std::abs(rate[i] - median) > threshold;
+    if (spike || !std::isfinite(rate[i])) clean[i] = median;
+  }
+  return clean;
+}
+
+std::vector<double> robust_allan_variances(std::span<const double> rate,
+                                           std::span<const std::size_t> clusters) {
+  constexpr double cut = 9.0;
+  const double expected = cdf(boost::math::chi_squared(3), cut) +
+                          cut * cdf(complement(boost::math::chi_squared(1), cut));
+  const auto phase = phase_of(rate, clusters);
+  std::vector<double> variances;
+  for (const std::size_t m : clusters) {
+    std::vector<double> squares;
+    for (std::size_t i = 0; i + 2 * m < phase.size(); i += std::max<std::size_t>(1, m / 8))
+      squares.push_back(0.5 * std::pow(haar(phase, i, m) / static_cast<double>(m), 2));
+    const double count = static_cast<double>(squares.size());
+    double variance = std::reduce(squares.begin(), squares.end()) / count;
+    for (double change = 1.0; change > 1e-9 && variance > 0.0;) {
+      double sum = 0.0;
+      for (const double square : squares) sum += std::min(square / variance, cut);
+      const double factor = sum / count / expected;
+      variance *= factor;
+      change = std::abs(factor - 1.0);
+    }
+    variances.push_back(variance);
+  }
+  return variances;
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace gyrostat {
+
+/// One point of an Allan deviation plot; deviation and interval in the unit of the rate.
+struct AllanPoint {
+  double tau_s;
+  double deviation;
+  double lower, upper;  ///< confidence interval of the deviation
+  double edf;           ///< equivalent degrees of freedom of its square
+  std::size_t cluster;  ///< samples averaged, tau times the rate of sampling
+};
+
+/// Cluster sizes from 1 to a quarter of `samples`, about eight a decade. A quarter leaves two to
+/// four degrees of freedom: the interval is wide, and still holds.
+std::vector<std::size_t> allan_clusters(std::size_t samples);
+
+/// Overlapping Allan deviation (IEEE Std 952-1997 annex C; NIST SP 1065 eq. 11) of a rate sampled
+/// at `rate_hz`, in O(n) a cluster. The interval is chi-square with the equivalent degrees of
+/// freedom of Greenhall & Riley (PTTI 2003), for the power-law noise that the lag-1
+/// autocorrelation identifies at that tau (Riley & Greenhall, EFTF 2004), or at n/32 samples where
+/// fewer than 32 clusters remain.
+///
+/// Throws InputError for a sample that is missing or not finite (how to bridge a gap is the
+/// caller's choice), for a cluster outside [1, n/2], a rate of sampling <= 0, and a confidence
+/// outside (0, 1).
+std::vector<AllanPoint> overlapping_allan_deviation(std::span<const double> rate, double rate_hz,
+                                                    std::span<const std::size_t> clusters = {},
+                                                    double confidence = 0.95);
+
+/// The rate with isolated spikes replaced by the median of the nine samples around them. A spike
+/// is farther from that median than 6 robust standard deviations of the first difference over
+/// sqrt(2), taken from its 90 % quantile: bulk noise that is a mixture keeps its variance, and up
+/// to 5 % of the samples may be spikes. Gaussian noise loses less than 1e-6 of its variance.
+std::vector<double> without_spikes(std::span<const double> rate);
+
+/// Allan variance at each cluster by a Huber M-estimator of the scale of the overlapping Haar
+/// coefficients w (Mondal & Percival 2012): the nu with mean min(w^2/nu, 9) = E min(Z^2, 9),
+/// consistent and 99 % efficient for Gaussian w; withstands 11 % of arbitrary coefficients.
+std::vector<double> robust_allan_variances(std::span<const double> rate,
+                                           std::span<const std::size_t> clusters);
+
+}  // namespace gyrostat

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "core/models/arima111.hpp"
+#include "core/types.hpp"
+
+namespace gyrostat {
+namespace arima_haar {
+
+/// What m steps do to x, with u_k = E[d_{k+1} | past] the state of the increments d:
+///   d_{k+1} = u_k + delta1 a_{k+1},   u_{k+1} = phi u_k + (phi delta1 - delta2) a_{k+1}.
+/// The rows are x_m - x_0, the sum of x_j - x_0 over j = 1..m, and u_m.
+template <class T>
+struct Block {
+  T length;
+  Vector<T, 3> gain;    ///< response to u_0
+  Matrix<T, 3> spread;  ///< covariance from the innovations inside the block
+};
+
+template <class T>
+Block<T> one_step(const Arima111<T>& p) {
+  const Vector<T, 3> response(p.delta1_dps, p.delta1_dps, p.phi * p.delta1_dps - p.delta2_dps);
+  return {T(1.0), Vector<T, 3>(T(1.0), T(1.0), p.phi), response * response.transpose()};
+}
+
+template <class T>
+Block<T> operator+(const Block<T>& first, const Block<T>& second) {
+  Matrix<T, 3> carry;
+  carry << T(1.0), T(0.0), second.gain[0],    //
+      second.length, T(1.0), second.gain[1],  //
+      T(0.0), T(0.0), second.gain[2];
+  return {first.length + second.length, carry * first.gain,
+          carry * first.spread * carry.transpose() + second.spread};
+}
+
+}  // namespace arima_haar
+
+/// Allan variance, dps^2, of z = x + v at clusters of `cluster` >= 1 samples: half the mean square
+/// of the difference of neighbouring cluster means. Exact for |phi| < 1, by doubling blocks in
+/// O(log cluster); sums of like sign only, so nothing is lost near phi = 0, |phi| = 1 or
+/// delta2 = delta1, where the geometric closed form cancels as (1 - phi)^-4.
+template <class T>
+T arima_allan_variance(const Arima111<T>& p, std::size_t cluster) {
+  const auto step = arima_haar::one_step(p);
+  auto block = step;
+  for (std::size_t bit = std::bit_floor(cluster) >> 1U; bit != 0; bit >>= 1U) {
+    block = block + block;
+    if ((cluster & bit) != 0) block = block + step;
+  }
+  const T u_innovation = p.phi * p.delta1_dps - p.delta2_dps;
+  const T u_variance = u_innovation * u_innovation / (T(1.0) - p.phi * p.phi);
+  const Vector<T, 3> haar(block.length, T(-1.0), block.gain[1]);
+  const T from_u = haar.dot(block.gain);
+  const T variance =
+      haar.dot(block.spread * haar) + block.spread(1, 1) + from_u * from_u * u_variance;
+  const T r = p.measurement_noise_std_dps * p.measurement_noise_std_dps;
+  return variance / (T(2.0) * block.length * block.length) + r / block.length;
+}
+
+/// Covariance of the logarithms of the overlapping Allan variances of `samples` values of z at the
+/// clusters 1, 2, 4, ... 2^(scales - 1). With G_j the power gain of the Haar filter and S the
+/// (pseudo-)spectrum of z, cov(nu_i, nu_j) = 2 / sqrt(M_i M_j) * mean over frequency of
+/// G_i G_j S^2, M_j = samples - 2^(j+1) + 1 (Percival & Walden 2000, eq. 307c, for two scales).
+inline Eigen::MatrixXd log_allan_covariance(const Arima111<double>& p, std::size_t samples,
+                                            std::size_t scales) {
+  const double delta1 = p.delta1_dps, delta2 = p.delta2_dps;
+  const auto points = std::size_t{4} << scales;
+  Eigen::VectorXd power(scales);
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(power.size());
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(power.size(), power.size());
+  for (std::size_t k = 0; k < points; ++k) {
+    const double s0 = std::pow(std::sin(std::numbers::pi * (static_cast<double>(k) + 0.5) /
+                                        static_cast<double>(2 * points)),
+                               2);  // |1 - B|^2 = 4 s0, and |a - b B|^2 = (a - b)^2 + 4 a b s0
+    const double increments = (std::pow(delta1 - delta2, 2) + 4.0 * delta1 * delta2 * s0) /
+                              (std::pow(1.0 - p.phi, 2) + 4.0 * p.phi * s0);
+    const double spectrum = increments / (4.0 * s0) + std::pow(p.measurement_noise_std_dps, 2);
+    double s = s0;  // sin^2(m omega / 2)
+    for (std::size_t j = 0; j < scales; ++j) {
+      power[j] = 2.0 * s * s / (std::ldexp(s0, 2 * static_cast<int>(j))) * spectrum;
+      s = 4.0 * s * (1.0 - s);
+    }
+    variance += power;
+    product.selfadjointView<Eigen::Lower>().rankUpdate(power);
+  }
+  Eigen::VectorXd scale(power.size());
+  for (std::size_t j = 0; j < scales; ++j) {
+    scale[j] = std::sqrt(2.0 * static_cast<double>(points) /
+                         static_cast<double>(samples - (std::size_t{2} << j) + 1)) /
+               variance[j];
+    scale[j] *= std::sqrt(1.0 + 0.5 * scale[j] * scale[j] * product(j, j));
+  }
+  return scale.asDiagonal() * Eigen::MatrixXd(product.selfadjointView<Eigen::Lower>()) *
+         scale.asDiagonal();
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/types.hpp"
+
+namespace gyrostat {
+
+/// The spread over trials of one metric. `percentile_95` and `worst` are of the absolute value.
+struct Summary {
+  std::size_t count = 0;    ///< trials that have a value
+  std::size_t missing = 0;  ///< trials that have none (NaN)
+  double mean = no_value;
+  double half_width_95 = no_value;  ///< of the 95 % confidence interval of the mean (Student's t)
+  double std = no_value;
+  double median = no_value;
+  double percentile_95 = no_value;
+  double worst = no_value;
+};
+
+/// Statistics of `values`; NaN entries are counted as missing. Order does not change the result
+/// beyond the order of summation.
+Summary summarise(std::span<const double> values);
+
+/// Two-sided critical value of Student's t with `degrees_of_freedom` >= 1.
+double student_t_quantile(double confidence, double degrees_of_freedom);
+
+}  // namespace gyrostat

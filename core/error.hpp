@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace gyrostat {
+
+/// What the user handed in cannot be used: one line that names the place, the value and what would do.
+class InputError : public std::runtime_error {
+ public:
+  InputError(std::string_view place, std::string_view problem)
+      : std::runtime_error(std::string(place) + ": " + std::string(problem)) {}
+};
+
+/// The candidate with the smallest edit distance to `name`; empty when there are no candidates.
+std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
+
+/// "unknown <kind> 'name'; did you mean 'nearest'?"
+std::string unknown_name(std::string_view kind, std::string_view name,
+                         std::span<const std::string> candidates);
+
+}  // namespace gyrostat

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "core/models/model_l.hpp"
+#include "core/numerics/scalar_update.hpp"
+#include "core/step.hpp"
+
+namespace gyrostat::filters {
+
+/// Kalman filter on the exact state-space form of ARIMA(1,1,1) + white noise, which carries a_k
+/// and so keeps the moving-average correlation. With the true parameters it is the minimum-variance
+/// estimator of x, and its innovations are the likelihood of the data.
+template <class T>
+class KfMa {
+ public:
+  using Scalar = T;
+  using Parameters = RandomErrorParameters<T>;
+  static constexpr std::string_view title = "Kalman filter that carries a_k (MA-exact)";
+  static constexpr Needs needs{};
+
+  explicit KfMa(const Parameters& p) : model_(p), state_(ModelExact<T>::initial(p)) {}
+
+  void predict() {
+    propagate(state_, model_.F);
+    state_.covariance += model_.Q;
+  }
+
+  /// z in dps, or NaN for a missing sample.
+  Step<T> update(const T& z) { return update_first(state_, model_.R, z); }
+
+  Step<T> step(const Sample<T>& sample) {
+    predict();
+    return update(sample.gyro_dps);
+  }
+
+  const Gaussian<T, 3>& state() const { return state_; }
+
+ private:
+  ModelExact<T> model_;
+  Gaussian<T, 3> state_;
+};
+
+}  // namespace gyrostat::filters

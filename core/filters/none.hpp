@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/models/no_parameters.hpp"
+#include "core/step.hpp"
+
+namespace gyrostat::filters {
+
+/// The uncompensated gyro, the bound from above: an estimate of zero at every sample.
+template <class T>
+class None {
+ public:
+  using Scalar = T;
+  using Parameters = NoParameters<T>;
+  static constexpr std::string_view title = "no compensation";
+  static constexpr Needs needs{};
+
+  explicit None(const Parameters& /*none*/) {}
+
+  Step<T> step(const Sample<T>& /*sample*/) { return {}; }
+};
+
+}  // namespace gyrostat::filters

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "core/models/fading.hpp"
+#include "core/models/model_l.hpp"
+#include "core/numerics/scalar_update.hpp"
+#include "core/step.hpp"
+
+namespace gyrostat::filters {
+
+template <class T>
+struct StfParameters : RandomErrorParameters<T>, FadingParameters<T> {
+  static constexpr auto fields() {
+    return join_fields<StfParameters, T>(RandomErrorParameters<T>::fields(),
+                                         FadingParameters<T>::fields());
+  }
+};
+
+/// Strong tracking Kalman filter on model L, method 1 of [A]: P- = factor F P F^T + Q, with the
+/// factor of Zhou and Frank (1996). With factor 1 it is Kf, bit for bit.
+template <class T>
+class Stf {
+ public:
+  using Scalar = T;
+  using Parameters = StfParameters<T>;
+  static constexpr std::string_view title = "strong tracking Kalman filter on model L";
+  static constexpr Needs needs{};
+
+  explicit Stf(const Parameters& p) : model_(p), fading_(p), state_(ModelL<T>::initial(p)) {}
+
+  /// The process noise follows in `update`, since the fading factor waits for the innovation.
+  void predict() { propagate(state_, model_.F); }
+
+  /// z in dps, or NaN for a missing sample, which fades nothing.
+  Step<T> update(const T& z) {
+    T factor(1.0);
+    if (!is_missing(z)) {
+      const T innovation = z - state_.mean(0);
+      factor = fading_.next(innovation * innovation, model_.Q(0, 0), model_.R,
+                            state_.covariance(0, 0));
+    }
+    state_.covariance = factor * state_.covariance + model_.Q;
+    return update_first(state_, model_.R, z);
+  }
+
+  Step<T> step(const Sample<T>& sample) {
+    predict();
+    return update(sample.gyro_dps);
+  }
+
+  const Gaussian<T, 2>& state() const { return state_; }
+
+ private:
+  ModelL<T> model_;
+  FadingFactor<T> fading_;
+  Gaussian<T, 2> state_;
+};
+
+}  // namespace gyrostat::filters

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "core/models/arima111.hpp"
+#include "core/numerics/kalman.hpp"
+
+namespace gyrostat {
+
+/// Model L of [A]: X = [x_k, x_{k-1}], F = [[1 + phi, -phi], [1, 0]], G = [[delta1, -delta2], [0, 0]]
+/// and W = [a_k, a_{k-1}] taken as fresh noise at each step, z = x + v.
+template <class T>
+struct ModelL {
+  Matrix<T, 2> F;
+  Matrix<T, 2> Q;
+  T R;
+
+  explicit ModelL(const Arima111<T>& arima)
+      : R(arima.measurement_noise_std_dps * arima.measurement_noise_std_dps) {
+    F << T(1.0) + arima.phi, -arima.phi, T(1.0), T(0.0);
+    Q.setZero();
+    Q(0, 0) = arima.delta1_dps * arima.delta1_dps + arima.delta2_dps * arima.delta2_dps;
+  }
+
+  static Gaussian<T, 2> initial(const InitialRandomError<T>& prior) {
+    Gaussian<T, 2> state{{prior.initial_x_dps, prior.initial_x_previous_dps},
+                         Matrix<T, 2>::Zero()};
+    state.covariance(0, 0) = prior.initial_x_std_dps * prior.initial_x_std_dps;
+    state.covariance(1, 1) = prior.initial_x_previous_std_dps * prior.initial_x_previous_std_dps;
+    return state;
+  }
+};
+
+/// The model without the approximation: X = [x_k, x_{k-1}, a_k] carries a_k, so that a_{k-1} of the
+/// next step is the one that was drawn. F = [[1 + phi, -phi, -delta2], [1, 0, 0], [0, 0, 0]],
+/// driven by [delta1, 0, 1] a_k.
+template <class T>
+struct ModelExact {
+  Matrix<T, 3> F;
+  Matrix<T, 3> Q;
+  T R;
+
+  explicit ModelExact(const Arima111<T>& arima)
+      : R(arima.measurement_noise_std_dps * arima.measurement_noise_std_dps) {
+    F << T(1.0) + arima.phi, -arima.phi, -arima.delta2_dps,  //
+        T(1.0), T(0.0), T(0.0),                              //
+        T(0.0), T(0.0), T(0.0);
+    const Vector<T, 3> drive(arima.delta1_dps, T(0.0), T(1.0));
+    Q = drive * drive.transpose();
+  }
+
+  static Gaussian<T, 3> initial(const InitialRandomError<T>& prior) {
+    const auto pair = ModelL<T>::initial(prior);
+    Gaussian<T, 3> state{{pair.mean(0), pair.mean(1), T(0.0)}, Matrix<T, 3>::Zero()};
+    state.covariance.template topLeftCorner<2, 2>() = pair.covariance;
+    state.covariance(2, 2) = T(1.0);
+    return state;
+  }
+};
+
+}  // namespace gyrostat

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/fields.hpp"
+
+namespace gyrostat {
+
+template <class T>
+struct NoParameters {
+  static constexpr auto fields() { return std::array<Field<NoParameters, T>, 0>{}; }
+};
+
+}  // namespace gyrostat

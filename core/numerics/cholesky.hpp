@@ -1,0 +1,96 @@
+#pragma once
+
+#include "core/types.hpp"
+
+namespace gyrostat {
+
+/// Lower triangular L (N x N) with L L^T = A A^T, by Householder reflections of A's rows
+/// (N x M, M >= N): the QR decomposition of A^T without its Q.
+template <class T, int N, int M>
+Matrix<T, N> lower_root(Matrix<T, N, M> a) {
+  using std::sqrt;
+  for (int k = 0; k < N; ++k) {
+    T tail(0.0);
+    for (int j = k + 1; j < M; ++j) tail += a(k, j) * a(k, j);
+    if (tail == T(0.0)) continue;
+    const T norm = sqrt(tail + a(k, k) * a(k, k));
+    const T head = a(k, k) > T(0.0) ? a(k, k) + norm : a(k, k) - norm;
+    const T scale = T(2.0) / (tail + head * head);
+    for (int i = k + 1; i < N; ++i) {
+      T dot = a(i, k) * head;
+      for (int j = k + 1; j < M; ++j) dot += a(i, j) * a(k, j);
+      dot *= scale;
+      a(i, k) -= dot * head;
+      for (int j = k + 1; j < M; ++j) a(i, j) -= dot * a(k, j);
+    }
+    a(k, k) = a(k, k) > T(0.0) ? -norm : norm;
+  }
+  Matrix<T, N> root = Matrix<T, N>::Zero();
+  for (int j = 0; j < N; ++j)
+    for (int i = j; i < N; ++i) root(i, j) = a(i, j);
+  return root;
+}
+
+/// Root of L L^T + v v^T by Givens rotations; L may be singular.
+template <class T, int N>
+void update_root(Matrix<T, N>& root, Vector<T, N> v) {
+  using std::sqrt;
+  for (int k = 0; k < N; ++k) {
+    if (v(k) == T(0.0)) continue;
+    const T diagonal = sqrt(root(k, k) * root(k, k) + v(k) * v(k));
+    const T c = root(k, k) / diagonal;
+    const T s = v(k) / diagonal;
+    root(k, k) = diagonal;
+    for (int i = k + 1; i < N; ++i) {
+      const T below = root(i, k);
+      root(i, k) = c * below + s * v(i);
+      v(i) = c * v(i) - s * below;
+    }
+  }
+}
+
+/// Root of L L^T - v v^T by hyperbolic rotations. False, with `root` untouched, where the
+/// difference is not positive definite (in v's directions, where L is singular).
+template <class T, int N>
+[[nodiscard]] bool downdate_root(Matrix<T, N>& root, Vector<T, N> v) {
+  using std::sqrt;
+  Matrix<T, N> down = root;
+  for (int k = 0; k < N; ++k) {
+    if (v(k) == T(0.0)) continue;
+    const T squared = (down(k, k) - v(k)) * (down(k, k) + v(k));
+    if (!(squared > T(0.0))) return false;
+    const T diagonal = sqrt(squared);
+    const T c = diagonal / down(k, k);
+    const T s = v(k) / down(k, k);
+    down(k, k) = diagonal;
+    for (int i = k + 1; i < N; ++i) {
+      down(i, k) = (down(i, k) - s * v(i)) / c;
+      v(i) = c * v(i) - s * down(i, k);
+    }
+  }
+  root = down;
+  return true;
+}
+
+/// Root of (P^-1 - 2 diag(mu))^-1 for P = L L^T, mu >= 0: the risk-sensitive update [A eq. 15].
+///
+/// One element at a time, by the Sherman-Morrison formula: with p = P e_i,
+/// (P^-1 - 2 mu_i e_i e_i^T)^-1 = P + p p^T 2 mu_i / (1 - 2 mu_i P_ii). The paper inverts the root,
+/// downdates and inverts back; this form is the same matrix, needs no inverse, and stands for a
+/// singular P. False, with `root` untouched, where P^-1 - 2 mu is not positive definite.
+template <class T, int N>
+[[nodiscard]] bool inflate_root(Matrix<T, N>& root, const Vector<T, N>& mu) {
+  using std::sqrt;
+  Matrix<T, N> inflated = root;
+  for (int i = 0; i < N; ++i) {
+    if (mu(i) == T(0.0)) continue;
+    const Vector<T, N> p = inflated * inflated.row(i).transpose();
+    const T remaining = T(1.0) - T(2.0) * mu(i) * p(i);
+    if (!(remaining > T(0.0))) return false;
+    update_root<T, N>(inflated, p * sqrt(T(2.0) * mu(i) / remaining));
+  }
+  root = inflated;
+  return true;
+}
+
+}  // namespace gyrostat

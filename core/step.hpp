@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <string_view>
+
+#include "core/types.hpp"
+
+namespace gyrostat {
+
+/// How one step of a filter went. Everything after `no_measurement` is a numerical breakdown: the
+/// filter kept its last sound state and goes on, and the step is counted.
+enum class Status {
+  ok,
+  no_measurement,         ///< nothing to update with at this sample
+  risk_breakdown,         ///< P^-1 - 2 mu is not positive definite: the risk update was left out
+  indefinite_covariance,  ///< a root of the covariance does not exist: the step was left out
+  not_finite,             ///< the step would have produced NaN or infinity: it was left out
+};
+
+inline constexpr std::array<std::string_view, 5> status_names = {
+    "ok", "no_measurement", "risk_breakdown", "indefinite_covariance", "not_finite"};
+
+inline constexpr std::string_view name_of(Status status) {
+  return status_names[static_cast<std::size_t>(status)];
+}
+
+inline constexpr bool is_breakdown(Status status) { return status > Status::no_measurement; }
+
+/// What a filter is given at one sample. `true_rate_dps` and `true_drift_dps` exist in simulation
+/// only and are for the oracle.
+template <class T>
+struct Sample {
+  T t_s{no_value};
+  T gyro_dps{no_value};
+  T temperature_C{no_value};
+  T heading_deg{no_value};  ///< no value where the compass may not be used
+  T true_rate_dps{no_value};
+  T true_drift_dps{no_value};
+};
+
+/// What a filter answers at one sample. The estimate is of the gyro's error, in dps: the
+/// compensated rate is gyro - estimate. No innovation (NaN) where there was no update.
+template <class T>
+struct Step {
+  T estimate_dps{0.0};
+  T estimate_variance{no_value};
+  T innovation_dps{no_value};
+  T innovation_variance{no_value};
+  Status status = Status::ok;
+};
+
+template <class T>
+bool is_missing(const T& value) {
+  using std::isnan;
+  return isnan(value);
+}
+
+/// The channels that a filter cannot do without.
+struct Needs {
+  bool temperature = false;
+  bool heading = false;
+  bool truth = false;
+};
+
+/// A compensation filter: a small copyable value that turns samples into steps.
+template <class F>
+concept Filter = std::copyable<F> && requires(F filter, Sample<typename F::Scalar> sample) {
+  typename F::Parameters;
+  { F::needs } -> std::convertible_to<Needs>;
+  { F::title } -> std::convertible_to<std::string_view>;
+  { filter.step(sample) } -> std::same_as<Step<typename F::Scalar>>;
+};
+
+}  // namespace gyrostat

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gyrostat {
+
+/// What stands in one place of a table; monostate where there is nothing to say.
+using TableCell = std::variant<std::monostate, std::string, double, std::int64_t>;
+
+struct TableColumn {
+  std::string name;
+  std::string unit;  ///< empty for text and plain counts
+};
+
+/// A result: a title, columns with units, rows, and notes to be read with them.
+struct Table {
+  std::string title;
+  std::vector<TableColumn> columns;
+  std::vector<std::vector<TableCell>> rows;
+  std::vector<std::string> notes;
+};
+
+/// A number, or an empty cell for NaN.
+inline TableCell cell(double value) { return value == value ? TableCell(value) : TableCell(); }
+
+}  // namespace gyrostat

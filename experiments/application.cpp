@@ -1,0 +1,165 @@
+#include "experiments/application.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/errors.hpp"
+#include "analysis/spectra/allan.hpp"
+#include "core/filters/list.hpp"
+#include "experiments/recording.hpp"
+
+namespace gyrostat {
+namespace {
+
+Track from_sample(const Track& track, std::size_t first) {
+  const auto tail = [&](const auto& column) {
+    return std::remove_cvref_t<decltype(column)>(
+        column.begin() + static_cast<std::ptrdiff_t>(first), column.end());
+  };
+  return {tail(track.estimate_dps), tail(track.estimate_variance), tail(track.innovation_dps),
+          tail(track.innovation_variance), tail(track.status)};
+}
+
+/// The rate error with missing samples held at the last value, since an Allan deviation needs a
+/// value at every sample.
+std::vector<double> bridged_rate_error(const Series& series, const Track& track) {
+  std::vector<double> error(series.size());
+  double last = 0.0;
+  for (std::size_t i = 0; i < error.size(); ++i) {
+    const double e = rate_error_dps(series, track, i);
+    if (!std::isnan(e)) last = e;
+    error[i] = last;
+  }
+  return error;
+}
+
+/// Clusters of one sample and of whole decades of seconds, as long as the deviation is defined.
+std::vector<std::size_t> decade_clusters(const Series& series) {
+  std::vector<std::size_t> clusters = {1};
+  for (double tau_s = 0.01; tau_s <= series.duration_s() / 5.0; tau_s *= 10.0) {
+    const auto cluster = static_cast<std::size_t>(std::llround(tau_s * series.rate_hz()));
+    if (cluster > clusters.back()) clusters.push_back(cluster);
+  }
+  return clusters;
+}
+
+Table statistics_table(const Series& judged, const std::vector<Track>& tracks,
+                       const std::vector<Method>& methods, const std::string& title) {
+  Table table{.title = title + ": raw (none) against compensated rate",
+              .columns = {{"method", ""}, {"mean", "dps"}, {"std", "dps"}, {"RMSE", "dps"},
+                          {"heading end", "deg"}, {"heading range", "deg"}, {"NIS", "1"},
+                          {"breakdown steps", ""}},
+              .rows = {}, .notes = {}};
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    const TrackErrors errors = track_errors(judged, tracks[m]);
+    const auto counts = tracks[m].status_counts();
+    std::int64_t breakdowns = 0;
+    for (std::size_t s = 0; s < counts.size(); ++s)
+      if (is_breakdown(static_cast<Status>(s))) breakdowns += counts[s];
+    table.rows.push_back({methods[m].id, cell(errors.rate.mean), cell(errors.rate.std),
+                          cell(errors.rate.rmse), errors.heading.end_deg,
+                          errors.heading.max_deg - errors.heading.min_deg, cell(errors.nis.mean),
+                          breakdowns});
+  }
+  table.notes.push_back(judged.rate_ref_dps.empty()
+                            ? "no rate_ref_dps: the gyro counts as static, so all rate is error"
+                            : "rate error against rate_ref_dps");
+  table.notes.push_back("a small std alone proves little: a gain near one removes motion as well");
+  return table;
+}
+
+Table allan_table(const Series& judged, const std::vector<Track>& tracks,
+                  const std::vector<Method>& methods, const std::string& title) {
+  Table table{.title = title + ": overlapping Allan deviation, raw (none) against compensated",
+              .columns = {{"method", ""}}, .rows = {}, .notes = {}};
+  const auto clusters = decade_clusters(judged);
+  for (const std::size_t cluster : clusters)
+    table.columns.push_back(
+        {fmt::format("tau {:.4g} s", static_cast<double>(cluster) / judged.rate_hz()), "dps"});
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    auto& row = table.rows.emplace_back();
+    row.emplace_back(methods[m].id);
+    const auto error = bridged_rate_error(judged, tracks[m]);
+    for (const auto& point : overlapping_allan_deviation(error, judged.rate_hz(), clusters))
+      row.emplace_back(point.deviation);
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<Method> read_application_config(const std::string& path) {
+  const Json json = read_json(path);
+  JsonObject object(json, path + ":");
+  auto methods = read_methods(object, "filters", ParameterSource::defaults);
+  object.finish();
+  if (methods.empty()) throw InputError(path, "\"filters\" is missing or empty");
+  return methods;
+}
+
+Application calibrated(const Series& series, double fraction, FitMethod method) {
+  const auto samples =
+      static_cast<std::size_t>(fraction * static_cast<double>(series.size()));
+  Application application;
+  application.calibration = calibrate(series.slice(0, samples), method);
+  application.judged_from_s = series.t_s[samples] - series.t_s.front();
+  return application;
+}
+
+void apply_methods(const std::vector<Method>& methods, const Series& series, std::ostream& log,
+                   Application& application) {
+  ParameterMap parameters;
+  if (application.calibration) {
+    const double start_C = series.temperature_C.empty() ? no_value : series.temperature_C.front();
+    parameters = parameters_from(*application.calibration, start_C);
+  }
+  for (const auto& method : methods)
+    Filters::with(method.id, "filter", method.filter, [&](auto plugin) {
+      using F = typename decltype(plugin)::type;
+      const auto missing = missing_channels(F::needs, series);
+      if (!missing.empty()) {
+        log << fmt::format("{} left out: the recording has no {}\n", method.id,
+                           fmt::join(missing, ", "));
+        return;
+      }
+      typename F::Parameters p;
+      set_parameters(p, parameters);
+      set_parameters(p, method.overrides);
+      application.methods.push_back(method);
+      run_filter(F(p), series, application.tracks.emplace_back());
+    });
+}
+
+std::vector<Table> application_tables(const Series& series, const Application& application,
+                                      const std::string& name) {
+  const Series judged = cut(series, application.judged_from_s, 1e18, name);
+  std::vector<Track> tracks;
+  for (const auto& track : application.tracks)
+    tracks.push_back(from_sample(track, series.size() - judged.size()));
+  const auto title = fmt::format("{} from {:.4g} s", name, application.judged_from_s);
+  return {statistics_table(judged, tracks, application.methods, title),
+          allan_table(judged, tracks, application.methods, title)};
+}
+
+void write_application(const std::filesystem::path& path, const Series& series,
+                       const Application& application) {
+  std::vector<std::vector<std::string_view>> statuses;
+  for (const auto& track : application.tracks) {
+    auto& names = statuses.emplace_back();
+    for (const Status status : track.status) names.push_back(name_of(status));
+  }
+  std::vector<CsvColumn> columns = {{"t_s", series.t_s, {}}, {"raw_dps", series.gyro_dps, {}}};
+  for (std::size_t m = 0; m < application.methods.size(); ++m) {
+    const auto& id = application.methods[m].id;
+    const auto& track = application.tracks[m];
+    columns.push_back({id + "_estimate_dps", track.estimate_dps, {}});
+    columns.push_back({id + "_innovation_dps", track.innovation_dps, {}});
+    columns.push_back({id + "_innovation_variance", track.innovation_variance, {}});
+    columns.push_back({id + "_status", {}, statuses[m]});
+  }
+  write_csv(path, columns);
+}
+
+}  // namespace gyrostat

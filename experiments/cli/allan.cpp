@@ -1,0 +1,37 @@
+#include "analysis/spectra/allan.hpp"
+
+#include "experiments/cli/options.hpp"
+#include "experiments/cli/verbs.hpp"
+
+namespace gyrostat::cli {
+namespace {
+
+struct AllanArguments {
+  RecordingOption recording;
+  FormatOption format;
+};
+
+int run(const AllanArguments& arguments, Console& console) {
+  const auto format = arguments.format.get();
+  const Series series = arguments.recording.read(console.log);
+  Table table{.title = arguments.recording.file + ": overlapping Allan deviation",
+              .columns = {{"tau", "s"}, {"deviation", "dps"}, {"lower 95 %", "dps"},
+                          {"upper 95 %", "dps"}, {"degrees of freedom", "1"}},
+              .rows = {}, .notes = {}};
+  for (const auto& point : overlapping_allan_deviation(series.gyro_dps, series.rate_hz()))
+    table.rows.push_back({point.tau_s, point.deviation, point.lower, point.upper, point.edf});
+  console.out << render(std::span(&table, 1), format);
+  return complete;
+}
+
+}  // namespace
+
+void add_allan(CLI::App& program, Console& console, int& exit_code) {
+  auto* verb = program.add_subcommand("allan", "overlapping Allan deviation of a recording");
+  auto arguments = std::make_shared<AllanArguments>();
+  arguments->recording.add_to(verb);
+  arguments->format.add_to(verb);
+  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+}
+
+}  // namespace gyrostat::cli

@@ -1,0 +1,65 @@
+#include <cmath>
+#include <memory>
+
+#include "core/filters/list.hpp"
+#include "experiments/application.hpp"
+#include "experiments/cli/options.hpp"
+#include "experiments/cli/verbs.hpp"
+
+namespace gyrostat::cli {
+namespace {
+
+struct ApplyArguments {
+  RecordingOption recording;
+  FormatOption format;
+  std::string config;
+  std::string out;
+  std::string fit = "likelihood";
+  double calibration_fraction = 0.25;
+};
+
+int run(const ApplyArguments& arguments, Console& console) {
+  const auto format = arguments.format.get();
+  const auto fit = fit_method_named(arguments.fit, "--fit");
+  std::vector<Method> methods = all_methods();
+  ParameterSource source = ParameterSource::calibration;
+  if (!arguments.config.empty()) {
+    source = ParameterSource::defaults;
+    methods = read_application_config(arguments.config);
+  }
+  const Series series = arguments.recording.read(console.log);
+
+  Application application;
+  if (source == ParameterSource::calibration) {
+    application = calibrated(series, arguments.calibration_fraction, fit);
+    console.log << fmt::format("parameters from the first {:.4g} s; judged on the rest\n",
+                               application.judged_from_s);
+  }
+  apply_methods(methods, series, console.log, application);
+  const auto tables = application_tables(series, application, arguments.recording.file);
+  if (!arguments.out.empty()) write_application(arguments.out, series, application);
+  console.out << render(tables, format);
+  if (!arguments.out.empty()) console.log << "compensated series: " << arguments.out << '\n';
+  return complete;
+}
+
+}  // namespace
+
+void add_apply(CLI::App& program, Console& console, int& exit_code) {
+  auto* verb = program.add_subcommand(
+      "apply", "run every applicable method over a recording: raw against compensated");
+  auto arguments = std::make_shared<ApplyArguments>();
+  arguments->recording.add_to(verb);
+  verb->add_option("--config", arguments->config,
+                   "JSON {\"filters\": [{\"id\", \"filter\", \"parameters\"}]} instead of a fit");
+  verb->add_option("--out", arguments->out, "CSV or CSV.gz for the series of every method");
+  verb->add_option("--fit", arguments->fit, "likelihood or moments")->capture_default_str();
+  verb->add_option("--calibration", arguments->calibration_fraction,
+                   "part of the recording that the fit may see, from its start")
+      ->check(CLI::Range(0.01, 0.99))
+      ->capture_default_str();
+  arguments->format.add_to(verb);
+  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+}
+
+}  // namespace gyrostat::cli

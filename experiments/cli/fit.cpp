@@ -1,0 +1,70 @@
+#include <cmath>
+
+#include "experiments/calibration.hpp"
+#include "experiments/cli/options.hpp"
+#include "experiments/cli/verbs.hpp"
+
+namespace gyrostat::cli {
+namespace {
+
+struct FitArguments {
+  RecordingOption recording;
+  FormatOption format;
+  std::vector<std::string> methods = {"likelihood", "moments"};
+  double from_s = 0.0;
+  double to_s = 1e12;
+};
+
+template <class P>
+void add_rows(Table& table, const std::string& method, const P& fitted, const P& errors) {
+  for (const auto& field : P::fields())
+    table.rows.push_back({method, std::string(field.name), std::string(field.unit),
+                          fitted.*(field.member), errors.*(field.member),
+                          std::string(field.doc)});
+}
+
+int run(const FitArguments& arguments, Console& console) {
+  const auto format = arguments.format.get();
+  std::vector<FitMethod> methods;
+  for (const auto& name : arguments.methods) methods.push_back(fit_method_named(name, "--method"));
+  const Series series =
+      cut(arguments.recording.read(console.log), arguments.from_s, arguments.to_s, "--from, --to");
+
+  Table table{.title = fmt::format("{}{}: {} samples, {:.6g} s at {:.6g} Hz", arguments.recording.file,
+                                   arguments.recording.axis.empty() ? "" : " axis " + arguments.recording.axis,
+                                   series.size(), series.duration_s(), series.rate_hz()),
+              .columns = {{"fit", ""}, {"parameter", ""}, {"unit", ""}, {"value", ""},
+                          {"standard error", ""}, {"meaning", ""}},
+              .rows = {}, .notes = {}};
+  bool converged = true;
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    const auto fit = calibrate(series, methods[m]);
+    add_rows(table, arguments.methods[m], fit.random_error.parameters,
+             fit.random_error.standard_errors);
+    table.notes.push_back(arguments.methods[m] + ": " + fit.random_error.message);
+    converged = converged && fit.random_error.converged;
+    if (!fit.thermal || m > 0) continue;
+    add_rows(table, "least squares", fit.thermal->parameters, fit.thermal->standard_errors);
+    table.notes.push_back(fmt::format("thermal drift: {}, {} points over {:.3g} °C",
+                                      fit.thermal->message, fit.thermal->points,
+                                      fit.thermal->temperature_span_C));
+  }
+  console.out << render(std::span(&table, 1), format);
+  return converged ? complete : error;
+}
+
+}  // namespace
+
+void add_fit(CLI::App& program, Console& console, int& exit_code) {
+  auto* verb = program.add_subcommand(
+      "fit", "fit phi, delta1, delta2, R (and a, b, c) to a recording, with standard errors");
+  auto arguments = std::make_shared<FitArguments>();
+  arguments->recording.add_to(verb);
+  verb->add_option("--method", arguments->methods, "likelihood, moments or both")->delimiter(',');
+  verb->add_option("--from", arguments->from_s, "start of the span, s from the first sample");
+  verb->add_option("--to", arguments->to_s, "end of the span, s from the first sample");
+  arguments->format.add_to(verb);
+  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+}
+
+}  // namespace gyrostat::cli

@@ -1,0 +1,53 @@
+#include "experiments/cli/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <condition_variable>
+#include <mutex>
+
+namespace gyrostat::cli {
+
+Progress::Progress(std::ostream& out, bool is_terminal, std::string name, std::size_t total)
+    : out_(out),
+      is_terminal_(is_terminal),
+      name_(std::move(name)),
+      total_(total),
+      thread_([this](const std::stop_token& stop) { watch(stop); }) {}
+
+Progress::~Progress() {
+  thread_.request_stop();
+  thread_.join();
+  if (is_terminal_) out_ << '\n' << std::flush;
+}
+
+void Progress::watch(const std::stop_token& stop) {
+  std::mutex mutex;
+  std::condition_variable_any wake;
+  std::unique_lock lock(mutex);
+  while (!stop.stop_requested()) {
+    draw(finished_.load(std::memory_order_relaxed));
+    wake.wait_for(lock, stop, std::chrono::milliseconds(200), [] { return false; });
+  }
+  draw(finished_.load(std::memory_order_relaxed));
+}
+
+void Progress::draw(std::size_t finished) {
+  const double elapsed =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double rate = elapsed > 0.0 ? static_cast<double>(finished) / elapsed : 0.0;
+  const double left = rate > 0.0 ? static_cast<double>(total_ - finished) / rate : 0.0;
+  const auto counts = fmt::format("{}/{} trials, {:.0f} trials/s, {:.0f} s left", finished, total_,
+                                  rate, left);
+  if (is_terminal_) {
+    const std::size_t filled = 30 * finished / total_;
+    out_ << fmt::format("\r{} [{:#<{}}{:.<{}}] {}\x1b[K", name_, "", filled, "", 30 - filled, counts)
+         << std::flush;
+    return;
+  }
+  const std::size_t tenths = 10 * finished / total_;
+  if (tenths == tenths_) return;
+  tenths_ = tenths;
+  out_ << name_ << ": " << counts << '\n' << std::flush;
+}
+
+}  // namespace gyrostat::cli

@@ -1,0 +1,48 @@
+#include "experiments/cli/options.hpp"
+#include "experiments/cli/verbs.hpp"
+#include "experiments/study.hpp"
+
+namespace gyrostat::cli {
+namespace {
+
+struct SimulateArguments {
+  std::string study;
+  std::string cell;
+  std::string out;
+  std::uint32_t trial = 0;
+};
+
+const Cell& cell_named(const Study& study, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& cell : study.cells) {
+    if (name.empty() || cell.name == name) return cell;
+    names.push_back(cell.name);
+  }
+  throw InputError("--cell", unknown_name("cell", name, names));
+}
+
+int run(const SimulateArguments& arguments, Console& console) {
+  const Study study = read_study(arguments.study);
+  const Cell& cell = cell_named(study, arguments.cell);
+  Series series;
+  synthesise(cell.scenario, {study.seed, arguments.trial}, series);
+  write_series(arguments.out, series);
+  console.log << fmt::format("{}: trial {} of {}, {} samples\n", arguments.out, arguments.trial,
+                             cell.name, series.size());
+  return complete;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program, Console& console, int& exit_code) {
+  auto* verb = program.add_subcommand(
+      "simulate", "write the signal of one trial, with its truth, as a recording");
+  auto arguments = std::make_shared<SimulateArguments>();
+  verb->add_option("study", arguments->study, "study file (JSON)")->required();
+  verb->add_option("--cell", arguments->cell, "cell of the study (default: the first)");
+  verb->add_option("--trial", arguments->trial, "trial number, from 0")->capture_default_str();
+  verb->add_option("--out", arguments->out, "CSV or CSV.gz to write")->required();
+  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+}
+
+}  // namespace gyrostat::cli

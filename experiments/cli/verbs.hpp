@@ -1,0 +1,29 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <atomic>
+#include <ostream>
+
+namespace gyrostat::cli {
+
+/// What a verb may touch of the outside world.
+struct Console {
+  std::ostream& out;               ///< results
+  std::ostream& log;               ///< progress and warnings
+  bool log_is_terminal = false;
+  const std::atomic<bool>& stop;   ///< set by Ctrl-C
+};
+
+enum ExitCode { complete = 0, error = 1, usage = 2, stopped = 4 };
+
+/// Each adds its verb to the program. A verb that was called leaves its exit code in `exit_code`.
+void add_run(CLI::App& program, Console& console, int& exit_code);
+void add_fit(CLI::App& program, Console& console, int& exit_code);
+void add_apply(CLI::App& program, Console& console, int& exit_code);
+void add_simulate(CLI::App& program, Console& console, int& exit_code);
+void add_allan(CLI::App& program, Console& console, int& exit_code);
+void add_list(CLI::App& program, Console& console, int& exit_code);
+void add_validate(CLI::App& program, Console& console, int& exit_code);
+
+}  // namespace gyrostat::cli

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "core/table.hpp"
+#include "experiments/runner.hpp"
+
+namespace gyrostat {
+
+/// The fitted calibration of a cell, with standard errors.
+Table calibration_table(const Cell& cell, const CellResult& result);
+
+/// Error statistics of a cell, one row a method: rate and bias RMSE, heading error, consistency.
+/// Failures stand beside every mean; failed trials stay in it. Nothing in them depends on timing.
+std::vector<Table> error_tables(const Cell& cell, const CellResult& result);
+
+/// Nanoseconds per step of each method: measured, so different in every run.
+Table timing_table(const Cell& cell, const CellResult& result);
+
+}  // namespace gyrostat

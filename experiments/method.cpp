@@ -1,0 +1,87 @@
+#include "experiments/method.hpp"
+
+#include <array>
+#include <utility>
+
+#include "core/filters/list.hpp"
+
+namespace gyrostat {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, ParameterSource>, 3> sources = {{
+    {"defaults", ParameterSource::defaults},
+    {"calibration", ParameterSource::calibration},
+    {"truth", ParameterSource::truth},
+}};
+
+ParameterSource source_named(const std::string& name, const std::string& place) {
+  std::vector<std::string> names;
+  for (const auto& [known, source] : sources) {
+    if (known == name) return source;
+    names.emplace_back(known);
+  }
+  throw InputError(place, unknown_name("source of parameters", name, names));
+}
+
+ParameterSource source_of(const std::string& filter, ParameterSource fallback) {
+  return filter == "oracle" ? ParameterSource::truth : fallback;
+}
+
+ParameterMap read_overrides(JsonObject object, const std::string& filter) {
+  ParameterMap given;
+  Filters::with(object.place(), "filter", filter, [&](auto plugin) {
+    using Parameters = typename decltype(plugin)::type::Parameters;
+    Parameters p;
+    object.fields(p);
+    for (const auto& [name, value] : parameter_values(p))
+      if (object.has(name)) given[name] = value;
+  });
+  object.finish();
+  return given;
+}
+
+Method read_method(const Json& value, const std::string& place, ParameterSource fallback) {
+  Method method;
+  if (value.is_string()) {
+    method.filter = method.id = value.get<std::string>();
+    method.source = source_of(method.filter, fallback);
+    Filters::with(place, "filter", method.filter, [](auto) {});
+    return method;
+  }
+  JsonObject object(value, place);
+  method.filter = object.text("filter", object.text("id", ""));
+  if (method.filter.empty()) throw InputError(place, "\"filter\" is missing");
+  Filters::with(object.place_of("filter"), "filter", method.filter, [](auto) {});
+  method.id = object.text("id", method.filter);
+  method.source = source_of(method.filter, fallback);
+  if (object.has("parameters_from"))
+    method.source =
+        source_named(object.text("parameters_from", ""), object.place_of("parameters_from"));
+  if (auto parameters = object.child("parameters"))
+    method.overrides = read_overrides(*parameters, method.filter);
+  object.finish();
+  return method;
+}
+
+}  // namespace
+
+std::vector<Method> read_methods(JsonObject& object, const std::string& key,
+                                 ParameterSource default_source) {
+  std::vector<Method> methods;
+  for (const auto& [value, place] : object.list(key)) {
+    methods.push_back(read_method(*value, place, default_source));
+    for (std::size_t i = 0; i + 1 < methods.size(); ++i)
+      if (methods[i].id == methods.back().id)
+        throw InputError(place, "the id '" + methods.back().id + "' stands twice; give one an \"id\"");
+  }
+  return methods;
+}
+
+std::vector<Method> all_methods() {
+  std::vector<Method> methods;
+  for (const auto& id : Filters::ids())
+    methods.push_back({id, id, source_of(id, ParameterSource::calibration), {}});
+  return methods;
+}
+
+}  // namespace gyrostat

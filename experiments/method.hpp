@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/json_object.hpp"
+#include "experiments/parameter_map.hpp"
+
+namespace gyrostat {
+
+/// Where a method's parameters come from, before its own overrides.
+enum class ParameterSource { defaults, calibration, truth };
+
+/// A filter under a name, with the parameters that the user fixed.
+struct Method {
+  std::string id;
+  std::string filter;
+  ParameterSource source = ParameterSource::calibration;
+  ParameterMap overrides;
+};
+
+/// Methods from a list of filter names or objects {"id", "filter", "parameters_from",
+/// "parameters"}. Throws InputError for unknown filters and keys, values out of range, and an id
+/// that stands twice.
+std::vector<Method> read_methods(JsonObject& object, const std::string& key,
+                                 ParameterSource default_source);
+
+/// Every filter under its own name, as a study without a list of filters has them.
+std::vector<Method> all_methods();
+
+}  // namespace gyrostat

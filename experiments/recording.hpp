@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/series.hpp"
+
+namespace gyrostat {
+
+struct Recording {
+  Series series;
+  std::vector<std::string> ignored_columns;  ///< in the file's order, unknown to `channels`
+  std::string axis;                          ///< "x", "y" or "z"; empty for a column `gyro_dps`
+};
+
+/// Reads a recording: CSV or gzip CSV, a header and then one row a sample, in the units of
+/// `channels`. The gyro is `gyro_dps`, or `gyro_x_dps`, `gyro_y_dps`, `gyro_z_dps` chosen by `axis`
+/// ("x", "y", "z"; "" takes `gyro_dps` or the only one there is). A blank cell is NaN, a column of
+/// nothing but blanks is absent. Throws InputError naming file, line, column, value and what is
+/// allowed.
+Recording read_recording(const std::filesystem::path& path, std::string_view axis = "");
+
+/// Throws InputError, naming line and time, when a sampling interval of a series read from `place`
+/// is more than 10 % off the median interval.
+void require_uniform(const Series& series, std::string_view place);
+
+/// A column of a CSV to be written.
+struct CsvColumn {
+  std::string name;
+  std::span<const double> values;           ///< NaN becomes a blank cell
+  std::span<const std::string_view> texts;  ///< used when `values` is empty
+};
+
+/// Writes columns of equal length with 17 significant digits, packed when the name ends in .gz, as
+/// `write_atomically` does. Throws InputError when the file cannot be written.
+void write_csv(const std::filesystem::path& path, std::span<const CsvColumn> columns);
+
+/// Writes every channel that is present, so that `read_recording` returns the same bits.
+void write_series(const std::filesystem::path& path, const Series& series);
+
+}  // namespace gyrostat

@@ -1,0 +1,48 @@
+#include "experiments/runner.hpp"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace gyrostat {
+
+std::size_t CellResult::finished() const {
+  return static_cast<std::size_t>(
+      std::count_if(trials.begin(), trials.end(), [](const auto& t) { return t.has_value(); }));
+}
+
+CellResult run_cell(const Cell& cell, std::uint64_t seed, const RunOptions& options) {
+  std::optional<tbb::global_control> limit;
+  if (options.threads > 0)
+    limit.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
+
+  CellResult result;
+  result.trials.resize(cell.trials);
+  Series buffer;
+  result.calibration = calibrate_cell(cell, seed, 0, buffer);
+
+  tbb::enumerable_thread_specific<Workspace> workspaces;
+  std::atomic<std::size_t> finished{0};
+  tbb::parallel_for(std::uint32_t{0}, cell.trials, [&](std::uint32_t trial) {
+    if (options.stop && options.stop->load(std::memory_order_relaxed)) return;
+    result.trials[trial] = run_trial(cell, result.calibration, seed, trial, workspaces.local());
+    const std::size_t done = ++finished;
+    if (options.progress) options.progress(done);
+  });
+
+  result.nanoseconds_per_step.resize(cell.methods.size());
+  for (std::size_t m = 0; m < cell.methods.size(); ++m) {
+    double seconds = 0.0, steps = 0.0;
+    for (const auto& workspace : workspaces) {
+      if (workspace.steps.empty()) continue;
+      seconds += workspace.seconds[m];
+      steps += workspace.steps[m];
+    }
+    result.nanoseconds_per_step[m] = steps > 0.0 ? 1e9 * seconds / steps : no_value;
+  }
+  return result;
+}
+
+}  // namespace gyrostat

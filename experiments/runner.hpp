@@ -1,0 +1,30 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+
+#include "experiments/trial.hpp"
+
+namespace gyrostat {
+
+/// What came out of a cell. Trials that were not run (after an interrupt) are absent.
+struct CellResult {
+  Calibration calibration;
+  std::vector<std::optional<Record>> trials;  ///< by trial number
+  std::vector<double> nanoseconds_per_step;   ///< one a method, its metrics included
+
+  std::size_t finished() const;
+};
+
+struct RunOptions {
+  int threads = 0;                           ///< 0: as many as the machine has
+  const std::atomic<bool>* stop = nullptr;   ///< once true, running trials finish and no more start
+  std::function<void(std::size_t finished)> progress;  ///< called from any thread
+};
+
+/// Runs the trials of a cell on oneTBB. Each trial writes its own slot and its noise is addressed by
+/// its number, so the result does not depend on the number of threads.
+CellResult run_cell(const Cell& cell, std::uint64_t seed, const RunOptions& options);
+
+}  // namespace gyrostat

@@ -1,0 +1,141 @@
+#include "experiments/study.hpp"
+
+#include <filesystem>
+#include <memory>
+
+#include "experiments/recording.hpp"
+
+namespace gyrostat {
+namespace {
+
+constexpr Range trial_range{.from = 1, .to = 4294967295.0, .whole = true};
+constexpr Range seed_range{.from = 0, .to = 9007199254740992.0, .whole = true};
+
+/// A plug-in of `List` chosen by the text under `chooser`, its parameters under the other keys.
+template <class List>
+typename List::Any read_plugin(JsonObject object, const std::string& chooser,
+                               const std::string& kind) {
+  const auto id = object.text(chooser, "");
+  if (id.empty()) throw InputError(object.place(), "\"" + chooser + "\" is missing");
+  typename List::Any chosen;
+  List::with(object.place_of(chooser), kind, id, [&](auto plugin) {
+    typename decltype(plugin)::type parameters;
+    object.fields(parameters);
+    chosen = parameters;
+  });
+  object.finish();
+  return chosen;
+}
+
+Compass read_compass(JsonObject object) {
+  Compass compass;
+  object.fields(compass);
+  for (const auto& [value, place] : object.list("disturbances")) {
+    JsonObject entry(*value, place);
+    entry.fields(compass.disturbances.emplace_back());
+    entry.finish();
+  }
+  object.finish();
+  return compass;
+}
+
+/// Sets random error, thermal drift, rate and temperature from a fit to a recording.
+void read_recorded(JsonObject object, const std::string& folder, Scenario& scenario) {
+  const auto file = object.text("file", "");
+  if (file.empty()) throw InputError(object.place(), "\"file\" is missing");
+  const auto path = (std::filesystem::path(folder) / file).lexically_normal().string();
+  const auto axis = object.text("axis", "");
+  const double from_s = object.number("from_s", 0.0, ranges::non_negative, "s");
+  const double to_s = object.number("to_s", 1e12, ranges::positive, "s");
+  const auto method =
+      fit_method_named(object.text("fit", "likelihood"), object.place_of("fit"));
+  object.finish();
+
+  const auto recording = read_recording(path, axis);
+  require_uniform(recording.series, path);
+  auto span = std::make_shared<Series>(cut(recording.series, from_s, to_s, object.place()));
+  const auto fit = calibrate(*span, method);
+  if (!fit.random_error.converged)
+    throw InputError(object.place(), "the fit to the recording " + fit.random_error.message);
+  scenario.random_error = fit.random_error.parameters;
+  scenario.sampling.rate_hz = span->rate_hz();
+  scenario.thermal_drift = {};
+  if (fit.thermal) {
+    scenario.thermal_drift = fit.thermal->parameters;
+    scenario.temperature = temperature::Recorded{span};
+  } else {
+    scenario.thermal_drift.c_dps = fit.mean_dps;
+  }
+}
+
+CalibrationPlan read_calibration(JsonObject object) {
+  CalibrationPlan plan;
+  plan.method = fit_method_named(object.text("fit", "likelihood"), object.place_of("fit"));
+  plan.each_trial = object.number("each_trial", 0, ranges::flag, "1") != 0.0;
+  plan.duration_s = object.number("duration_s", 0, ranges::positive, "s");
+  object.finish();
+  return plan;
+}
+
+Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) {
+  Cell cell;
+  cell.name = object.text("name", fmt::format("cell_{}", index + 1));
+  cell.trials = static_cast<std::uint32_t>(object.number("trials", 1000, trial_range, "trials"));
+  if (auto scenario = object.child("scenario")) cell.scenario = read_scenario(*scenario, folder);
+  if (auto calibration = object.child("calibration"))
+    cell.calibration = read_calibration(*calibration);
+  cell.methods = object.has("filters")
+                     ? read_methods(object, "filters", ParameterSource::calibration)
+                     : all_methods();
+  if (cell.methods.empty()) throw InputError(object.place_of("filters"), "the list is empty");
+  object.finish();
+  return cell;
+}
+
+}  // namespace
+
+Scenario read_scenario(JsonObject object, const std::string& folder) {
+  Scenario scenario;
+  if (auto recorded = object.child("from_recording")) read_recorded(*recorded, folder, scenario);
+  object.fields(scenario.sampling);
+  const auto nested = [&](const std::string& key, auto& parameters) {
+    if (auto child = object.child(key)) {
+      child->fields(parameters);
+      child->finish();
+    }
+  };
+  nested("random_error", scenario.random_error);
+  nested("thermal_drift", scenario.thermal_drift);
+  if (auto temperature = object.child("temperature")) {
+    const bool recorded = temperature->text("profile", "") == "recorded";
+    const auto* recording = std::get_if<temperature::Recorded>(&scenario.temperature);
+    if (recorded && !recording)
+      throw InputError(temperature->place(),
+                       "'recorded' needs a \"from_recording\" with temperature in this scenario");
+    if (!recorded)
+      scenario.temperature = read_plugin<Temperatures>(*temperature, "profile", "profile");
+  }
+  if (auto motion = object.child("motion"))
+    scenario.motion = read_plugin<Motions>(*motion, "profile", "profile");
+  if (auto compass = object.child("compass")) scenario.compass = read_compass(*compass);
+  for (const auto& [value, place] : object.list("effects"))
+    scenario.effects.push_back(read_plugin<Effects>({*value, place}, "effect", "effect"));
+  object.finish();
+  return scenario;
+}
+
+Study read_study(const std::string& path) {
+  const Json json = read_json(path);
+  JsonObject object(json, path + ":");
+  const auto folder = std::filesystem::path(path).parent_path().string();
+  Study study;
+  study.title = object.text("title", std::filesystem::path(path).stem().string());
+  study.seed = static_cast<std::uint64_t>(object.number("seed", 1, seed_range, ""));
+  for (const auto& [value, place] : object.list("cells"))
+    study.cells.push_back(read_cell({*value, place}, folder, study.cells.size()));
+  if (study.cells.empty()) throw InputError(path, "\"cells\" is missing or empty");
+  object.finish();
+  return study;
+}
+
+}  // namespace gyrostat

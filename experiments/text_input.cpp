@@ -1,0 +1,212 @@
+#include "experiments/text_input.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <system_error>
+
+#include <fast_float/fast_float.h>
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include "core/error.hpp"
+#include "core/types.hpp"
+
+namespace gyrostat {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_bytes = std::size_t{1} << 30;
+constexpr std::size_t first_bytes = std::size_t{1} << 16;
+
+/// Makes room behind the `filled` bytes of a growing text.
+void grow(std::string& text, std::size_t filled, const std::string& place) {
+  if (filled > most_bytes) throw InputError(place, "is too long; allowed: up to 1 GiB of text");
+  if (filled == text.size()) text.resize(std::min(2 * filled, most_bytes + 1));
+}
+
+std::string read_bytes(const fs::path& path, const std::string& place) {
+  std::error_code unknown;
+  if (fs::is_directory(path, unknown)) {
+    throw InputError(place, "is a directory; allowed: a CSV or CSV.gz file");
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
+      std::fopen(path.c_str(), "rb"), [](auto* f) { return std::fclose(f); });
+  const auto fail = [&] {
+    throw InputError(place, "cannot be read: " + std::generic_category().message(errno));
+  };
+  if (!file) fail();
+  const auto size = fs::file_size(path, unknown);
+  std::string bytes(unknown ? first_bytes : std::clamp(size + 1, first_bytes, most_bytes), '\0');
+  std::size_t filled = 0;
+  while (const auto got = std::fread(bytes.data() + filled, 1, bytes.size() - filled, file.get())) {
+    filled += got;
+    grow(bytes, filled, place);
+  }
+  if (std::ferror(file.get())) fail();
+  bytes.resize(filled);
+  return bytes;
+}
+
+std::string gunzipped(std::string& packed, const std::string& place) {
+  z_stream stream{};
+  if (inflateInit2(&stream, MAX_WBITS + 16) != Z_OK) throw std::bad_alloc();
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> closed_on_return(&stream, inflateEnd);
+  stream.next_in = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_in = static_cast<uInt>(packed.size());
+
+  std::string text(std::max(first_bytes, std::min(5 * packed.size(), most_bytes)), '\0');
+  std::size_t filled = 0;
+  for (bool done = false; !done;) {
+    grow(text, filled, place);
+    stream.next_out = reinterpret_cast<Bytef*>(text.data() + filled);
+    stream.avail_out = static_cast<uInt>(text.size() - filled);
+    const int status = inflate(&stream, Z_NO_FLUSH);
+    filled = text.size() - stream.avail_out;
+    if (status == Z_STREAM_END) {
+      done = stream.avail_in == 0;
+      inflateReset(&stream);
+    } else if (status != Z_OK && status != Z_BUF_ERROR) {
+      throw InputError(place, fmt::format("the gzip data are corrupt after {} bytes of text: {}",
+                                          filled, stream.msg ? stream.msg : zError(status)));
+    } else if (stream.avail_in == 0 && stream.avail_out > 0) {
+      throw InputError(place,
+                       fmt::format("the gzip data are truncated after {} bytes of text", filled));
+    }
+  }
+  text.resize(filled);
+  return text;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  const auto first = std::min(text.find_first_not_of(blanks), text.size());
+  return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+}
+
+/// Cuts `text` up to `separator` off its front.
+std::string_view take(std::string_view& text, char separator) {
+  const auto end = std::min(text.find(separator), text.size());
+  const auto piece = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return piece;
+}
+
+const char* cell_end(const char* begin, const char* row_end) {
+  const void* comma = std::memchr(begin, ',', static_cast<std::size_t>(row_end - begin));
+  return comma ? static_cast<const char*>(comma) : row_end;
+}
+
+std::string shown(std::string_view text) {
+  return printable(text.size() > 40 ? std::string(text.substr(0, 40)) + "..." : text);
+}
+
+struct Row {
+  std::string_view cells, place;
+  std::size_t line;
+
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw InputError(fmt::format("{}:{}", place, line), problem);
+  }
+};
+
+/// A cell that is not just a number: blank, padded, with a plus sign, or wrong.
+double odd_cell(std::string_view cell, const std::string& name, const Row& row) {
+  std::string_view number = trimmed(cell);
+  if (number.empty()) return no_value;
+  if (number.starts_with('+') && !number.starts_with("+-")) number.remove_prefix(1);
+  double value = no_value;
+  const char* end = number.data() + number.size();
+  const auto [stop, error] = fast_float::from_chars(number.data(), end, value);
+  if (error == std::errc() && stop == end && std::isfinite(value)) return value;
+  row.fail(
+      fmt::format("column '{}': '{}' is not a number; allowed: finite numbers, or a blank cell"
+                  " for no value",
+                  printable(name), shown(cell)));
+}
+
+void read_row(const Row& row, std::span<const std::string> names,
+              std::span<std::vector<double>* const> targets) {
+  const char* cell = row.cells.data();
+  const char* const row_end = cell + row.cells.size();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const char* end = nullptr;
+    if (targets[i]) {
+      double value = no_value;
+      const auto [stop, error] = fast_float::from_chars(cell, row_end, value);
+      end = stop;
+      if (error != std::errc() || (end != row_end && *end != ',') || !std::isfinite(value)) {
+        end = cell_end(cell, row_end);
+        value = odd_cell({cell, static_cast<std::size_t>(end - cell)}, names[i], row);
+      }
+      targets[i]->push_back(value);
+    } else {
+      end = cell_end(cell, row_end);
+    }
+    if ((end == row_end) != (i + 1 == names.size())) {
+      row.fail(fmt::format("'{}' has {} cells; allowed: {}, as many as the header",
+                           shown(row.cells),
+                           std::count(row.cells.begin(), row.cells.end(), ',') + 1, names.size()));
+    }
+    cell = end + 1;
+  }
+}
+
+}  // namespace
+
+std::string read_text(const fs::path& path) {
+  const std::string place = path.string();
+  std::string text = read_bytes(path, place);
+  if (text.starts_with("\x1f\x8b")) text = gunzipped(text, place);
+  if (text.empty()) throw InputError(place, "is empty; allowed: a header and at least one sample");
+  if (const auto zero = text.find('\0'); zero != std::string::npos) {
+    throw InputError(place, fmt::format("is not text: byte {} is zero", zero));
+  }
+  return text;
+}
+
+std::string printable(std::string_view text) {
+  std::string ascii(text);
+  std::replace_if(
+      ascii.begin(), ascii.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return ascii;
+}
+
+std::vector<std::string> take_header(std::string_view& csv, std::string_view place) {
+  if (csv.starts_with("\xef\xbb\xbf")) csv.remove_prefix(3);
+  auto header = take(csv, '\n');
+  std::vector<std::string> names(
+      static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1);
+  for (auto& name : names) name = trimmed(take(header, ','));
+  auto sorted = names;
+  std::sort(sorted.begin(), sorted.end());
+  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end()) {
+    throw InputError(fmt::format("{}:1", place),
+                     fmt::format("column '{}' appears twice; allowed: once", shown(*twice)));
+  }
+  return names;
+}
+
+void read_columns(std::string_view rows, std::span<const std::string> names,
+                  std::span<std::vector<double>* const> targets, std::string_view place) {
+  const auto most_rows = static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')) + 1;
+  for (auto* target : targets) {
+    if (target) target->reserve(most_rows);
+  }
+  for (std::size_t line = 2; !rows.empty(); ++line) {
+    Row row{take(rows, '\n'), place, line};
+    if (row.cells.ends_with('\r')) row.cells.remove_suffix(1);
+    if (trimmed(row.cells).empty()) {
+      if (trimmed(rows).empty()) return;
+      row.fail("is blank; allowed: blank lines at the end only");
+    }
+    read_row(row, names, targets);
+  }
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,92 @@
+#include "experiments/trial.hpp"
+
+#include <chrono>
+
+#include "analysis/errors.hpp"
+#include "core/filters/list.hpp"
+
+namespace gyrostat {
+namespace {
+
+/// The seed of signals that only calibrations see: a bijection of the study's own.
+std::uint64_t calibration_seed(std::uint64_t seed) { return ~seed; }
+
+/// RMS of what there is to compensate: drift and random error.
+double uncompensated_rmse(const Series& series) {
+  return error_moments(series.size(), [&](std::size_t i) {
+           return series.thermal_bias_dps[i] + series.random_error_dps[i];
+         }).rmse;
+}
+
+}  // namespace
+
+std::uint32_t Outcome::breakdowns() const {
+  std::uint32_t sum = 0;
+  for (std::size_t s = 0; s < status_counts.size(); ++s)
+    if (is_breakdown(static_cast<Status>(s))) sum += status_counts[s];
+  return sum;
+}
+
+Outcome run_method(const Method& method, const ParameterMap& parameters, const Series& series,
+                   Track& track) {
+  Outcome outcome;
+  Filters::with(method.id, "filter", method.filter, [&](auto plugin) {
+    using F = typename decltype(plugin)::type;
+    typename F::Parameters p;
+    set_parameters(p, parameters);
+    set_parameters(p, method.overrides);
+    run_filter(F(p), series, track);
+  });
+  const TrackErrors errors = track_errors(series, track);
+  std::size_t m = 0;
+  Metrics::for_each([&](auto plugin) {
+    outcome.metrics[m++] = typename decltype(plugin)::type{}(errors);
+  });
+  outcome.status_counts = track.status_counts();
+  outcome.diverged = errors.bias.rmse > divergence_ratio * uncompensated_rmse(series);
+  return outcome;
+}
+
+Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t trial,
+                           Series& buffer) {
+  Scenario scenario = cell.scenario;
+  if (cell.calibration.duration_s > 0.0)
+    scenario.sampling.duration_s = cell.calibration.duration_s;
+  synthesise(scenario, {calibration_seed(seed), trial}, buffer);
+  return calibrate(buffer, cell.calibration.method);
+}
+
+Record run_trial(const Cell& cell, const Calibration& shared, std::uint64_t seed,
+                 std::uint32_t trial, Workspace& workspace) {
+  Record record;
+  auto& series = workspace.series;
+  synthesise(cell.scenario, {seed, trial}, series);
+  const double start_C = series.temperature_C.front();
+  ParameterMap fitted;
+  if (cell.calibration.each_trial) {
+    const auto own = calibrate_cell(cell, seed, trial, workspace.calibration_series);
+    record.calibration_converged = own.random_error.converged;
+    fitted = parameters_from(own, start_C);
+  } else {
+    fitted = parameters_from(shared, start_C);
+  }
+  const ParameterMap truth = true_parameters(cell.scenario);
+
+  workspace.seconds.resize(cell.methods.size());
+  workspace.steps.resize(cell.methods.size());
+  for (std::size_t m = 0; m < cell.methods.size(); ++m) {
+    const auto& method = cell.methods[m];
+    const auto start = std::chrono::steady_clock::now();
+    const ParameterMap none;
+    const auto& parameters = method.source == ParameterSource::truth         ? truth
+                             : method.source == ParameterSource::calibration ? fitted
+                                                                             : none;
+    record.outcomes.push_back(run_method(method, parameters, series, workspace.track));
+    workspace.seconds[m] +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    workspace.steps[m] += static_cast<double>(series.size());
+  }
+  return record;
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "analysis/metrics/list.hpp"
+#include "core/track.hpp"
+#include "experiments/study.hpp"
+
+namespace gyrostat {
+
+inline constexpr std::size_t metric_count = std::variant_size_v<Metrics::Any>;
+
+/// What one method made of one trial.
+struct Outcome {
+  std::array<double, metric_count> metrics{};  ///< in the order of Metrics::ids(); NaN: no value
+  std::array<std::uint32_t, status_names.size()> status_counts{};
+  bool diverged = false;  ///< bias RMSE above `divergence_ratio` times that of no compensation
+
+  std::uint32_t breakdowns() const;
+};
+
+inline constexpr double divergence_ratio = 3.0;
+
+/// One trial: every method on the same signal.
+struct Record {
+  std::vector<Outcome> outcomes;  ///< one a method, in the cell's order
+  bool calibration_converged = true;
+};
+
+/// Buffers that a thread reuses from trial to trial, and the time that each method took there.
+struct Workspace {
+  Series series;
+  Series calibration_series;
+  Track track;
+  std::vector<double> seconds;  ///< one a method
+  std::vector<double> steps;
+};
+
+/// Runs the method on a simulated series.
+Outcome run_method(const Method& method, const ParameterMap& parameters, const Series& series,
+                   Track& track);
+
+/// The calibration signal of trial `trial`, of the same scenario under other noise. The calibration
+/// for the whole cell is that of trial 0.
+Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t trial,
+                           Series& buffer);
+
+/// Trial number `trial` of a cell. `shared` is used unless the cell calibrates each trial.
+Record run_trial(const Cell& cell, const Calibration& shared, std::uint64_t seed,
+                 std::uint32_t trial, Workspace& workspace);
+
+}  // namespace gyrostat

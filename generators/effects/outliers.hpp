@@ -1,0 +1,37 @@
+#pragma once
+
+#include "core/fields.hpp"
+#include "core/random.hpp"
+#include "core/series.hpp"
+#include "generators/stage.hpp"
+
+namespace gyrostat::effects {
+
+/// Contaminated normal noise: each sample is, with a small probability, hit by a second, much wider
+/// white noise (Tukey 1960).
+struct Outliers {
+  double probability = 1e-3;
+  double std_dps = 1.0;
+
+  static constexpr std::string_view title = "occasional gross errors";
+  static constexpr Stage stage = Stage::electronics;
+
+  static constexpr auto fields() {
+    using P = Outliers;
+    return std::array{
+        Field{"probability", &P::probability, "1", ranges::fraction,
+              "probability that a sample is hit"},
+        Field{"std_dps", &P::std_dps, "dps", ranges::non_negative,
+              "standard deviation of the gross error"},
+    };
+  }
+
+  void apply(Series& series, const Noise& noise) const {
+    const auto chance = noise.stream("outliers/chance");
+    const auto size = noise.stream("outliers/size");
+    for (std::size_t i = 0; i < series.size(); ++i)
+      if (chance.uniform(i) < probability) series.gyro_dps[i] += std_dps * size.normal(i);
+  }
+};
+
+}  // namespace gyrostat::effects

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "core/fields.hpp"
+#include "core/random.hpp"
+#include "core/series.hpp"
+#include "generators/stage.hpp"
+
+namespace gyrostat::effects {
+
+/// Quadratic bias over temperature: B += curvature (T - reference)^2.
+struct ThermalCurvature {
+  double curvature_dps_per_C2 = 1e-4;
+  double reference_C = 40.0;
+
+  static constexpr std::string_view title = "bias curves with temperature";
+  static constexpr Stage stage = Stage::sensing;
+
+  static constexpr auto fields() {
+    using P = ThermalCurvature;
+    return std::array{
+        Field{"curvature_dps_per_C2", &P::curvature_dps_per_C2, "dps/°C²", ranges::any,
+              "quadratic coefficient"},
+        Field{"reference_C", &P::reference_C, "°C", ranges::any, "temperature without effect"},
+    };
+  }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      const double difference = series.temperature_C[i] - reference_C;
+      series.thermal_bias_dps[i] += curvature_dps_per_C2 * difference * difference;
+    }
+  }
+};
+
+}  // namespace gyrostat::effects

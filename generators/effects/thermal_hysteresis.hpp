@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+
+#include "core/fields.hpp"
+#include "core/random.hpp"
+#include "core/series.hpp"
+#include "generators/stage.hpp"
+
+namespace gyrostat::effects {
+
+/// Bias that differs between rising and falling temperature: the play (backlash) operator
+/// y <- clamp(y, T - width, T + width), B += amplitude (T - y) / width, so that a temperature
+/// moving one way for more than 2 width sits on the branch +amplitude or -amplitude.
+/// (Krasnosel'skii and Pokrovskii, Systems with Hysteresis, 1989, ch. 1.)
+struct ThermalHysteresis {
+  double amplitude_dps = 0.01;
+  double width_C = 3.0;
+
+  static constexpr std::string_view title = "bias depends on the direction of temperature";
+  static constexpr Stage stage = Stage::sensing;
+
+  static constexpr auto fields() {
+    using P = ThermalHysteresis;
+    return std::array{
+        Field{"amplitude_dps", &P::amplitude_dps, "dps", ranges::any,
+              "half the distance between the two branches"},
+        Field{"width_C", &P::width_C, "°C", ranges::positive,
+              "half the temperature change that leads from one branch to the other"},
+    };
+  }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    double play_C = series.temperature_C.empty() ? 0.0 : series.temperature_C.front();
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      const double T = series.temperature_C[i];
+      play_C = std::clamp(play_C, T - width_C, T + width_C);
+      series.thermal_bias_dps[i] += amplitude_dps * (T - play_C) / width_C;
+    }
+  }
+};
+
+}  // namespace gyrostat::effects

@@ -1,0 +1,27 @@
+#include "generators/environment/magnetic/compass.hpp"
+
+#include "generators/random_error.hpp"
+
+namespace gyrostat {
+
+void Compass::observe(Series& series, const Noise& noise) const {
+  auto& heading = series.heading_deg;
+  heading.assign(series.size(), initial_heading_deg);
+  series.mag_valid.assign(series.size(), 1.0);
+  for (std::size_t i = 1; i < heading.size(); ++i)
+    heading[i] = heading[i - 1] + series.rate_ref_dps[i] * (series.t_s[i] - series.t_s[i - 1]);
+  add_white_noise(noise_std_deg, noise.stream("compass"), heading);
+
+  const auto stream = noise.stream("compass/disturbance");
+  for (const auto& d : disturbances) {
+    for (std::size_t i = 0; i < heading.size(); ++i) {
+      const double into = series.t_s[i] - d.start_s;
+      if (into < 0.0 || into >= d.duration_s) continue;
+      heading[i] += d.offset_deg + d.noise_std_deg * stream.normal(i);
+      if (d.flagged != 0.0) series.mag_valid[i] = 0.0;
+    }
+  }
+  for (auto& angle : heading) angle = wrap_degrees(angle);
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "core/models/arima111.hpp"
+#include "core/random.hpp"
+
+namespace gyrostat {
+
+/// Adds the random error x of ARIMA(1,1,1), in dps, to `x`. The first difference starts in its
+/// stationary distribution and x_{-1} = 0. Streams "random_error" and "random_error/initial".
+void add_random_error(const Arima111<double>& model, const Noise& noise, std::span<double> x);
+
+/// Adds white noise of the given standard deviation to `values`, from the named stream.
+void add_white_noise(double std, const NormalStream& stream, std::span<double> values);
+
+}  // namespace gyrostat

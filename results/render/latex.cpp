@@ -1,0 +1,57 @@
+#include <string_view>
+#include <utility>
+
+#include "results/render/render.hpp"
+
+namespace gyrostat::render_detail {
+namespace {
+
+std::string escaped(std::string_view s) {
+  static constexpr std::pair<std::string_view, std::string_view> symbols[] = {
+      {"\\", "\\textbackslash{}"}, {"&", "\\&"}, {"%", "\\%"}, {"_", "\\_"}, {"#", "\\#"},
+      {"$", "\\$"}, {"{", "\\{"}, {"}", "\\}"}, {"~", "\\textasciitilde{}"},
+      {"^", "\\textasciicircum{}"}, {"°", "\\textdegree{}"}, {"±", "$\\pm$"}, {"²", "$^2$"},
+      {"σ", "$\\sigma$"}, {"χ", "$\\chi$"}, {"φ", "$\\varphi$"}, {"δ", "$\\delta$"},
+      {"τ", "$\\tau$"}, {"·", "$\\cdot$"}, {"–", "--"}, {"≥", "$\\ge$"}};
+  std::string out;
+  while (!s.empty()) {
+    bool replaced = false;
+    for (const auto& [symbol, command] : symbols) {
+      if (!s.starts_with(symbol)) continue;
+      out += command;
+      s.remove_prefix(symbol.size());
+      replaced = true;
+      break;
+    }
+    if (replaced) continue;
+    out += s.front();
+    s.remove_prefix(1);
+  }
+  return out;
+}
+
+std::string joined(const std::vector<std::string>& cells) {
+  std::string out;
+  for (std::size_t c = 0; c < cells.size(); ++c) out += (c == 0 ? "" : " & ") + cells[c];
+  return out + " \\\\\n";
+}
+
+}  // namespace
+
+std::string latex(const Table& table) {
+  std::string out = "\\begin{table}\n\\caption{" + escaped(table.title) + "}\n\\begin{tabular}{l" +
+                    std::string(table.columns.size() - 1, 'r') + "}\n\\toprule\n";
+  std::vector<std::string> heads;
+  for (const auto& column : table.columns) heads.push_back(escaped(head(column)));
+  out += joined(heads) + "\\midrule\n";
+  for (const auto& row : table.rows) {
+    std::vector<std::string> cells;
+    for (const auto& cell : row) cells.push_back(escaped(readable(cell)));
+    out += joined(cells);
+  }
+  out += "\\bottomrule\n\\end{tabular}\n";
+  for (const auto& note : table.notes) out += "\\par\\footnotesize " + escaped(note) + "\n";
+  return out + "\\end{table}\n";
+}
+
+}  // namespace gyrostat::render_detail

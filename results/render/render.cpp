@@ -1,0 +1,78 @@
+#include "results/render/render.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace gyrostat {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Format>, 5> formats = {{
+    {"text", Format::text},
+    {"md", Format::markdown},
+    {"csv", Format::csv},
+    {"json", Format::json},
+    {"latex", Format::latex},
+}};
+
+}  // namespace
+
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, format] : formats) names.emplace_back(name);
+  return names;
+}
+
+Format format_named(std::string_view name) {
+  for (const auto& [known, format] : formats)
+    if (known == name) return format;
+  throw InputError("--format", unknown_name("format", name, format_names()));
+}
+
+std::string render(std::span<const Table> tables, Format format) {
+  using namespace render_detail;
+  if (format == Format::json) return json(tables);
+  std::string out;
+  for (const auto& table : tables) {
+    if (!out.empty()) out += '\n';
+    switch (format) {
+      case Format::markdown: out += markdown(table); break;
+      case Format::csv: out += csv(table); break;
+      case Format::latex: out += latex(table); break;
+      default: out += text(table); break;
+    }
+  }
+  return out;
+}
+
+namespace render_detail {
+
+std::string readable(const TableCell& cell) {
+  struct {
+    std::string operator()(std::monostate) const { return "–"; }
+    std::string operator()(const std::string& s) const { return s; }
+    std::string operator()(double v) const { return fmt::format("{:.4g}", v); }
+    std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
+  } visitor;
+  return std::visit(visitor, cell);
+}
+
+std::string exact(const TableCell& cell) {
+  struct {
+    std::string operator()(std::monostate) const { return ""; }
+    std::string operator()(const std::string& s) const { return s; }
+    std::string operator()(double v) const { return fmt::format("{:.17g}", v); }
+    std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
+  } visitor;
+  return std::visit(visitor, cell);
+}
+
+std::string head(const TableColumn& column) {
+  return column.unit.empty() ? column.name : column.name + " [" + column.unit + "]";
+}
+
+}  // namespace render_detail
+}  // namespace gyrostat

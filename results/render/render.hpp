@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/table.hpp"
+
+namespace gyrostat {
+
+enum class Format { text, markdown, csv, json, latex };
+
+/// The format called `name` (text, md, csv, json, latex); throws InputError otherwise.
+Format format_named(std::string_view name);
+std::vector<std::string> format_names();
+
+/// Tables as text. Readers get four significant digits, programs (csv, json) all seventeen.
+std::string render(std::span<const Table> tables, Format format);
+
+namespace render_detail {
+std::string text(const Table& table);
+std::string markdown(const Table& table);
+std::string csv(const Table& table);
+std::string latex(const Table& table);
+std::string json(std::span<const Table> tables);
+
+/// A cell for a reader.
+std::string readable(const TableCell& cell);
+/// A cell for a program: numbers that read back as the same bits.
+std::string exact(const TableCell& cell);
+/// "name [unit]"
+std::string head(const TableColumn& column);
+}  // namespace render_detail
+
+}  // namespace gyrostat
