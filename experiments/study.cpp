@@ -65,6 +65,7 @@ void read_recorded(JsonObject object, const std::string& folder, Scenario& scena
     scenario.temperature = temperature::Recorded{span};
   } else {
     scenario.thermal_drift.c_dps = fit.mean_dps;
+    scenario.temperature = temperature::QuietRoom{.start_C = 25.0, .end_C = 25.0};
   }
 }
 

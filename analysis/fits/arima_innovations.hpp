@@ -2,8 +2,7 @@
 
 #include <span>
 
-#include "core/models/model_l.hpp"
-#include "core/numerics/kalman.hpp"
+#include "core/models/arima111.hpp"
 #include "core/step.hpp"
 
 namespace gyrostat {
@@ -30,51 +29,51 @@ bool same(const Jet& a, const Jet& b) {
 /// ARIMA(1,1,1) + white noise (Durbin and Koopman 2012, sec. 7.2), its level unknown beforehand and
 /// its first difference stationary. NaN samples are passed over.
 ///
-/// Conditioning a flat prior of the level on z_0 leaves x_0 ~ N(z_0, R), independent of the
-/// difference d_0 = x_0 - x_{-1} and of a_0, which is where the recursion starts. Once the
-/// covariance has settled, value and derivatives, its gain is kept.
+/// Two states suffice: with d_k = x_k - x_{k-1}, the next difference is predicted by
+/// e_k = phi d_k - delta2 a_k alone, so that
+///   x_{k+1} = x_k + e_k + delta1 a_{k+1},  e_{k+1} = phi e_k + (phi delta1 - delta2) a_{k+1}.
+/// A flat prior of the level leaves x_0 ~ N(z_0, R), independent of e_0, which is stationary. Once
+/// the covariance has settled, value and derivatives, its gain is kept.
 template <class T, class Use>
 void arima_innovations(const Arima111<T>& arima, std::span<const double> z, const Use& use) {
   std::size_t first = 0;
   while (first < z.size() && is_missing(z[first])) ++first;
   if (first == z.size()) return;
 
-  const ModelExact<T> model(arima);
   const T &phi = arima.phi, &delta1 = arima.delta1_dps, &delta2 = arima.delta2_dps;
-  const T difference_variance =
-      (delta1 * delta1 + delta2 * delta2 - T(2.0) * phi * delta1 * delta2) / (T(1.0) - phi * phi);
-  Gaussian<T, 3> state;
-  state.mean << T(z[first]), T(z[first]), T(0.0);
-  state.covariance << model.R, model.R, T(0.0),              //
-      model.R, model.R + difference_variance, -delta1,       //
-      T(0.0), -delta1, T(1.0);
+  const T R = arima.measurement_noise_std_dps * arima.measurement_noise_std_dps;
+  const T drive = phi * delta1 - delta2;  // of e
+  const T Qxx = delta1 * delta1, Qxe = delta1 * drive, Qee = drive * drive;
 
+  T x(z[first]), e(0.0);
+  T Pxx = R, Pxe(0.0), Pee = Qee / (T(1.0) - phi * phi);
+  T gain_x(0.0), gain_e(0.0), variance(0.0);
   bool settled = false;
-  Vector<T, 3> gain = Vector<T, 3>::Zero();
-  T variance(0.0);
   for (std::size_t k = first + 1; k < z.size(); ++k) {
     const bool missing = is_missing(z[k]);
-    if (settled && !missing) {
-      const T before = state.mean(0);
-      state.mean(0) += phi * (before - state.mean(1)) - delta2 * state.mean(2);
-      state.mean(1) = before;
-      state.mean(2) = T(0.0);
-      const T innovation = T(z[k]) - state.mean(0);
-      state.mean += gain * innovation;
-      use(innovation, variance);
-      continue;
+    settled = settled && !missing;
+    x += e;
+    e *= phi;
+    if (!settled) {
+      Pxx += T(2.0) * Pxe + Pee + Qxx;
+      Pxe = phi * (Pxe + Pee) + Qxe;
+      Pee = phi * phi * Pee + Qee;
     }
-    settled = false;
-    propagate(state, model.F);
-    state.covariance += model.Q;
     if (missing) continue;
-    const Vector<T, 3> column = state.covariance.col(0);
-    const auto innovation = measure_first(state, model.R, T(z[k]));
-    if (!innovation.sound) continue;
-    settled = detail::same(variance, innovation.covariance(0));
-    variance = innovation.covariance(0);
-    gain = column / variance;
-    use(innovation.value(0), variance);
+    if (!settled) {
+      const T before = variance;
+      variance = Pxx + R;
+      gain_x = Pxx / variance;
+      gain_e = Pxe / variance;
+      settled = detail::same(before, variance);
+      Pee -= gain_e * Pxe;
+      Pxx = gain_x * R;
+      Pxe = Pxe * R / variance;
+    }
+    const T innovation = T(z[k]) - x;
+    x += gain_x * innovation;
+    e += gain_e * innovation;
+    use(innovation, variance);
   }
 }
 

@@ -5,9 +5,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
-#include <memory>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "analysis/fits/arima_innovations.hpp"
@@ -100,23 +101,43 @@ class PredictionErrors final : public ceres::CostFunction {
   std::span<const double> z_;
 };
 
+/// Which of phi, theta and R a model leaves free; the others are zero.
+struct Variant {
+  bool phi, theta, noise;
+  const char* message;
+
+  int held() const { return !phi + !theta + !noise; }
+};
+
+constexpr Variant full = {true, true, true, "converged"};
+/// Simpler models, simplest first, for signals that do not tell all four parameters.
+constexpr std::array<Variant, 4> simpler = {{
+    {false, false, true, "converged; phi and delta2 cannot be told and are held at 0"},
+    {true, false, true, "converged; delta2 cannot be told and is held at 0"},
+    {false, true, true, "converged; phi cannot be told and is held at 0"},
+    {true, true, false, "converged; R cannot be told and is held at 0"},
+}};
+
 struct Start {
   Shape shape;
   double objective;
 };
 
 /// The most promising points of a coarse grid, best first.
-std::vector<Start> starting_points(std::span<const double> z) {
+std::vector<Start> starting_points(std::span<const double> z, const Variant& variant) {
   std::vector<Start> starts;
   for (const double phi : {-0.6, 0.0, 0.6, 0.9})
-    for (const double theta : {-0.6, 0.1, 0.7, 0.95})
-      for (const double log_ratio : {-1.0, 1.0, 2.5, 4.5, 6.5}) {
+    for (const double theta : {-0.6, 0.0, 0.7, 0.95})
+      for (const double log_ratio : {-log_ratio_limit, -1.0, 1.0, 2.5, 4.5, 6.5}) {
+        if ((!variant.phi && phi != 0.0) || (!variant.theta && theta != 0.0) ||
+            (variant.noise == (log_ratio == -log_ratio_limit)))
+          continue;
         const Shape shape = {std::atanh(phi), std::atanh(theta), log_ratio};
         starts.push_back({shape, concentrate(shape, z).objective()});
       }
   std::sort(starts.begin(), starts.end(),
             [](const Start& a, const Start& b) { return a.objective < b.objective; });
-  starts.resize(3);
+  starts.resize(std::min<std::size_t>(starts.size(), 3));
   return starts;
 }
 
@@ -133,20 +154,27 @@ Eigen::Matrix4d information(const Arima111<double>& arima, std::span<const doubl
   return sum;
 }
 
-void add_standard_errors(ArimaFit& fit, std::span<const double> z) {
+/// Covariance of the free ones of (phi, delta1, delta2, sqrt R); empty where they are not
+/// identifiable.
+std::optional<Eigen::Matrix4d> covariance_of(const Arima111<double>& arima, const Variant& variant,
+                                             std::span<const double> z) {
+  // R enters as a square, so its root has no information near zero, whatever the scale.
+  if (variant.noise && arima.measurement_noise_std_dps < 1e-3 * arima.delta1_dps)
+    return std::nullopt;
+  const std::array<bool, 4> is_free = {variant.phi, true, variant.theta, variant.noise};
+  std::vector<int> index;
+  for (int i = 0; i < 4; ++i)
+    if (is_free[i]) index.push_back(i);
   // Scaled to a unit diagonal, so that definiteness does not depend on units.
-  const Eigen::Matrix4d info = information(fit.parameters, z);
-  const Eigen::Vector4d scale = info.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
-  const Eigen::LDLT<Eigen::Matrix4d> factor(scale.asDiagonal() * info * scale.asDiagonal());
-  if (factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 1e-10) {
-    const Eigen::Matrix4d inverse = factor.solve(Eigen::Matrix4d::Identity());
-    fit.covariance = scale.asDiagonal() * inverse * scale.asDiagonal();
-  } else {
-    fit.covariance = Eigen::Vector4d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
-    fit.message += "; the parameters are not all identifiable from this signal";
-  }
-  fit.standard_errors = {std::sqrt(fit.covariance(0, 0)), std::sqrt(fit.covariance(1, 1)),
-                         std::sqrt(fit.covariance(2, 2)), std::sqrt(fit.covariance(3, 3))};
+  const Eigen::MatrixXd info = information(arima, z)(index, index);
+  const Eigen::VectorXd scale = info.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::LDLT<Eigen::MatrixXd> factor(scale.asDiagonal() * info * scale.asDiagonal());
+  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 1e-8)) return std::nullopt;
+  Eigen::Matrix4d covariance =
+      Eigen::Vector4d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(info.rows(), info.cols());
+  covariance(index, index) = scale.asDiagonal() * factor.solve(identity) * scale.asDiagonal();
+  return covariance;
 }
 
 void check(std::span<const double> z) {
@@ -169,18 +197,26 @@ double arima_log_likelihood(const Arima111<double>& arima, std::span<const doubl
   return -0.5 * sum;
 }
 
-ArimaFit fit_arima_likelihood(std::span<const double> rate_dps) {
-  check(rate_dps);
-  const auto starts = starting_points(rate_dps);
-  const int terms = static_cast<int>(concentrate(starts.front().shape, rate_dps).count);
+namespace {
 
+/// The best of a few descents from the grid, with the held parameters at zero.
+ArimaFit descend(std::span<const double> z, const Variant& variant) {
+  const auto starts = starting_points(z, variant);
+  const int terms = static_cast<int>(concentrate(starts.front().shape, z).count);
   ArimaFit fit;
   double best = std::numeric_limits<double>::infinity();
-  Shape shape{};
+  Shape shape = starts.front().shape;
+  fit.message = "did not converge from any starting point";
+  std::vector<int> held;
+  if (!variant.phi) held.push_back(0);
+  if (!variant.theta) held.push_back(1);
+  if (!variant.noise) held.push_back(2);
   for (const auto& start : starts) {
     Shape candidate = start.shape;
     ceres::Problem problem;
-    problem.AddResidualBlock(new PredictionErrors(rate_dps, terms), nullptr, candidate.data());
+    problem.AddResidualBlock(new PredictionErrors(z, terms), nullptr, candidate.data());
+    if (!held.empty())
+      problem.SetManifold(candidate.data(), new ceres::SubsetManifold(3, held));
     for (int i = 0; i < 3; ++i) {
       const double limit = i < 2 ? shape_limit : log_ratio_limit;
       problem.SetParameterLowerBound(candidate.data(), i, -limit);
@@ -199,21 +235,44 @@ ArimaFit fit_arima_likelihood(std::span<const double> rate_dps) {
     best = summary.final_cost;
     shape = candidate;
     fit.converged = summary.termination_type == ceres::CONVERGENCE;
-    fit.message = fit.converged ? "converged" : "did not converge: " + summary.message;
+    fit.message = fit.converged ? variant.message : "did not converge: " + summary.message;
   }
-  if (std::isinf(best)) {
-    fit.message = "did not converge from any starting point";
-    shape = starts.front().shape;
-  }
-  const auto sums = concentrate(shape, rate_dps);
+  const auto sums = concentrate(shape, z);
   const double delta1 = std::sqrt(sums.squares / sums.count);
   const auto unit = unit_model(shape.data());
   fit.parameters = {unit.phi, delta1, unit.delta2_dps * delta1,
-                    unit.measurement_noise_std_dps * delta1};
-  fit.samples = rate_dps.size();
-  fit.objective = arima_log_likelihood(fit.parameters, rate_dps);
-  add_standard_errors(fit, rate_dps);
+                    variant.noise ? unit.measurement_noise_std_dps * delta1 : 0.0};
+  if (variant.theta && std::abs(shape[1]) > 0.99 * shape_limit)
+    fit.message += "; |delta2| = delta1, the limit: x does not wander";
+  fit.samples = z.size();
+  fit.objective = arima_log_likelihood(fit.parameters, z);
+  if (const auto covariance = covariance_of(fit.parameters, variant, z)) {
+    fit.covariance = *covariance;
+  } else {
+    fit.covariance = Eigen::Vector4d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
+    fit.message += "; the parameters are not all identifiable";
+  }
+  fit.standard_errors = {std::sqrt(fit.covariance(0, 0)), std::sqrt(fit.covariance(1, 1)),
+                         std::sqrt(fit.covariance(2, 2)), std::sqrt(fit.covariance(3, 3))};
   return fit;
+}
+
+bool is_identified(const ArimaFit& fit) { return std::isfinite(fit.covariance(1, 1)); }
+
+}  // namespace
+
+ArimaFit fit_arima_likelihood(std::span<const double> rate_dps) {
+  check(rate_dps);
+  const ArimaFit whole = descend(rate_dps, full);
+  if (is_identified(whole)) return whole;
+  for (const auto& variant : simpler) {
+    const ArimaFit fit = descend(rate_dps, variant);
+    const boost::math::chi_squared chance(variant.held());
+    const double loss = 2.0 * (whole.objective - fit.objective);
+    if (fit.converged && is_identified(fit) && loss < boost::math::quantile(chance, 0.95))
+      return fit;
+  }
+  return whole;
 }
 
 }  // namespace gyrostat

@@ -60,20 +60,62 @@ Regression interval_means(const Series& series, double interval_s) {
   });
 }
 
-/// Covariance of least squares under autocorrelated residuals, Bartlett weights up to `lags`.
-Eigen::Matrix3d newey_west(const Eigen::MatrixX3d& X, const Eigen::VectorXd& residual,
-                           Eigen::Index lags, int parameters) {
-  const Eigen::MatrixX3d scores = residual.asDiagonal() * X;
-  Eigen::Matrix3d middle = scores.transpose() * scores;
-  for (Eigen::Index lag = 1; lag <= lags; ++lag) {
-    const double weight = 1.0 - static_cast<double>(lag) / static_cast<double>(lags + 1);
-    const Eigen::Matrix3d cross =
-        scores.bottomRows(X.rows() - lag).transpose() * scores.topRows(X.rows() - lag);
-    middle += weight * (cross + cross.transpose());
+/// Columns as innovations of a local-level model, a random walk of variance `ratio` per row in unit
+/// white noise that starts at zero; `log_variances` gets the sum of the logs of their variances.
+Eigen::MatrixXd whitened(const Eigen::MatrixXd& columns, double ratio, double& log_variances) {
+  Eigen::MatrixXd out(columns.rows(), columns.cols());
+  Eigen::RowVectorXd level = Eigen::RowVectorXd::Zero(columns.cols());
+  double p = 0.0;
+  log_variances = 0.0;
+  for (Eigen::Index k = 0; k < columns.rows(); ++k) {
+    const double variance = p + 1.0;
+    out.row(k) = (columns.row(k) - level) / std::sqrt(variance);
+    log_variances += std::log(variance);
+    level += p / variance * (columns.row(k) - level);
+    p = p / variance + ratio;
   }
-  const Eigen::Matrix3d bread = (X.transpose() * X).completeOrthogonalDecomposition().pseudoInverse();
+  return out;
+}
+
+/// Residuals that wander: white variance and variance of the random walk's step over that.
+struct Wander {
+  double white_variance;
+  double ratio;
+};
+
+/// The most likely wander of y - X b, b profiled out, on a logarithmic grid.
+Wander most_likely_wander(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, int parameters) {
+  Eigen::MatrixXd columns(X.rows(), X.cols() + 1);
+  columns << X, y;
   const double n = static_cast<double>(X.rows());
-  return n / (n - parameters) * bread * middle * bread;
+  Wander best{};
+  double best_deviance = std::numeric_limits<double>::infinity();
+  for (int step = -1; step <= 40; ++step) {
+    const double ratio = step < 0 ? 0.0 : std::pow(10.0, -5.0 + 0.25 * step);
+    double log_variances = 0.0;
+    const Eigen::MatrixXd white = whitened(columns, ratio, log_variances);
+    const auto W = white.leftCols(X.cols());
+    const Eigen::VectorXd w = white.rightCols(1);
+    const double squares = (w - W * W.completeOrthogonalDecomposition().solve(w)).squaredNorm();
+    const double deviance = n * std::log(squares / n) + log_variances;
+    if (deviance < best_deviance) {
+      best_deviance = deviance;
+      best = {squares / (n - parameters), ratio};
+    }
+  }
+  return best;
+}
+
+/// Covariance of ordinary least squares under such residuals: their covariance is
+/// white (I + ratio L L^T) with L the running sum.
+Eigen::MatrixXd least_squares_covariance(const Eigen::MatrixXd& X, const Wander& wander) {
+  Eigen::MatrixXd sums = X;
+  for (Eigen::Index k = X.rows() - 2; k >= 0; --k) sums.row(k) += sums.row(k + 1);
+  sums.row(0).setZero();
+  const Eigen::MatrixXd bread =
+      (X.transpose() * X).completeOrthogonalDecomposition().pseudoInverse();
+  return wander.white_variance * bread *
+         (X.transpose() * X + wander.ratio * sums.transpose() * sums) * bread;
 }
 
 }  // namespace
@@ -92,10 +134,8 @@ ThermalFit fit_thermal_drift(const Series& series, double interval_s) {
   const Eigen::Vector3d solution = X.completeOrthogonalDecomposition().solve(y);
   const Eigen::VectorXd residual = y - X * solution;
   const int parameters = assessable ? 3 : 1;
-  const auto lags = static_cast<Eigen::Index>(
-      std::floor(4.0 * std::pow(static_cast<double>(y.size()) / 100.0, 2.0 / 9.0)));
   const Eigen::Vector3d errors =
-      newey_west(X, residual, std::min(lags, y.size() - 2), parameters).diagonal().cwiseSqrt();
+      least_squares_covariance(X, most_likely_wander(X, y, parameters)).diagonal().cwiseSqrt();
   fit.parameters = {solution(0), solution(1), solution(2)};
   fit.standard_errors = {errors(0), errors(1), errors(2)};
   fit.residual_std_dps =

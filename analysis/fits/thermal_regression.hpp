@@ -19,8 +19,8 @@ struct ThermalFit {
 
 /// Regresses the mean rate error of successive intervals (gyro minus reference, or the gyro itself
 /// where there is no reference: a static recording) on the temperature at their ends and its
-/// difference over them, [B eq. 2, 5]. Standard errors allow for heteroscedastic and autocorrelated
-/// residuals (Newey and West 1987). Where the temperature spans less than 1 °C, a and b are not
+/// difference over them, [B eq. 2, 5]. Standard errors are those of least squares under residuals
+/// that wander: white noise and a random walk, in the proportion of greatest likelihood. Where the temperature spans less than 1 °C, a and b are not
 /// assessable: they are 0, with infinite standard errors, and c is the mean. Throws InputError for
 /// fewer than 4 whole intervals.
 ThermalFit fit_thermal_drift(const Series& series, double interval_s = 10.0);

@@ -27,7 +27,7 @@ std::vector<double> phase_of(std::span<const double> rate, std::span<const std::
   for (std::size_t i = 0; i < n; ++i)
     require(std::isfinite(rate[i]), "rate[" + std::to_string(i) + "]",
             "is missing or not finite; fill the gap or pass a stretch without one");
-  const double mean = std::reduce(rate.begin(), rate.end()) / static_cast<double>(n);
+  const double mean = std::accumulate(rate.begin(), rate.end(), 0.0) / static_cast<double>(n);
   std::vector<double> phase(n + 1, 0.0);
   for (std::size_t i = 0; i < n; ++i) phase[i + 1] = phase[i] + (rate[i] - mean);
   return phase;
@@ -39,7 +39,7 @@ double haar(const std::vector<double>& phase, std::size_t i, std::size_t m) {
 }
 
 double lag1_autocorrelation(const std::vector<double>& z) {
-  const double mean = std::reduce(z.begin(), z.end()) / static_cast<double>(z.size());
+  const double mean = std::accumulate(z.begin(), z.end(), 0.0) / static_cast<double>(z.size());
   double product = 0.0;
   double square = 0.0;
   for (std::size_t i = 0; i < z.size(); ++i) {
@@ -49,7 +49,9 @@ double lag1_autocorrelation(const std::vector<double>& z) {
   return square > 0.0 ? product / square : 0.0;
 }
 
-/// Exponent alpha in [-2, 2] of the rate's spectrum f^alpha about 1/(m samples).
+/// Exponent alpha in [-2, 0] of the rate's spectrum f^alpha about 1/(m samples). What looks bluer
+/// than white is taken for white: long clusters of a rate that returns to its mean are
+/// anticorrelated, yet do not decorrelate within a sample as blue noise would.
 int power_law_exponent(const std::vector<double>& phase, std::size_t m) {
   std::vector<double> z;
   for (std::size_t i = m; i < phase.size(); i += m) z.push_back(phase[i] - phase[i - m]);
@@ -65,44 +67,33 @@ int power_law_exponent(const std::vector<double>& phase, std::size_t m) {
     delta = half_exponent();
     differences = 1;
   }
-  return std::clamp(-static_cast<int>(std::lround(2.0 * delta)) - 2 * differences, -2, 2);
+  return std::clamp(-static_cast<int>(std::lround(2.0 * delta)) - 2 * differences, -2, 0);
 }
 
-/// Greenhall & Riley's s_w: the generalised autocovariance of the phase, up to a factor.
+/// Generalised autocovariance of the phase, up to a factor (Greenhall & Riley's s_x with F
+/// infinite, as the running sum of a rate is its integral, not averaged over a sample).
 double phase_covariance(double t, int alpha) {
   t = std::abs(t);
-  if (t == 0.0) return 0.0;
-  switch (alpha) {
-    case 2:
-      return -t;
-    case 1:
-      return t * t * std::log(t);
-    case 0:
-      return t * t * t;
-    case -1:
-      return -t * t * t * t * std::log(t);
-    default:
-      return -t * t * t * t * t;
-  }
+  if (alpha == 0) return -t;
+  if (alpha == -2) return t * t * t;
+  return t > 0.0 ? t * t * std::log(t) : 0.0;
 }
 
 /// Equivalent degrees of freedom of the overlapping Allan variance (Greenhall & Riley 2003, full
-/// sum). For alpha <= 0 more than 64 steps a cluster add nothing, and cost O(m) and cancellation.
+/// sum). More than 64 steps a cluster add nothing, and cost O(m).
 double equivalent_degrees_of_freedom(int alpha, std::size_t n, std::size_t m) {
-  const std::size_t steps = alpha > 0 ? m : std::min<std::size_t>(m, 64);
-  const double s = static_cast<double>(steps);
-  const auto rate = [&](double t) {
-    return 2.0 * phase_covariance(t, alpha) - phase_covariance(t - 1.0 / s, alpha) -
-           phase_covariance(t + 1.0 / s, alpha);
-  };
-  const auto coefficient = [&](double t) {
-    return 6.0 * rate(t) - 4.0 * (rate(t - 1.0) + rate(t + 1.0)) + rate(t - 2.0) + rate(t + 2.0);
+  const std::size_t steps = std::min<std::size_t>(m, 64);
+  const auto coefficient = [alpha](double t) {
+    return 6.0 * phase_covariance(t, alpha) -
+           4.0 * (phase_covariance(t - 1.0, alpha) + phase_covariance(t + 1.0, alpha)) +
+           phase_covariance(t - 2.0, alpha) + phase_covariance(t + 2.0, alpha);
   };
   const double variance = coefficient(0.0);
   const std::size_t count = 1 + steps * (n - 2 * m) / m;
   double sum = 1.0;
   for (std::size_t j = 1; j < std::min(count, 3 * steps); ++j) {
-    const double correlation = coefficient(static_cast<double>(j) / s) / variance;
+    const double correlation =
+        coefficient(static_cast<double>(j) / static_cast<double>(steps)) / variance;
     sum += 2.0 * (1.0 - static_cast<double>(j) / static_cast<double>(count)) * correlation *
            correlation;
   }
@@ -180,7 +171,7 @@ std::vector<double> without_spikes(std::span<const double> rate) {
 
 std::vector<double> robust_allan_variances(std::span<const double> rate,
                                            std::span<const std::size_t> clusters) {
-  constexpr double cut = 9.0;
+  constexpr double cut = 16.0;
   const double expected = cdf(boost::math::chi_squared(3), cut) +
                           cut * cdf(complement(boost::math::chi_squared(1), cut));
   const auto phase = phase_of(rate, clusters);
@@ -190,7 +181,7 @@ std::vector<double> robust_allan_variances(std::span<const double> rate,
     for (std::size_t i = 0; i + 2 * m < phase.size(); i += std::max<std::size_t>(1, m / 8))
       squares.push_back(0.5 * std::pow(haar(phase, i, m) / static_cast<double>(m), 2));
     const double count = static_cast<double>(squares.size());
-    double variance = std::reduce(squares.begin(), squares.end()) / count;
+    double variance = std::accumulate(squares.begin(), squares.end(), 0.0) / count;
     for (double change = 1.0; change > 1e-9 && variance > 0.0;) {
       double sum = 0.0;
       for (const double square : squares) sum += std::min(square / variance, cut);

@@ -21,9 +21,9 @@ std::vector<std::size_t> allan_clusters(std::size_t samples);
 
 /// Overlapping Allan deviation (IEEE Std 952-1997 annex C; NIST SP 1065 eq. 11) of a rate sampled
 /// at `rate_hz`, in O(n) a cluster. The interval is chi-square with the equivalent degrees of
-/// freedom of Greenhall & Riley (PTTI 2003), for the power-law noise that the lag-1
-/// autocorrelation identifies at that tau (Riley & Greenhall, EFTF 2004), or at n/32 samples where
-/// fewer than 32 clusters remain.
+/// freedom of Greenhall & Riley (PTTI 2003) for white, flicker or random-walk rate noise, whichever
+/// the lag-1 autocorrelation identifies at that tau (Riley & Greenhall, EFTF 2004), or at n/32
+/// samples where fewer than 32 clusters remain.
 ///
 /// Throws InputError for a sample that is missing or not finite (how to bridge a gap is the
 /// caller's choice), for a cluster outside [1, n/2], a rate of sampling <= 0, and a confidence
@@ -32,15 +32,16 @@ std::vector<AllanPoint> overlapping_allan_deviation(std::span<const double> rate
                                                     std::span<const std::size_t> clusters = {},
                                                     double confidence = 0.95);
 
-/// The rate with isolated spikes replaced by the median of the nine samples around them. A spike
-/// is farther from that median than 6 robust standard deviations of the first difference over
-/// sqrt(2), taken from its 90 % quantile: bulk noise that is a mixture keeps its variance, and up
-/// to 5 % of the samples may be spikes. Gaussian noise loses less than 1e-6 of its variance.
+/// The rate with spikes and missing samples replaced by the median of the nine samples around
+/// them. A spike is farther from that median than six standard deviations of the noise, estimated
+/// from the 90 % quantile of the first differences: up to 5 % of the samples may be spikes, noise
+/// that is a mixture keeps its variance, Gaussian noise loses less than 1e-6 of it.
 std::vector<double> without_spikes(std::span<const double> rate);
 
 /// Allan variance at each cluster by a Huber M-estimator of the scale of the overlapping Haar
-/// coefficients w (Mondal & Percival 2012): the nu with mean min(w^2/nu, 9) = E min(Z^2, 9),
-/// consistent and 99 % efficient for Gaussian w; withstands 11 % of arbitrary coefficients.
+/// coefficients w (Mondal & Percival 2012): the nu with mean min(w^2 / nu, 16) = E min(Z^2, 16),
+/// Z ~ N(0, 1), which makes it consistent for Gaussian w. Its efficiency is 99.9 %; it withstands
+/// 6 % of arbitrary coefficients. Throws as overlapping_allan_deviation.
 std::vector<double> robust_allan_variances(std::span<const double> rate,
                                            std::span<const std::size_t> clusters);
 

@@ -37,12 +37,25 @@ Block<T> operator+(const Block<T>& first, const Block<T>& second) {
           carry * first.spread * carry.transpose() + second.spread};
 }
 
+/// Allan variance at the length of the block.
+template <class T>
+T allan_variance(const Arima111<T>& p, const Block<T>& block) {
+  const T u_innovation = p.phi * p.delta1_dps - p.delta2_dps;
+  const T u_variance = u_innovation * u_innovation / (T(1.0) - p.phi * p.phi);
+  const Vector<T, 3> haar(block.length, T(-1.0), block.gain[1]);
+  const T from_u = haar.dot(block.gain);
+  const T difference =
+      haar.dot(block.spread * haar) + block.spread(1, 1) + from_u * from_u * u_variance;
+  const T r = p.measurement_noise_std_dps * p.measurement_noise_std_dps;
+  return difference / (T(2.0) * block.length * block.length) + r / block.length;
+}
+
 }  // namespace arima_haar
 
 /// Allan variance, dps^2, of z = x + v at clusters of `cluster` >= 1 samples: half the mean square
 /// of the difference of neighbouring cluster means. Exact for |phi| < 1, by doubling blocks in
-/// O(log cluster); sums of like sign only, so nothing is lost near phi = 0, |phi| = 1 or
-/// delta2 = delta1, where the geometric closed form cancels as (1 - phi)^-4.
+/// O(log cluster). Nothing is lost near phi = 0, |phi| = 1 or delta2 = delta1, where the closed
+/// form by geometric sums cancels as (1 - phi)^-4.
 template <class T>
 T arima_allan_variance(const Arima111<T>& p, std::size_t cluster) {
   const auto step = arima_haar::one_step(p);
@@ -51,14 +64,19 @@ T arima_allan_variance(const Arima111<T>& p, std::size_t cluster) {
     block = block + block;
     if ((cluster & bit) != 0) block = block + step;
   }
-  const T u_innovation = p.phi * p.delta1_dps - p.delta2_dps;
-  const T u_variance = u_innovation * u_innovation / (T(1.0) - p.phi * p.phi);
-  const Vector<T, 3> haar(block.length, T(-1.0), block.gain[1]);
-  const T from_u = haar.dot(block.gain);
-  const T variance =
-      haar.dot(block.spread * haar) + block.spread(1, 1) + from_u * from_u * u_variance;
-  const T r = p.measurement_noise_std_dps * p.measurement_noise_std_dps;
-  return variance / (T(2.0) * block.length * block.length) + r / block.length;
+  return arima_haar::allan_variance(p, block);
+}
+
+/// The same at the clusters 1, 2, 4, ... 2^(scales - 1).
+template <class T>
+Vector<T, Eigen::Dynamic> dyadic_allan_variances(const Arima111<T>& p, std::size_t scales) {
+  Vector<T, Eigen::Dynamic> variances(scales);
+  auto block = arima_haar::one_step(p);
+  for (std::size_t j = 0; j < scales; ++j) {
+    variances[j] = arima_haar::allan_variance(p, block);
+    block = block + block;
+  }
+  return variances;
 }
 
 /// Covariance of the logarithms of the overlapping Allan variances of `samples` values of z at the

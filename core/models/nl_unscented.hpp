@@ -80,23 +80,22 @@ class NlUnscented {
   /// P <- (P^-1 - 2 diag(mu))^-1. False, with nothing changed, where that does not exist.
   [[nodiscard]] bool risk_update(const State& mu) { return inflate_root<T, n>(root_, mu); }
 
-  /// z = x_k + v, with points redrawn from the predicted state. The measurement is linear, so the
-  /// points' predicted z lie at +- spread root_(0, i) around mean_(0) and the central term is zero:
-  /// S_z^2 = root_(0, :) root_(0, :)^T + R and P_xz = root_ root_(0, :)^T whatever the weights are.
-  /// U = K S_z ([A eq. 20] prints P_xz S_z: mended). `sound` is false, with nothing changed, where
-  /// the update does not exist.
+  /// z = x_k + v, with points redrawn from the predicted state.
+  ///
+  /// The measurement is state 0 and the root lower triangular, so the points' z lie at mean_(0) and
+  /// mean_(0) +- spread root_(0, 0): S_z^2 = root_(0, 0)^2 + R and P_xz = root_(0, 0) root_(:, 0),
+  /// whatever the weights are. The downdate by U = K S_z ([A eq. 20] prints P_xz S_z: mended) then
+  /// concerns column 0 alone and scales it by sqrt(R) / S_z, which cannot lose definiteness.
+  /// `sound` is false, with nothing changed, where S_z is zero.
   Innovation<T, 1> measurement_update(const T& z) {
     using std::sqrt;
     Innovation<T, 1> innovation;
     innovation.value(0) = z - mean_(0);
-    innovation.covariance(0) = root_.row(0).squaredNorm() + noise_std_ * noise_std_;
+    innovation.covariance(0) = root_(0, 0) * root_(0, 0) + noise_std_ * noise_std_;
     const T& variance = innovation.covariance(0);
     if (!(variance > T(0.0))) return innovation;
-    const State cross = root_ * root_.row(0).transpose();
-    Root root = root_;
-    if (!downdate_root<T, n>(root, cross / sqrt(variance))) return innovation;
-    mean_ += cross / variance * innovation.value(0);
-    root_ = root;
+    mean_ += root_.col(0) * (root_(0, 0) / variance * innovation.value(0));
+    root_.col(0) *= noise_std_ / sqrt(variance);
     innovation.sound = true;
     return innovation;
   }

@@ -1,0 +1,81 @@
+#include "analysis/fits/thermal_regression.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "generators/scenario.hpp"
+
+namespace gyrostat {
+namespace {
+
+Scenario warm_up(double delta_dps) {
+  Scenario scenario;
+  scenario.sampling = {.duration_s = 2000.0, .rate_hz = 5.0};
+  scenario.thermal_drift = {0.003, 0.2, -0.1};
+  scenario.temperature = temperature::RampAndCooling{.ramp_s = 700.0, .cooling_time_constant_s = 400.0};
+  scenario.random_error = {0.0, delta_dps, 0.0, 0.02};
+  return scenario;
+}
+
+TEST(ThermalRegression, IsExactOnALinearDriftWithoutNoise) {
+  Scenario scenario = warm_up(0.0);
+  scenario.random_error.measurement_noise_std_dps = 0.0;
+  scenario.thermal_drift.b_dps_s_per_C = 0.0;
+  // The mean of a T over an interval differs from a T at its end by a T' dt / 2, which b takes on.
+  Series series;
+  synthesise(scenario, {1, 0}, series);
+  const auto fit = fit_thermal_drift(series);
+  EXPECT_NEAR(fit.parameters.a_dps_per_C, 0.003, 1e-6);
+  EXPECT_NEAR(fit.parameters.c_dps, -0.1, 5e-5);
+  EXPECT_NEAR(fit.parameters.b_dps_s_per_C, -0.003 * 10.0 / 2, 1e-3);
+}
+
+/// Share of runs whose 95 % interval holds the true a.
+double coverage(double delta_dps, int runs) {
+  Series series;
+  int covered = 0;
+  for (int trial = 0; trial < runs; ++trial) {
+    synthesise(warm_up(delta_dps), {7, static_cast<std::uint32_t>(trial)}, series);
+    const auto fit = fit_thermal_drift(series);
+    covered += std::abs(fit.parameters.a_dps_per_C - 0.003) <
+               1.97 * fit.standard_errors.a_dps_per_C;
+  }
+  return static_cast<double>(covered) / runs;
+}
+
+// 300 runs: the standard error of a coverage of 0.95 is 0.0126; 0.90-0.99 lies 3-4 of them away.
+TEST(ThermalRegression, KnowsItsErrorsInWhiteNoise) {
+  const double share = coverage(0.0, 300);
+  EXPECT_GE(share, 0.90);
+  EXPECT_LE(share, 0.99);
+}
+
+TEST(ThermalRegression, KnowsItsErrorsWhenTheResidualWanders) {
+  const double share = coverage(0.0005, 300);
+  EXPECT_GE(share, 0.90);
+  EXPECT_LE(share, 0.99);
+}
+
+TEST(ThermalRegression, DoesNotJudgeATemperatureThatStandsStill) {
+  Scenario scenario = warm_up(0.0);
+  scenario.temperature = temperature::QuietRoom{.start_C = 25.0, .end_C = 25.5};
+  Series series;
+  synthesise(scenario, {1, 0}, series);
+  const auto fit = fit_thermal_drift(series);
+  EXPECT_EQ(fit.parameters.a_dps_per_C, 0.0);
+  EXPECT_TRUE(std::isinf(fit.standard_errors.a_dps_per_C));
+  EXPECT_THAT(fit.message, testing::HasSubstr("not assessable"));
+}
+
+TEST(ThermalRegression, NeedsFourIntervals) {
+  Scenario scenario = warm_up(0.0);
+  scenario.sampling.duration_s = 35.0;
+  Series series;
+  synthesise(scenario, {1, 0}, series);
+  EXPECT_THROW((void)fit_thermal_drift(series), InputError);
+}
+
+}  // namespace
+}  // namespace gyrostat

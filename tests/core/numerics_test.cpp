@@ -1,0 +1,297 @@
+#include "core/numerics/cholesky.hpp"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include "core/numerics/kalman.hpp"
+#include "core/numerics/unscented.hpp"
+#include "core/random.hpp"
+
+namespace gyrostat {
+namespace {
+
+constexpr int n = 7;
+using Square = Matrix<double, n>;
+using Column = Vector<double, n>;
+
+/// Random matrices, all different, from one stream.
+class Numerics : public testing::Test {
+ protected:
+  template <int Rows, int Columns>
+  Matrix<double, Rows, Columns> random() {
+    Matrix<double, Rows, Columns> m;
+    for (int j = 0; j < Columns; ++j)
+      for (int i = 0; i < Rows; ++i) m(i, j) = stream_.normal(at_++);
+    return m;
+  }
+
+  /// A lower root with a diagonal of mixed signs, well away from zero.
+  Square random_root() {
+    Square root = random<n, n>().triangularView<Eigen::Lower>();
+    for (int i = 0; i < n; ++i) root(i, i) += root(i, i) < 0.0 ? -2.0 : 2.0;
+    return root;
+  }
+
+  Column random_direction() { return random<n, 1>().normalized(); }
+
+  static constexpr int repetitions = 200;
+
+ private:
+  NormalStream stream_{1, 0, "numerics"};
+  std::uint64_t at_ = 0;
+};
+
+Square square(const Square& root) { return root * root.transpose(); }
+
+template <class A, class B>
+void expect_close(const A& a, const B& b, double tolerance = 1e-12) {
+  EXPECT_LE((a - b).norm(), tolerance * (1.0 + b.norm())) << a << "\n\n" << b;
+}
+
+bool is_lower(const Square& root) {
+  return root.triangularView<Eigen::StrictlyUpper>().toDenseMatrix().isZero(0.0);
+}
+
+TEST_F(Numerics, LowerRootTimesItsTransposeIsTheGramMatrix) {
+  for (int k = 0; k < repetitions; ++k) {
+    const auto a = random<n, 2 * n>();
+    const Square root = lower_root<double, n, 2 * n>(a);
+    EXPECT_TRUE(is_lower(root));
+    expect_close(square(root), a * a.transpose());
+  }
+}
+
+TEST_F(Numerics, LowerRootStandsSingularMatrices) {
+  for (int rank = 0; rank < n; ++rank) {
+    Matrix<double, n, 2 * n> a = Matrix<double, n, 2 * n>::Zero();
+    for (int k = 0; k < rank; ++k) a += random<n, 1>() * random<1, 2 * n>();
+    const Square root = lower_root<double, n, 2 * n>(a);
+    EXPECT_TRUE(is_lower(root));
+    expect_close(square(root), a * a.transpose());
+  }
+}
+
+TEST_F(Numerics, LowerRootStandsZeroRowsAndScalesFarApart) {
+  for (int row = 0; row < n; ++row) {
+    auto a = random<n, 2 * n>();
+    a.row(row).setZero();
+    expect_close(square(lower_root<double, n, 2 * n>(a)), a * a.transpose());
+    a.row(row) = 1e-9 * random<1, 2 * n>();
+    const Square root = lower_root<double, n, 2 * n>(a);
+    EXPECT_NEAR(root.row(row).norm(), a.row(row).norm(), 1e-12 * a.row(row).norm());
+  }
+}
+
+TEST_F(Numerics, LowerRootOfALowerRootIsItself) {
+  const Square root = random_root();
+  expect_close(lower_root<double, n, n>(root), root, 0.0);
+}
+
+TEST_F(Numerics, UpdateAddsTheOuterProduct) {
+  for (int k = 0; k < repetitions; ++k) {
+    Square root = random_root();
+    const Column v = random<n, 1>();
+    const Square expected = square(root) + v * v.transpose();
+    update_root<double, n>(root, v);
+    EXPECT_TRUE(is_lower(root));
+    expect_close(square(root), expected);
+  }
+}
+
+TEST_F(Numerics, UpdateStandsARootThatIsZeroOrSingular) {
+  Square root = Square::Zero();
+  Square expected = Square::Zero();
+  for (int k = 0; k < n; ++k) {
+    Column v = random<n, 1>();
+    v.head(k / 2).setZero();
+    expected += v * v.transpose();
+    update_root<double, n>(root, v);
+    expect_close(square(root), expected);
+  }
+}
+
+TEST_F(Numerics, DowndateSubtractsTheOuterProduct) {
+  for (int k = 0; k < repetitions; ++k) {
+    Square root = random_root();
+    const Column v = root * random_direction() * 0.9;
+    const Square expected = square(root) - v * v.transpose();
+    ASSERT_TRUE((downdate_root<double, n>(root, v)));
+    EXPECT_TRUE(is_lower(root));
+    expect_close(square(root), expected);
+  }
+}
+
+TEST_F(Numerics, DowndateUndoesUpdate) {
+  for (int k = 0; k < repetitions; ++k) {
+    const Square before = random_root();
+    Square root = before;
+    const Column v = random<n, 1>();
+    update_root<double, n>(root, v);
+    ASSERT_TRUE((downdate_root<double, n>(root, v)));
+    expect_close(square(root), square(before));
+  }
+}
+
+TEST_F(Numerics, DowndateLeavesSingularDirectionsThatItDoesNotTouch) {
+  Square root = random_root();
+  root.row(3).setZero();
+  root.col(3).setZero();
+  Column v = root * random_direction() * 0.5;
+  ASSERT_EQ(v(3), 0.0);
+  const Square expected = square(root) - v * v.transpose();
+  ASSERT_TRUE((downdate_root<double, n>(root, v)));
+  expect_close(square(root), expected);
+  v(3) = 1e-3;
+  EXPECT_FALSE((downdate_root<double, n>(root, v)));
+}
+
+/// L L^T - (L u)(L u)^T = L (I - u u^T) L^T is positive definite exactly while |u| < 1.
+TEST_F(Numerics, DowndateRefusesExactlyWhereTheDifferenceIsNotPositiveDefinite) {
+  for (int k = 0; k < repetitions; ++k)
+    for (const double margin : {1e-2, 1e-5, 1e-8, 1e-11}) {
+      const Square before = random_root();
+      const Column boundary = before * random_direction();
+      Square root = before;
+      const Column inside = boundary * (1.0 - margin);
+      ASSERT_TRUE((downdate_root<double, n>(root, inside))) << margin;
+      expect_close(square(root), square(before) - inside * inside.transpose());
+      root = before;
+      EXPECT_FALSE((downdate_root<double, n>(root, boundary * (1.0 + margin)))) << margin;
+      EXPECT_TRUE((root.array() == before.array()).all()) << "the root was touched";
+    }
+}
+
+/// The paper's own form, [A eq. 15] in terms of covariance.
+Square inflated(const Square& P, const Column& mu) {
+  const Square twice_mu = (2.0 * mu).asDiagonal();
+  return (P.inverse() - twice_mu).inverse();
+}
+
+/// P^-1 - 2 mu is positive definite exactly while this is below 1.
+double breaking_scale(const Square& root, const Column& mu) {
+  const Square middle = root.transpose() * (2.0 * mu).asDiagonal() * root;
+  return Eigen::SelfAdjointEigenSolver<Square>(middle).eigenvalues().maxCoeff();
+}
+
+TEST_F(Numerics, InflateIsTheRiskSensitiveUpdateInInformationForm) {
+  for (int k = 0; k < repetitions; ++k) {
+    Square root = random_root();
+    Column mu = random<n, 1>().cwiseAbs();
+    mu *= 0.8 / breaking_scale(root, mu);
+    const Square expected = inflated(square(root), mu);
+    ASSERT_TRUE((inflate_root<double, n>(root, mu)));
+    EXPECT_TRUE(is_lower(root));
+    expect_close(square(root), expected, 1e-11);
+  }
+}
+
+/// (P^-1 - 2 mu)^-1 = P (I - 2 mu P)^-1, which needs no inverse of P.
+TEST_F(Numerics, InflateStandsASingularCovariance) {
+  for (int k = 0; k < repetitions; ++k) {
+    Square root = random_root();
+    root.col(2).setZero();
+    root.col(5).setZero();
+    Column mu = random<n, 1>().cwiseAbs();
+    mu *= 0.8 / breaking_scale(root, mu);
+    const Square P = square(root), twice_mu = (2.0 * mu).asDiagonal();
+    const Square expected = P * (Square::Identity() - twice_mu * P).inverse();
+    ASSERT_TRUE((inflate_root<double, n>(root, mu)));
+    expect_close(square(root), expected, 1e-11);
+  }
+}
+
+TEST_F(Numerics, InflateByZeroIsTheIdentity) {
+  const Square before = random_root();
+  Square root = before;
+  ASSERT_TRUE((inflate_root<double, n>(root, Column::Zero())));
+  EXPECT_TRUE((root.array() == before.array()).all());
+}
+
+TEST_F(Numerics, InflateRefusesExactlyWhereTheInformationIsNotPositiveDefinite) {
+  for (int k = 0; k < repetitions; ++k)
+    for (const double margin : {1e-2, 1e-5, 1e-8, 1e-11}) {
+      const Square before = random_root();
+      Column mu = random<n, 1>().cwiseAbs();
+      mu /= breaking_scale(before, mu);
+      Square root = before;
+      EXPECT_TRUE((inflate_root<double, n>(root, mu * (1.0 - margin)))) << margin;
+      root = before;
+      EXPECT_FALSE((inflate_root<double, n>(root, mu * (1.0 + margin)))) << margin;
+      EXPECT_TRUE((root.array() == before.array()).all()) << "the root was touched";
+    }
+}
+
+TEST_F(Numerics, PropagationIsTheSimilarityByF) {
+  const auto F = random<3, 3>();
+  const auto a = random<3, 3>();
+  Gaussian<double, 3> state{random<3, 1>(), a * a.transpose()};
+  const auto before = state;
+  propagate(state, F);
+  expect_close(state.mean, F * before.mean);
+  expect_close(state.covariance, F * before.covariance * F.transpose());
+}
+
+TEST_F(Numerics, TheMeasurementUpdateAddsInformation) {
+  for (int k = 0; k < repetitions; ++k) {
+    const auto a = random<3, 3>();
+    Gaussian<double, 3> state{random<3, 1>(), a * a.transpose() + Matrix<double, 3>::Identity()};
+    const auto before = state;
+    const auto H = random<2, 3>();
+    const Matrix<double, 2> R = Vector<double, 2>(0.5, 2.0).asDiagonal();
+    const Vector<double, 2> z = random<2, 1>();
+    const auto innovation = measurement_update<double, 3, 2>(state, H, R, z);
+    ASSERT_TRUE(innovation.sound);
+    const Matrix<double, 3> information =
+        before.covariance.inverse() + H.transpose() * R.inverse() * H;
+    expect_close(state.covariance, information.inverse());
+    expect_close(state.mean, information.inverse() * (before.covariance.inverse() * before.mean +
+                                                      H.transpose() * R.inverse() * z));
+    expect_close(innovation.value, z - H * before.mean);
+    expect_close(innovation.covariance, H * before.covariance * H.transpose() + R);
+  }
+}
+
+TEST_F(Numerics, MeasuringTheFirstStateIsTheGeneralUpdateWithAUnitRow) {
+  for (int k = 0; k < repetitions; ++k) {
+    const auto a = random<3, 3>();
+    Gaussian<double, 3> general{random<3, 1>(), a * a.transpose()}, first = general;
+    const double r = 0.3, z = random<1, 1>()(0);
+    const Matrix<double, 1, 3> H(1.0, 0.0, 0.0);
+    measurement_update<double, 3, 1>(general, H, Matrix<double, 1>(r), Vector<double, 1>(z));
+    const auto innovation = measure_first(first, r, z);
+    ASSERT_TRUE(innovation.sound);
+    expect_close(first.mean, general.mean);
+    expect_close(first.covariance, general.covariance);
+  }
+}
+
+TEST_F(Numerics, ASingularInnovationLeavesTheStateUntouched) {
+  Gaussian<double, 3> state{random<3, 1>(), Matrix<double, 3>::Zero()};
+  const auto before = state;
+  const Matrix<double, 1, 3> H(1.0, 0.0, 0.0);
+  EXPECT_FALSE((measurement_update<double, 3, 1>(state, H, Matrix<double, 1>::Zero(),
+                                                 Vector<double, 1>(1.0))
+                    .sound));
+  EXPECT_FALSE(measure_first(state, 0.0, 1.0).sound);
+  EXPECT_EQ(state.mean, before.mean);
+  EXPECT_EQ(state.covariance, before.covariance);
+}
+
+TEST_F(Numerics, UnscentedWeightsReproduceMeanAndCovariance) {
+  for (const double alpha : {1e-3, 0.1, 1.0, 2.0})
+    for (const double kappa : {-4.0, 0.0, 3.0}) {
+      const UnscentedWeights<double> w(n, alpha, 2.0, kappa);
+      const double lambda = alpha * alpha * (n + kappa) - n;
+      EXPECT_NEAR(w.spread * w.spread, n + lambda, 1e-12 * (n + kappa));
+      EXPECT_NEAR(2.0 * w.other * w.spread * w.spread, 1.0, 1e-12);
+      const double centre = lambda / (n + lambda) + 1.0 - alpha * alpha + 2.0;
+      EXPECT_NEAR(w.covariance_centre, centre, 1e-9 * std::abs(centre));
+    }
+}
+
+}  // namespace
+}  // namespace gyrostat
