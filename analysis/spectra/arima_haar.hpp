@@ -80,9 +80,10 @@ Vector<T, Eigen::Dynamic> dyadic_allan_variances(const Arima111<T>& p, std::size
 }
 
 /// Covariance of the logarithms of the overlapping Allan variances of `samples` values of z at the
-/// clusters 1, 2, 4, ... 2^(scales - 1). With G_j the power gain of the Haar filter and S the
-/// (pseudo-)spectrum of z, cov(nu_i, nu_j) = 2 / sqrt(M_i M_j) * mean over frequency of
-/// G_i G_j S^2, M_j = samples - 2^(j+1) + 1 (Percival & Walden 2000, eq. 307c, for two scales).
+/// clusters 1, 2, 4, ... 2^(scales - 1), 2^scales <= samples. With G_j the power gain of the Haar
+/// filter and S the (pseudo-)spectrum of z, cov(nu_i, nu_j) = 2 / sqrt(M_i M_j) * mean over
+/// frequency of G_i G_j S^2, M_j = samples - 2^(j+1) + 1 (Serroukh, Walden & Percival, JASA 2000),
+/// and var log nu = v + v^2 / 2 for var nu = v nu^2.
 inline Eigen::MatrixXd log_allan_covariance(const Arima111<double>& p, std::size_t samples,
                                             std::size_t scales) {
   const double delta1 = p.delta1_dps, delta2 = p.delta2_dps;

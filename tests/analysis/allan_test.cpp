@@ -40,7 +40,7 @@ double standard_error(const AllanPoint& point) {
   return point.deviation / std::sqrt(2.0 * point.edf);
 }
 
-/// The 1000-point test set of NIST SP 1065 section 12.4.
+/// The 1000-point test suite of NIST SP 1065.
 std::vector<double> nist_test_set() {
   std::vector<double> rate;
   for (std::uint64_t n = 1234567890; rate.size() < 1000; n = 16807 * n % 2147483647)
@@ -113,8 +113,10 @@ TEST(Allan, DegreesOfFreedomAreThoseOfTheOverlappingWindows) {
     const double edf = overlapping_allan_deviation(white(n), 1.0, cluster).front().edf;
     EXPECT_NEAR(edf / exact_edf(difference, n - 2 * m + 1), 1.0, 0.001) << m;
     const double walk_edf = overlapping_allan_deviation(random_walk(n), 1.0, cluster).front().edf;
-    // The formula's random walk goes on between the samples, which tells at m = 1 only.
-    EXPECT_NEAR(walk_edf / exact_edf(triangle, n - 2 * m + 1), 1.0, m == 1 ? 0.12 : 0.02) << m;
+    // The formula's random walk goes on between the samples, which tells while m is small.
+    EXPECT_NEAR(walk_edf / exact_edf(triangle, n - 2 * m + 1), 1.0,
+                0.002 + 0.17 / static_cast<double>(m))
+        << m;
   }
 }
 
@@ -217,14 +219,15 @@ TEST(RobustAllan, OfGaussianNoiseIsTheAllanVariance) {
   }
 }
 
+// 82 of 50000 coefficients at 16 times the variance make 3 %; 4.5 standard errors are 9 %.
 TEST(RobustAllan, OfABurstIsBounded) {
   auto rate = white(50'000);
-  for (std::size_t i = 20'000; i < 20'050; ++i) rate[i] += 1000.0 * (i % 2 == 0 ? 1.0 : -0.3);
+  for (std::size_t i = 20'000; i < 20'050; ++i) rate[i] *= 1000.0;
   const std::vector<std::size_t> clusters = {1, 4, 16};
   const auto robust = robust_allan_variances(rate, clusters);
   const auto plain = overlapping_allan_deviation(rate, 1.0, clusters);
   for (std::size_t j = 0; j < clusters.size(); ++j) {
-    EXPECT_NEAR(robust[j] * static_cast<double>(clusters[j]), 1.0, 0.15);
+    EXPECT_NEAR(robust[j] * static_cast<double>(clusters[j]), 1.0, 0.12);
     EXPECT_GT(plain[j].deviation / std::sqrt(robust[j]), 10.0);
   }
 }

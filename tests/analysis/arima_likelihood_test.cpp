@@ -1,10 +1,10 @@
 #include "analysis/fits/arima_likelihood.hpp"
 
-#include <ceres/jet.h>
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <limits>
+
+#include <ceres/jet.h>
+#include <gmock/gmock.h>
 
 #include "analysis/fits/arima_innovations.hpp"
 #include "core/error.hpp"
@@ -65,14 +65,13 @@ TEST(ArimaInnovations, GiveTheDensityOfTheDifferencedSignal) {
     difference(i) = z[i + 1] - z[i];
     for (Eigen::Index j = 0; j < n; ++j) {
       const auto lag = std::abs(i - j);
-      covariance(i, j) = lag == 0 ? variance + 2 * R
-                                  : lag_one * std::pow(phi, static_cast<double>(lag - 1)) -
-                                        (lag == 1 ? R : 0.0);
+      covariance(i, j) =
+          lag == 0 ? variance + 2 * R
+                   : lag_one * std::pow(phi, static_cast<double>(lag - 1)) - (lag == 1 ? R : 0.0);
     }
   }
-  const double expected =
-      -0.5 * (std::log(covariance.determinant()) + n * std::log(2 * M_PI) +
-              difference.dot(covariance.inverse() * difference));
+  const double expected = -0.5 * (std::log(covariance.determinant()) + n * std::log(2 * M_PI) +
+                                  difference.dot(covariance.inverse() * difference));
   EXPECT_NEAR(arima_log_likelihood(model, z), expected, 1e-8 * std::abs(expected));
 }
 
@@ -99,8 +98,8 @@ TEST(ArimaInnovations, PassOverMissingSamplesAsTheThreeStateFilterDoes) {
 // 320 fits of 20,000 samples. Were the standard errors exact and the errors normal, 0.27 % of fits
 // would miss by more than 3 of them, and the bound of 1 % (3 fits) would fail by chance with
 // probability 0.6 % a parameter; the coverage of 95 % intervals has a standard error of 1.2 %, so
-// the band 92-98 % fails by chance with probability 1.4 % a parameter. The fixed seed is that of the
-// file, chosen once.
+// the band 92-98 % fails by chance with probability 1.4 % a parameter. The fixed seed is that of
+// the file, chosen once.
 TEST(ArimaLikelihood, RecoversItsParametersAndKnowsItsOwnErrors) {
   const Arima111<double> truth{0.9, 0.01, 0.002, 0.01};
   constexpr std::uint32_t fits = 320;
@@ -125,8 +124,8 @@ TEST(ArimaLikelihood, RecoversItsParametersAndKnowsItsOwnErrors) {
 }
 
 TEST(ArimaLikelihood, GivesTheSimplestModelWhereTheSignalDoesNotTell) {
-  // A pure random walk in white noise: phi = theta = 0 is the truth, and (phi, theta) = (c, c) is the
-  // same signal.
+  // A pure random walk in white noise: phi = theta = 0 is the truth, and (phi, theta) = (c, c) is
+  // the same signal.
   const auto fit = fit_arima_likelihood(simulated({0.0, 0.002, 0.0, 0.02}, 6000, 3));
   EXPECT_TRUE(fit.converged);
   EXPECT_NEAR(fit.parameters.delta1_dps, 0.002, 5 * fit.standard_errors.delta1_dps);

@@ -1,8 +1,8 @@
 #include "analysis/fits/thermal_regression.hpp"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
+
+#include <gmock/gmock.h>
 
 #include "core/error.hpp"
 #include "generators/scenario.hpp"
@@ -14,7 +14,8 @@ Scenario warm_up(double delta_dps) {
   Scenario scenario;
   scenario.sampling = {.duration_s = 2000.0, .rate_hz = 5.0};
   scenario.thermal_drift = {0.003, 0.2, -0.1};
-  scenario.temperature = temperature::RampAndCooling{.ramp_s = 700.0, .cooling_time_constant_s = 400.0};
+  scenario.temperature =
+      temperature::RampAndCooling{.ramp_s = 700.0, .cooling_time_constant_s = 400.0};
   scenario.random_error = {0.0, delta_dps, 0.0, 0.02};
   return scenario;
 }
@@ -39,8 +40,8 @@ double coverage(double delta_dps, int runs) {
   for (int trial = 0; trial < runs; ++trial) {
     synthesise(warm_up(delta_dps), {7, static_cast<std::uint32_t>(trial)}, series);
     const auto fit = fit_thermal_drift(series);
-    covered += std::abs(fit.parameters.a_dps_per_C - 0.003) <
-               1.97 * fit.standard_errors.a_dps_per_C;
+    covered +=
+        std::abs(fit.parameters.a_dps_per_C - 0.003) < 1.97 * fit.standard_errors.a_dps_per_C;
   }
   return static_cast<double>(covered) / runs;
 }
