@@ -1,5 +1,6 @@
 #include "experiments/method.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -13,15 +14,6 @@ constexpr std::array<std::pair<std::string_view, ParameterSource>, 3> sources = 
     {"calibration", ParameterSource::calibration},
     {"truth", ParameterSource::truth},
 }};
-
-ParameterSource source_named(const std::string& name, const std::string& place) {
-  std::vector<std::string> names;
-  for (const auto& [known, source] : sources) {
-    if (known == name) return source;
-    names.emplace_back(known);
-  }
-  throw InputError(place, unknown_name("source of parameters", name, names));
-}
 
 ParameterSource source_of(const std::string& filter, ParameterSource fallback) {
   return filter == "oracle" ? ParameterSource::truth : fallback;
@@ -56,7 +48,7 @@ Method read_method(const Json& value, const std::string& place, ParameterSource 
   method.source = source_of(method.filter, fallback);
   if (object.has("parameters_from"))
     method.source =
-        source_named(object.text("parameters_from", ""), object.place_of("parameters_from"));
+        parameter_source_named(object.text("parameters_from", ""), object.place_of("parameters_from"));
   if (auto parameters = object.child("parameters"))
     method.overrides = read_overrides(*parameters, method.filter);
   object.finish();
@@ -77,10 +69,22 @@ std::vector<Method> read_methods(JsonObject& object, const std::string& key,
   return methods;
 }
 
-std::vector<Method> all_methods() {
+ParameterSource parameter_source_named(const std::string& name, const std::string& place) {
+  std::vector<std::string> names;
+  for (const auto& [known, source] : sources) {
+    if (known == name) return source;
+    names.emplace_back(known);
+  }
+  throw InputError(place, unknown_name("source of parameters", name, names));
+}
+
+std::vector<Method> all_methods(ParameterSource source) {
   std::vector<Method> methods;
   for (const auto& id : Filters::ids())
-    methods.push_back({id, id, source_of(id, ParameterSource::calibration), {}});
+    methods.push_back({id, id, source_of(id, source), {}});
+  // What every other row is read against stands at the top and at the bottom.
+  std::stable_partition(methods.begin(), methods.end(), [](const auto& m) { return m.id == "none"; });
+  std::stable_partition(methods.begin(), methods.end(), [](const auto& m) { return m.id != "oracle"; });
   return methods;
 }
 

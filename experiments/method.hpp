@@ -25,7 +25,10 @@ struct Method {
 std::vector<Method> read_methods(JsonObject& object, const std::string& key,
                                  ParameterSource default_source);
 
-/// Every filter under its own name, as a study without a list of filters has them.
-std::vector<Method> all_methods();
+/// Every filter under its own name, "none" first and "oracle" last.
+std::vector<Method> all_methods(ParameterSource source);
+
+/// The source called `name`; throws InputError at `place` otherwise.
+ParameterSource parameter_source_named(const std::string& name, const std::string& place);
 
 }  // namespace gyrostat

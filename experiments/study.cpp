@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/filters/list.hpp"
+#include "experiments/grid.hpp"
 #include "experiments/recording.hpp"
 
 namespace gyrostat {
@@ -78,6 +80,19 @@ CalibrationPlan read_calibration(JsonObject object) {
   return plan;
 }
 
+/// Factors by parameter name; any parameter of any filter may be misjudged.
+ParameterMap read_assumed(JsonObject object) {
+  ParameterMap factors;
+  Filters::for_each([&](auto plugin) {
+    for (const auto& field : decltype(plugin)::type::Parameters::fields()) {
+      const std::string name(field.name);
+      if (object.has(name)) factors[name] = object.number(name, 1.0, ranges::any, "times");
+    }
+  });
+  object.finish();
+  return factors;
+}
+
 Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) {
   Cell cell;
   cell.name = object.text("name", fmt::format("cell_{}", index + 1));
@@ -85,9 +100,10 @@ Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) 
   if (auto scenario = object.child("scenario")) cell.scenario = read_scenario(*scenario, folder);
   if (auto calibration = object.child("calibration"))
     cell.calibration = read_calibration(*calibration);
-  cell.methods = object.has("filters")
-                     ? read_methods(object, "filters", ParameterSource::calibration)
-                     : all_methods();
+  if (auto assumed = object.child("assumed")) cell.assumed = read_assumed(*assumed);
+  const auto source = parameter_source_named(object.text("parameters_from", "calibration"),
+                                             object.place_of("parameters_from"));
+  cell.methods = object.has("filters") ? read_methods(object, "filters", source) : all_methods(source);
   if (cell.methods.empty()) throw InputError(object.place_of("filters"), "the list is empty");
   object.finish();
   return cell;
@@ -133,7 +149,8 @@ Study read_study(const std::string& path) {
   study.title = object.text("title", std::filesystem::path(path).stem().string());
   study.seed = static_cast<std::uint64_t>(object.number("seed", 1, seed_range, ""));
   for (const auto& [value, place] : object.list("cells"))
-    study.cells.push_back(read_cell({*value, place}, folder, study.cells.size()));
+    for (const auto& [cell, cell_place] : expand_grid(*value, place))
+      study.cells.push_back(read_cell({cell, cell_place}, folder, study.cells.size()));
   if (study.cells.empty()) throw InputError(path, "\"cells\" is missing or empty");
   object.finish();
   return study;

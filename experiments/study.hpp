@@ -24,6 +24,7 @@ struct Cell {
   std::uint32_t trials = 1000;
   Scenario scenario;
   CalibrationPlan calibration;
+  ParameterMap assumed;  ///< factors on what filters other than the oracle are told
   std::vector<Method> methods;
 };
 

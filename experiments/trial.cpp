@@ -77,10 +77,13 @@ Record run_trial(const Cell& cell, const Calibration& shared, std::uint64_t seed
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
     const auto& method = cell.methods[m];
     const auto start = std::chrono::steady_clock::now();
-    const ParameterMap none;
-    const auto& parameters = method.source == ParameterSource::truth         ? truth
-                             : method.source == ParameterSource::calibration ? fitted
-                                                                             : none;
+    ParameterMap parameters;
+    if (method.source == ParameterSource::truth) parameters = truth;
+    if (method.source == ParameterSource::calibration) parameters = fitted;
+    if (method.filter != "oracle")
+      for (const auto& [name, factor] : cell.assumed)
+        if (const auto value = parameters.find(name); value != parameters.end())
+          value->second *= factor;
     record.outcomes.push_back(run_method(method, parameters, series, workspace.track));
     workspace.seconds[m] +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -46,7 +46,8 @@ struct Moments {
   Eigen::Index scales() const { return log_variance.size(); }
 
   void weigh(const Free& free) {
-    const auto covariance = log_allan_covariance(model_of(free), samples, scales());
+    Eigen::MatrixXd covariance = log_allan_covariance(model_of(free), samples, scales());
+    covariance.diagonal() *= 1.0 + 1e-6;  // a smooth x correlates the scales almost fully
     log_bias = -0.5 * covariance.diagonal();
     whitener = covariance.llt().matrixL().solve(Eigen::MatrixXd::Identity(scales(), scales()));
   }
@@ -179,8 +180,9 @@ Moments measure(std::span<const double> rate, double& unit) {
   if (!(unit > 0.0)) throw InputError("rate", "hardly ever changes");
   Moments moments{.samples = n, .log_variance = {}, .log_bias = {}, .whitener = {}};
   moments.log_variance =
-      Eigen::VectorXd::Map(variances.data(), std::ssize(variances)).array().log() -
-      2.0 * std::log(unit);
+      (Eigen::VectorXd::Map(variances.data(), std::ssize(variances)) / variances.front())
+          .array()
+          .log();
   return moments;
 }
 

@@ -54,8 +54,9 @@ T allan_variance(const Arima111<T>& p, const Block<T>& block) {
 
 /// Allan variance, dps^2, of z = x + v at clusters of `cluster` >= 1 samples: half the mean square
 /// of the difference of neighbouring cluster means. Exact for |phi| < 1, by doubling blocks in
-/// O(log cluster). Nothing is lost near phi = 0, |phi| = 1 or delta2 = delta1, where the closed
-/// form by geometric sums cancels as (1 - phi)^-4.
+/// O(log cluster). Nothing is lost near phi = 0 or |phi| = 1, where the closed form by geometric
+/// sums cancels as (1 - phi)^-4; with delta2 = delta1, x being stationary, the relative error is of
+/// the order of 1e-16 cluster^2.
 template <class T>
 T arima_allan_variance(const Arima111<T>& p, std::size_t cluster) {
   const auto step = arima_haar::one_step(p);

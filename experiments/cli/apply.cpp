@@ -21,7 +21,7 @@ struct ApplyArguments {
 int run(const ApplyArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const auto fit = fit_method_named(arguments.fit, "--fit");
-  std::vector<Method> methods = all_methods();
+  std::vector<Method> methods = all_methods(ParameterSource::calibration);
   ParameterSource source = ParameterSource::calibration;
   if (!arguments.config.empty()) {
     source = ParameterSource::defaults;

@@ -95,13 +95,13 @@ TEST(JoinFields, KeepsOrderAndTextAndReachesTheMembersOfEveryBase) {
 TEST(CastParameters, CarriesEveryFieldToTheOtherScalar) {
   filters::SrRsukfParameters<double> p;
   for (const auto& field : p.fields()) p.*(field.member) += 0.125;
-  const auto cast = cast_parameters<float>(p);
+  const auto cast = cast_parameters<long double>(p);
   const auto from = p.fields();
   const auto to = cast.fields();
   ASSERT_EQ(from.size(), to.size());
   for (std::size_t i = 0; i < from.size(); ++i) {
     EXPECT_EQ(from[i].name, to[i].name);
-    EXPECT_EQ(static_cast<float>(p.*(from[i].member)), cast.*(to[i].member)) << from[i].name;
+    EXPECT_EQ(static_cast<long double>(p.*(from[i].member)), cast.*(to[i].member)) << from[i].name;
   }
 }
 
