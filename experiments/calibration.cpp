@@ -108,8 +108,6 @@ ParameterMap true_parameters(const Scenario& scenario) {
   values["initial_x_std_dps"] = 0.0;
   values["initial_x_previous_std_dps"] = std::sqrt(
       (delta1 * delta1 + delta2 * delta2 - 2.0 * phi * delta1 * delta2) / (1.0 - phi * phi));
-  values["initial_phi_std"] = 0.0;
-  values["initial_delta1_std_dps"] = values["initial_delta2_std_dps"] = 0.0;
   return values;
 }
 

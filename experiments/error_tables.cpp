@@ -12,19 +12,9 @@
 namespace gyrostat {
 namespace {
 
-std::size_t metric_index(std::string_view id) {
-  const auto ids = Metrics::ids();
-  return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
-}
-
-/// A metric of a method in every finished trial.
 std::vector<double> values_of(const CellResult& result, std::size_t method,
                               std::string_view metric) {
-  const std::size_t m = metric_index(metric);
-  std::vector<double> values;
-  for (const auto& record : result.trials)
-    if (record) values.push_back(record->outcomes[method].metrics[m]);
-  return values;
+  return metric_values(result, method, metric_named(std::string(metric), "tables"));
 }
 
 Summary summary_of(const CellResult& result, std::size_t method, std::string_view metric) {
@@ -93,12 +83,14 @@ Table comparison_table(const Cell& cell, const CellResult& result, std::string_v
                           {"p adjusted", "1"}, {"verdict", ""}},
               .rows = {}, .notes = {}};
   const auto reference = values_of(result, best, metric);
+  constexpr double rounding = 1e-9;
+  const double scale = summarise(reference).mean;
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
     if (m == best) continue;
     const auto d = paired_difference(values_of(result, m, metric), reference, family);
     std::string verdict = "not separable";
-    if (d.separable) verdict = d.mean > 0.0 ? "worse" : "better";
-    else if (d.mean == 0.0) verdict = "equal";
+    if (std::abs(d.mean) <= rounding * scale) verdict = "equal to rounding";
+    else if (d.separable) verdict = d.mean > 0.0 ? "worse" : "better";
     else if (!std::isnan(d.trials_needed))
       verdict += fmt::format("; about {:.0f} trials would tell", d.trials_needed);
     table.rows.push_back({cell.methods[m].id, gyrostat::cell(d.mean), gyrostat::cell(d.half_width),
@@ -160,6 +152,21 @@ Table calibration_table(const Cell& cell, const CellResult& result) {
     table.notes.push_back(fmt::format("this is trial 0's; each trial has its own, of which {} of {} "
                                       "did not converge", failed, result.finished()));
   }
+  return table;
+}
+
+Table tuning_table(const Cell& cell, const CellResult& result) {
+  const auto metric = Metrics::ids()[cell.tuning.metric];
+  Table table{.title = fmt::format("{}: tuned on {} trials of their own, {} evaluations each", cell.name,
+                                   cell.tuning.trials, cell.tuning.evaluations),
+              .columns = {{"method", ""}, {"parameter", ""}, {"tuned", ""},
+                          {metric + " before", ""}, {metric + " after", ""}},
+              .rows = {}, .notes = {}};
+  for (std::size_t m = 0; m < result.tuned.size(); ++m)
+    for (const auto& [name, value] : result.tuned[m].values)
+      table.rows.push_back({cell.methods[m].id, name, value,
+                            gyrostat::cell(result.tuned[m].objective_before),
+                            gyrostat::cell(result.tuned[m].objective_after)});
   return table;
 }
 

@@ -10,6 +10,9 @@ namespace gyrostat {
 /// The fitted calibration of a cell, with standard errors.
 Table calibration_table(const Cell& cell, const CellResult& result);
 
+/// What tuning found, by method and parameter; no rows where nothing was tuned.
+Table tuning_table(const Cell& cell, const CellResult& result);
+
 /// Error statistics of a cell, one row a method: rate and bias RMSE, heading error, consistency.
 /// Failures stand beside every mean; failed trials stay in it. Nothing in them depends on timing.
 std::vector<Table> error_tables(const Cell& cell, const CellResult& result);

@@ -32,6 +32,29 @@ ParameterMap read_overrides(JsonObject object, const std::string& filter) {
   return given;
 }
 
+/// {"parameter": [low, high]} within the parameter's own range.
+std::map<std::string, SearchRange> read_tune(JsonObject object, const std::string& filter) {
+  std::map<std::string, SearchRange> tune;
+  Filters::with(object.place(), "filter", filter, [&](auto plugin) {
+    for (const auto& field : decltype(plugin)::type::Parameters::fields()) {
+      const std::string name(field.name);
+      const auto bounds = object.list(name);
+      if (bounds.empty()) continue;
+      if (bounds.size() != 2)
+        throw InputError(object.place_of(name), "two bounds [low, high] are needed here");
+      const auto bound = [&](std::size_t i) {
+        return JsonObject::checked_number(*bounds[i].first, bounds[i].second, field.range,
+                                          field.unit);
+      };
+      tune[name] = {bound(0), bound(1), field.range.whole};
+      if (!(tune[name].low < tune[name].high))
+        throw InputError(object.place_of(name), "the lower bound is not below the upper");
+    }
+  });
+  object.finish();
+  return tune;
+}
+
 Method read_method(const Json& value, const std::string& place, ParameterSource fallback) {
   Method method;
   if (value.is_string()) {
@@ -51,6 +74,7 @@ Method read_method(const Json& value, const std::string& place, ParameterSource 
         parameter_source_named(object.text("parameters_from", ""), object.place_of("parameters_from"));
   if (auto parameters = object.child("parameters"))
     method.overrides = read_overrides(*parameters, method.filter);
+  if (auto tune = object.child("tune")) method.tune = read_tune(*tune, method.filter);
   object.finish();
   return method;
 }
@@ -81,7 +105,7 @@ ParameterSource parameter_source_named(const std::string& name, const std::strin
 std::vector<Method> all_methods(ParameterSource source) {
   std::vector<Method> methods;
   for (const auto& id : Filters::ids())
-    methods.push_back({id, id, source_of(id, source), {}});
+    methods.push_back({id, id, source_of(id, source), {}, {}});
   // What every other row is read against stands at the top and at the bottom.
   std::stable_partition(methods.begin(), methods.end(), [](const auto& m) { return m.id == "none"; });
   std::stable_partition(methods.begin(), methods.end(), [](const auto& m) { return m.id != "oracle"; });

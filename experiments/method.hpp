@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/search/box_search.hpp"
 #include "experiments/json_object.hpp"
 #include "experiments/parameter_map.hpp"
 
@@ -17,10 +18,11 @@ struct Method {
   std::string filter;
   ParameterSource source = ParameterSource::calibration;
   ParameterMap overrides;
+  std::map<std::string, SearchRange> tune;  ///< parameters to be tuned, with their bounds
 };
 
 /// Methods from a list of filter names or objects {"id", "filter", "parameters_from",
-/// "parameters"}. Throws InputError for unknown filters and keys, values out of range, and an id
+/// "parameters", "tune"}. Throws InputError for unknown filters and keys, values out of range, and an id
 /// that stands twice.
 std::vector<Method> read_methods(JsonObject& object, const std::string& key,
                                  ParameterSource default_source);

@@ -13,6 +13,14 @@ std::size_t CellResult::finished() const {
       std::count_if(trials.begin(), trials.end(), [](const auto& t) { return t.has_value(); }));
 }
 
+std::vector<double> metric_values(const CellResult& result, std::size_t method,
+                                  std::size_t metric) {
+  std::vector<double> values;
+  for (const auto& record : result.trials)
+    if (record) values.push_back(record->outcomes[method].metrics[metric]);
+  return values;
+}
+
 CellResult run_cell(const Cell& cell, std::uint64_t seed, const RunOptions& options) {
   std::optional<tbb::global_control> limit;
   if (options.threads > 0)
@@ -22,12 +30,14 @@ CellResult run_cell(const Cell& cell, std::uint64_t seed, const RunOptions& opti
   result.trials.resize(cell.trials);
   Series buffer;
   result.calibration = calibrate_cell(cell, seed, 0, buffer);
+  result.tuned = tune_methods(cell, result.calibration, seed);
+  const Cell fixed = with_tuned(cell, result.tuned);
 
   tbb::enumerable_thread_specific<Workspace> workspaces;
   std::atomic<std::size_t> finished{0};
   tbb::parallel_for(std::uint32_t{0}, cell.trials, [&](std::uint32_t trial) {
     if (options.stop && options.stop->load(std::memory_order_relaxed)) return;
-    result.trials[trial] = run_trial(cell, result.calibration, seed, trial, workspaces.local());
+    result.trials[trial] = run_trial(fixed, result.calibration, seed, trial, workspaces.local());
     const std::size_t done = ++finished;
     if (options.progress) options.progress(done);
   });

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "analysis/metrics/list.hpp"
 #include "core/filters/list.hpp"
 #include "experiments/grid.hpp"
 #include "experiments/recording.hpp"
@@ -11,6 +12,8 @@ namespace gyrostat {
 namespace {
 
 constexpr Range trial_range{.from = 1, .to = 4294967295.0, .whole = true};
+constexpr Range budget_range{.from = 1, .to = 100000, .whole = true};
+const Json no_keys = Json::object();
 constexpr Range seed_range{.from = 0, .to = 9007199254740992.0, .whole = true};
 
 /// A plug-in of `List` chosen by the text under `chooser`, its parameters under the other keys.
@@ -80,6 +83,15 @@ CalibrationPlan read_calibration(JsonObject object) {
   return plan;
 }
 
+TuningPlan read_tuning(JsonObject object) {
+  TuningPlan plan;
+  plan.metric = metric_named(object.text("metric", "bias_rmse"), object.place_of("metric"));
+  plan.trials = static_cast<std::uint32_t>(object.number("trials", 20, budget_range, "trials"));
+  plan.evaluations = static_cast<int>(object.number("evaluations", 60, budget_range, "evaluations"));
+  object.finish();
+  return plan;
+}
+
 /// Factors by parameter name; any parameter of any filter may be misjudged.
 ParameterMap read_assumed(JsonObject object) {
   ParameterMap factors;
@@ -100,6 +112,7 @@ Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) 
   if (auto scenario = object.child("scenario")) cell.scenario = read_scenario(*scenario, folder);
   if (auto calibration = object.child("calibration"))
     cell.calibration = read_calibration(*calibration);
+  cell.tuning = read_tuning(object.child("tuning").value_or(JsonObject(no_keys, object.place())));
   if (auto assumed = object.child("assumed")) cell.assumed = read_assumed(*assumed);
   const auto source = parameter_source_named(object.text("parameters_from", "calibration"),
                                              object.place_of("parameters_from"));
@@ -141,8 +154,16 @@ Scenario read_scenario(JsonObject object, const std::string& folder) {
   return scenario;
 }
 
-Study read_study(const std::string& path) {
-  const Json json = read_json(path);
+std::size_t metric_named(const std::string& name, const std::string& place) {
+  const auto ids = Metrics::ids();
+  const auto found = std::find(ids.begin(), ids.end(), name);
+  if (found == ids.end()) throw InputError(place, unknown_name("metric", name, ids));
+  return static_cast<std::size_t>(found - ids.begin());
+}
+
+Study read_study(const std::string& path) { return parse_study(read_json(path), path); }
+
+Study parse_study(const Json& json, const std::string& path) {
   JsonObject object(json, path + ":");
   const auto folder = std::filesystem::path(path).parent_path().string();
   Study study;

@@ -18,12 +18,20 @@ struct CalibrationPlan {
   double duration_s = 0.0;  ///< 0: as long as the scenario
 };
 
+/// How methods that name parameters to "tune" are tuned, all alike.
+struct TuningPlan {
+  std::size_t metric = 0;  ///< index into Metrics, the mean of which is made small
+  std::uint32_t trials = 20;
+  int evaluations = 60;
+};
+
 /// One scenario with the filters that are tried on it.
 struct Cell {
   std::string name;
   std::uint32_t trials = 1000;
   Scenario scenario;
   CalibrationPlan calibration;
+  TuningPlan tuning;
   ParameterMap assumed;  ///< factors on what filters other than the oracle are told
   std::vector<Method> methods;
 };
@@ -37,6 +45,12 @@ struct Study {
 /// Reads and checks a study file; recordings it names are relative to its own folder. Throws
 /// InputError with the JSON path.
 Study read_study(const std::string& path);
+
+/// The same for a study's JSON; `path` is what messages name and where recordings are looked for.
+Study parse_study(const Json& json, const std::string& path);
+
+/// The index of the metric called `name`; throws InputError at `place` otherwise.
+std::size_t metric_named(const std::string& name, const std::string& place);
 
 /// A scenario from its JSON, as a study's "scenario" has it.
 Scenario read_scenario(JsonObject object, const std::string& folder);

@@ -8,9 +8,6 @@
 namespace gyrostat {
 namespace {
 
-/// The seed of signals that only calibrations see: a bijection of the study's own.
-std::uint64_t calibration_seed(std::uint64_t seed) { return ~seed; }
-
 /// RMS of what there is to compensate: drift and random error.
 double uncompensated_rmse(const Series& series) {
   return error_moments(series.size(), [&](std::size_t i) {
@@ -47,12 +44,27 @@ Outcome run_method(const Method& method, const ParameterMap& parameters, const S
   return outcome;
 }
 
+Noise calibration_noise(std::uint64_t seed, std::uint32_t trial) { return {~seed, trial}; }
+
+ParameterMap told_parameters(const Cell& cell, const Method& method, const Calibration& calibration,
+                             const Series& series) {
+  ParameterMap parameters;
+  if (method.source == ParameterSource::truth) parameters = true_parameters(cell.scenario);
+  if (method.source == ParameterSource::calibration)
+    parameters = parameters_from(calibration, series.temperature_C.front());
+  if (method.filter == "oracle") return parameters;
+  for (const auto& [name, factor] : cell.assumed)
+    if (const auto value = parameters.find(name); value != parameters.end())
+      value->second *= factor;
+  return parameters;
+}
+
 Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t trial,
                            Series& buffer) {
   Scenario scenario = cell.scenario;
   if (cell.calibration.duration_s > 0.0)
     scenario.sampling.duration_s = cell.calibration.duration_s;
-  synthesise(scenario, {calibration_seed(seed), trial}, buffer);
+  synthesise(scenario, calibration_noise(seed, trial), buffer);
   return calibrate(buffer, cell.calibration.method);
 }
 
@@ -61,30 +73,20 @@ Record run_trial(const Cell& cell, const Calibration& shared, std::uint64_t seed
   Record record;
   auto& series = workspace.series;
   synthesise(cell.scenario, {seed, trial}, series);
-  const double start_C = series.temperature_C.front();
-  ParameterMap fitted;
+  Calibration own;
   if (cell.calibration.each_trial) {
-    const auto own = calibrate_cell(cell, seed, trial, workspace.calibration_series);
+    own = calibrate_cell(cell, seed, trial, workspace.calibration_series);
     record.calibration_converged = own.random_error.converged;
-    fitted = parameters_from(own, start_C);
-  } else {
-    fitted = parameters_from(shared, start_C);
   }
-  const ParameterMap truth = true_parameters(cell.scenario);
+  const Calibration& calibration = cell.calibration.each_trial ? own : shared;
 
   workspace.seconds.resize(cell.methods.size());
   workspace.steps.resize(cell.methods.size());
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
     const auto& method = cell.methods[m];
     const auto start = std::chrono::steady_clock::now();
-    ParameterMap parameters;
-    if (method.source == ParameterSource::truth) parameters = truth;
-    if (method.source == ParameterSource::calibration) parameters = fitted;
-    if (method.filter != "oracle")
-      for (const auto& [name, factor] : cell.assumed)
-        if (const auto value = parameters.find(name); value != parameters.end())
-          value->second *= factor;
-    record.outcomes.push_back(run_method(method, parameters, series, workspace.track));
+    record.outcomes.push_back(run_method(
+        method, told_parameters(cell, method, calibration, series), series, workspace.track));
     workspace.seconds[m] +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     workspace.steps[m] += static_cast<double>(series.size());

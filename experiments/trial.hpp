@@ -42,6 +42,13 @@ struct Workspace {
 Outcome run_method(const Method& method, const ParameterMap& parameters, const Series& series,
                    Track& track);
 
+/// Noise of signals that the trials of a study never see: for calibration and tuning.
+Noise calibration_noise(std::uint64_t seed, std::uint32_t trial);
+
+/// What the method is told for this signal, before its own overrides.
+ParameterMap told_parameters(const Cell& cell, const Method& method, const Calibration& calibration,
+                             const Series& series);
+
 /// The calibration signal of trial `trial`, of the same scenario under other noise. The calibration
 /// for the whole cell is that of trial 0.
 Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t trial,

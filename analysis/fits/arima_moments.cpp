@@ -224,7 +224,7 @@ ArimaFit fit_arima_moments(std::span<const double> rate_dps) {
     fit.objective = run(is_walk ? Family::RandomWalk : Family::Full, best);
   }
   if (is_walk) fit.message += "; x is no more than a random walk: phi and delta2 cannot be told";
-  const double degrees = static_cast<double>(moments.scales() - (is_walk ? 2 : 4));
+  const auto degrees = static_cast<double>(moments.scales() - (is_walk ? 2 : 4));
   const bool refuted = fit.objective > quantile_of(degrees);
   if (refuted) fit.message += "; the model does not describe these data";
 

@@ -104,7 +104,8 @@ double equivalent_degrees_of_freedom(int alpha, std::size_t n, std::size_t m) {
 
 std::vector<std::size_t> allan_clusters(std::size_t samples) {
   std::vector<std::size_t> clusters;
-  const double longest = std::max(1.0, static_cast<double>(samples / 4));
+  const std::size_t quarter = samples / 4;
+  const double longest = std::max(1.0, static_cast<double>(quarter));
   for (int k = 0; std::round(std::pow(10.0, k / 8.0)) <= longest; ++k) {
     const auto m = static_cast<std::size_t>(std::lround(std::pow(10.0, k / 8.0)));
     if (clusters.empty() || m != clusters.back()) clusters.push_back(m);
@@ -128,7 +129,7 @@ std::vector<AllanPoint> overlapping_allan_deviation(std::span<const double> rate
     const std::size_t count = n - 2 * m + 1;
     double sum = 0.0;
     for (std::size_t i = 0; i < count; ++i) sum += haar(phase, i, m) * haar(phase, i, m);
-    const double length = static_cast<double>(m);
+    const auto length = static_cast<double>(m);
     const double deviation = std::sqrt(sum / (2.0 * static_cast<double>(count))) / length;
     const int alpha = power_law_exponent(phase, std::min(m, std::max<std::size_t>(1, n / 32)));
     const double edf = equivalent_degrees_of_freedom(alpha, n, m);
@@ -180,7 +181,7 @@ std::vector<double> robust_allan_variances(std::span<const double> rate,
     std::vector<double> squares;
     for (std::size_t i = 0; i + 2 * m < phase.size(); i += std::max<std::size_t>(1, m / 8))
       squares.push_back(0.5 * std::pow(haar(phase, i, m) / static_cast<double>(m), 2));
-    const double count = static_cast<double>(squares.size());
+    const auto count = static_cast<double>(squares.size());
     double variance = std::accumulate(squares.begin(), squares.end(), 0.0) / count;
     for (double change = 1.0; change > 1e-9 && variance > 0.0;) {
       double sum = 0.0;

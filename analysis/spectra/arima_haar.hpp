@@ -70,11 +70,11 @@ T arima_allan_variance(const Arima111<T>& p, std::size_t cluster) {
 
 /// The same at the clusters 1, 2, 4, ... 2^(scales - 1).
 template <class T>
-Vector<T, Eigen::Dynamic> dyadic_allan_variances(const Arima111<T>& p, std::size_t scales) {
+Vector<T, Eigen::Dynamic> dyadic_allan_variances(const Arima111<T>& p, Eigen::Index scales) {
   Vector<T, Eigen::Dynamic> variances(scales);
   auto block = arima_haar::one_step(p);
-  for (std::size_t j = 0; j < scales; ++j) {
-    variances[j] = arima_haar::allan_variance(p, block);
+  for (T& variance : variances) {
+    variance = arima_haar::allan_variance(p, block);
     block = block + block;
   }
   return variances;
@@ -86,36 +86,36 @@ Vector<T, Eigen::Dynamic> dyadic_allan_variances(const Arima111<T>& p, std::size
 /// frequency of G_i G_j S^2, M_j = samples - 2^(j+1) + 1 (Serroukh, Walden & Percival, JASA 2000),
 /// and var log nu = v + v^2 / 2 for var nu = v nu^2.
 inline Eigen::MatrixXd log_allan_covariance(const Arima111<double>& p, std::size_t samples,
-                                            std::size_t scales) {
+                                            Eigen::Index scales) {
   const double delta1 = p.delta1_dps, delta2 = p.delta2_dps;
-  const auto points = std::size_t{4} << scales;
+  const double r = p.measurement_noise_std_dps * p.measurement_noise_std_dps;
+  const Eigen::Index points = Eigen::Index{4} << scales;
   Eigen::VectorXd power(scales);
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(power.size());
-  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(power.size(), power.size());
-  for (std::size_t k = 0; k < points; ++k) {
-    const double s0 = std::pow(std::sin(std::numbers::pi * (static_cast<double>(k) + 0.5) /
-                                        static_cast<double>(2 * points)),
-                               2);  // |1 - B|^2 = 4 s0, and |a - b B|^2 = (a - b)^2 + 4 a b s0
-    const double increments = (std::pow(delta1 - delta2, 2) + 4.0 * delta1 * delta2 * s0) /
-                              (std::pow(1.0 - p.phi, 2) + 4.0 * p.phi * s0);
-    const double spectrum = increments / (4.0 * s0) + std::pow(p.measurement_noise_std_dps, 2);
-    double s = s0;  // sin^2(m omega / 2)
-    for (std::size_t j = 0; j < scales; ++j) {
-      power[j] = 2.0 * s * s / (std::ldexp(s0, 2 * static_cast<int>(j))) * spectrum;
-      s = 4.0 * s * (1.0 - s);
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(scales);
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(scales, scales);
+  for (Eigen::Index k = 0; k < points; ++k) {
+    const double omega =
+        std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(points);
+    double s = std::pow(std::sin(0.5 * omega), 2);
+    const double step = 4.0 * s;  // |1 - B|^2; and |a - b B|^2 = (a - b)^2 + a b |1 - B|^2
+    const double increments = (std::pow(delta1 - delta2, 2) + delta1 * delta2 * step) /
+                              (std::pow(1.0 - p.phi, 2) + p.phi * step);
+    const double spectrum = increments / step + r;
+    for (Eigen::Index j = 0; j < scales; ++j) {
+      power[j] = std::ldexp(8.0 * s * s / step, -2 * static_cast<int>(j)) * spectrum;
+      s = 4.0 * s * (1.0 - s);  // sin^2 of the doubled angle
     }
     variance += power;
-    product.selfadjointView<Eigen::Lower>().rankUpdate(power);
+    product += power * power.transpose();
   }
-  Eigen::VectorXd scale(power.size());
-  for (std::size_t j = 0; j < scales; ++j) {
-    scale[j] = std::sqrt(2.0 * static_cast<double>(points) /
-                         static_cast<double>(samples - (std::size_t{2} << j) + 1)) /
-               variance[j];
-    scale[j] *= std::sqrt(1.0 + 0.5 * scale[j] * scale[j] * product(j, j));
+  Eigen::VectorXd scale(scales);
+  for (Eigen::Index j = 0; j < scales; ++j) {
+    const auto windows = static_cast<double>(samples + 1 - (std::size_t{2} << j));
+    const double v =
+        2.0 * static_cast<double>(points) * product(j, j) / (windows * variance[j] * variance[j]);
+    scale[j] = std::sqrt((v + 0.5 * v * v) / product(j, j));
   }
-  return scale.asDiagonal() * Eigen::MatrixXd(product.selfadjointView<Eigen::Lower>()) *
-         scale.asDiagonal();
+  return scale.asDiagonal() * product * scale.asDiagonal();
 }
 
 }  // namespace gyrostat

@@ -42,6 +42,8 @@ int run(const RunArguments& arguments, Console& console) {
                                   .progress = [&](std::size_t done) { progress.set(done); }}));
     }
     tables.push_back(calibration_table(cell, results.back()));
+    if (auto tuning = tuning_table(cell, results.back()); !tuning.rows.empty())
+      tables.push_back(std::move(tuning));
     for (auto& table : error_tables(cell, results.back())) tables.push_back(std::move(table));
     timings.push_back(timing_table(cell, results.back()));
   }

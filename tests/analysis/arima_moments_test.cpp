@@ -201,9 +201,10 @@ TEST(ArimaMoments, IntervalsCoverTheTruthWhereAllIsIdentified) {
 }
 
 // Measured with 1000 fits: 0.942, 0.880, 0.878, 0.931. delta1 and delta2 move together along a
-// curved ridge, which an interval of symmetric ends cannot follow.
+// curved ridge, which an interval of symmetric ends cannot follow. 60 fits: a standard error of
+// 0.042.
 TEST(ArimaMoments, IntervalsCoverLessWhereTheNoiseHidesDelta1) {
-  EXPECT_GT(coverage({0.9, 0.1, 0.03, 0.3}, 6000, 200).minCoeff(), 0.75);
+  EXPECT_GT(coverage({0.9, 0.1, 0.03, 0.3}, 6000, 60).minCoeff(), 0.878 - 4.5 * 0.0423);
 }
 
 // The likelihood ratio at 99.9 % calls 1 of 1000 random walks more than that. The intensity of the

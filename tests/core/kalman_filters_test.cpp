@@ -314,6 +314,14 @@ TEST(Stf, FollowsAJumpFasterThanKf) {
   EXPECT_GT(step(stf, 1.0).estimate_dps, step(kf, 1.0).estimate_dps);
 }
 
+TEST(Stf, GoesOnAfterASampleTooLargeToSquare) {
+  Stf<double> stf(stf_parameters(1.0, 1.0));
+  for (int k = 0; k < 100; ++k) step(stf, 0.3);
+  EXPECT_EQ(name_of(step(stf, 1e200).status), "not_finite");
+  for (int k = 0; k < 100; ++k) ASSERT_EQ(name_of(step(stf, 0.5).status), "ok");
+  EXPECT_NEAR(stf.state().mean(0), 0.5, 0.01);
+}
+
 TEST(FadingFactor, FollowsZhouAndFrank) {
   FadingParameters<double> p;
   p.forgetting = 0.95;

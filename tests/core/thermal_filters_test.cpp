@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -172,10 +172,9 @@ class ThermalFilter : public testing::Test {};
 
 struct FilterNames {
   template <class F>
-  static std::string GetName(int) {
-    std::string title(F::title);
-    std::replace_if(title.begin(), title.end(), [](char c) { return !std::isalnum(c); }, '_');
-    return title;
+  static std::string GetName(int index) {
+    constexpr std::array names = {"ThermalMlr", "ThermalKf", "ThermalLsm", "ThermalStf"};
+    return names[static_cast<std::size_t>(index)];
   }
 };
 
@@ -210,8 +209,8 @@ TYPED_TEST(ThermalFilter, LearnsNothingWhileTheCompassIsFlagged) {
   TypeParam again(vague<typename TypeParam::Parameters>());
   for (std::size_t i = 0; i <= 50 * steps_per_epoch; ++i) {
     const double estimate = again.step(samples[i]).estimate_dps;
-    if (i == 50 * steps_per_epoch)
-      EXPECT_DOUBLE_EQ(estimate, before(0) * temperature(500.0) + before(1) * slope(50) + before(2));
+    if (i < 50 * steps_per_epoch) continue;
+    EXPECT_DOUBLE_EQ(estimate, before(0) * temperature(500.0) + before(1) * slope(50) + before(2));
   }
 }
 
@@ -276,6 +275,25 @@ TEST(ThermalStf, WithAFixedFactorOfOneIsThermalKfBitForBit) {
     EXPECT_EQ(bits(a.innovation_dps), bits(b.innovation_dps));
     EXPECT_EQ(bits(a.innovation_variance), bits(b.innovation_variance));
     EXPECT_EQ(a.status, b.status);
+  }
+}
+
+/// A warm-up that ends: from then on T and 1 are collinear and T' is zero, so that one direction of
+/// [a, b, c] is observed and two are not.
+TYPED_TEST(ThermalFilter, KeepsASoundCovarianceAtConstantTemperature) {
+  TypeParam filter(typename TypeParam::Parameters{});
+  const NormalStream compass(7, 0, "compass");
+  for (int k = 0; k < 7200; ++k) {
+    const double t = k;
+    const auto s =
+        filter.step({.t_s = t,
+                     .gyro_dps = 0.1,
+                     .temperature_C = 40.1 - 2.3 * std::exp(-t / 20.0),
+                     .heading_deg = 0.05 * compass.normal(static_cast<std::uint64_t>(k))});
+    ASSERT_GT(s.estimate_variance, 0.0) << t << " s";
+    ASSERT_FALSE(is_breakdown(s.status)) << t << " s: " << name_of(s.status);
+    const Vector<double, 3> variances = filter.rule().coefficients().covariance.diagonal();
+    ASSERT_GT(variances.minCoeff(), 0.0) << t << " s";
   }
 }
 

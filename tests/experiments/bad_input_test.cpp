@@ -1,11 +1,11 @@
 // Whatever is wrong with what goes in: exit code 2, one line on stderr that names place, value and
 // what would do, nothing on stdout, and every file in the folder as it was before.
 
-#include <fmt/ranges.h>
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <optional>
+
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
 
 #include "experiments/atomic_file.hpp"
 #include "experiments/json_object.hpp"
@@ -17,7 +17,8 @@ namespace {
 using Words = std::vector<std::string>;
 
 /// What in `ended`, and in the files after it, breaks the law above; empty when nothing does.
-Words breaches(const Ended& ended, const Words& parts, const std::map<std::string, std::string>& before,
+Words breaches(const Ended& ended, const Words& parts,
+               const std::map<std::string, std::string>& before,
                const std::map<std::string, std::string>& after) {
   Words found;
   const auto require = [&](bool holds, std::string breach) {
@@ -302,6 +303,23 @@ TEST(BadInput, AnUnknownPluginIsToldTheNearest) {
                       {"cells[0].calibration.fit", "'likelyhood'", "'likelihood'"});
   expect_refused_with("/cells/0/filters/1", {{"filter", "kf"}, {"parameters_from", "true"}},
                       {"cells[0].filters[1].parameters_from", "'true'", "'truth'"});
+  expect_refused_with("/cells/0/tuning", {{"metric", "bias_rms"}},
+                      {"cells[0].tuning.metric", "metric 'bias_rms'", "'bias_rmse'"});
+  expect_refused_with("/cells/0/assumed", {{"delta1", 2}},
+                      {"cells[0].assumed", "'delta1'", "'delta1_dps'"});
+}
+
+TEST(BadInput, AGridThatLeadsNowhereIsNamed) {
+  expect_refused_with("/cells/0/grid", Json::array({1}), {"cells[0].grid", "object"});
+  expect_refused_with("/cells/0/grid", {{"trials", 3}}, {"cells[0].grid.trials", "list"});
+  expect_refused_with("/cells/0/grid", {{"trials.x", {3}}}, {"cells[0].grid", "trials.x"});
+  expect_refused_with("/cells/0/grid", {{"filters.7", {"kf"}}}, {"cells[0].grid", "filters.7"});
+  expect_refused_with("/cells/0/grid", {{"scenario.durations", {3}}},
+                      {"cells[0]", "'durations'", "'duration_s'"});
+  expect_refused_with("/cells/0/grid", {{"trials", {3, 0}}}, {"cells[0]", "trials", "0", "[1, "});
+  expect_refused_with("/cells/0/grid", {{"trials", {3, 3}}}, {"cells[0]", "trials=3", "twice"});
+  expect_refused_with("/cells/0", {{"name", 1}, {"grid", {{"trials", {1, 2}}}}},
+                      {"cells[0].name", "1", "text"});
 }
 
 TEST(BadInput, AnIdThatStandsTwiceIsNamed) {
@@ -362,9 +380,9 @@ TEST(BadInput, AConfigOfApplyIsReadAsStrictlyAsAStudy) {
 
 TEST(BadInput, AConfigCannotAskForParametersThatThereAreNot) {
   for (const std::string source : {"truth", "calibration"})
-    expect_config_refused(R"({"filters": [{"filter": "kf", "parameters_from": ")" + source +
-                              "\"}]}",
-                          {"filters[0].parameters_from", source});
+    expect_config_refused(
+        R"({"filters": [{"filter": "kf", "parameters_from": ")" + source + "\"}]}",
+        {"filters[0].parameters_from", source});
 }
 
 TEST(BadInput, ANameOnTheCommandLineIsToldTheNearest) {

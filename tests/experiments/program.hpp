@@ -1,11 +1,5 @@
 #pragma once
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +8,12 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 
 namespace gyrostat {
 
@@ -49,8 +49,10 @@ class TestFolder {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(path_)) {
       const auto name = std::filesystem::relative(entry.path(), path_).string();
-      if (entry.is_directory()) files[name + '/'];
-      else files[name] = read(name);
+      if (entry.is_directory())
+        files[name + '/'];
+      else
+        files[name] = read(name);
     }
     return files;
   }

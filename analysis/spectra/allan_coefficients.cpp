@@ -1,0 +1,338 @@
+#include "analysis/spectra/allan_coefficients.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <Eigen/Cholesky>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/special_functions/digamma.hpp>
+#include <boost/math/special_functions/trigamma.hpp>
+#include <boost/math/tools/roots.hpp>
+
+#include "core/error.hpp"
+
+namespace gyrostat {
+namespace {
+
+constexpr int terms = 5;
+constexpr unsigned all_terms = (1U << terms) - 1;
+constexpr double cost_of_a_term = 6.6348966010212145;   // chi-square on 1 degree, 99 %
+constexpr double two_sided = 3.8414588206941254;        // 95 %
+constexpr double one_sided = 2.7055434540954148;        // 90 %
+constexpr double adequacy = 0.999;
+constexpr double octave = 1.9;
+
+/// Q^2, N^2, B^2, K^2, R^2.
+using Squares = Vector<double, terms>;
+
+Squares shape(double tau) {
+  return {3.0 / (tau * tau), 1.0 / tau, 2.0 * std::numbers::ln2 / std::numbers::pi, tau / 3.0,
+          0.5 * tau * tau};
+}
+
+struct Solution {
+  Squares squares = Squares::Zero();
+  double chi_square = 0.0;
+};
+
+/// argmin |A x - b| over x >= 0 with x_k = 0 for k outside `allowed`: the least of the unconstrained
+/// solutions of all subsets that are feasible.
+Squares non_negative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                                   unsigned allowed) {
+  const Squares scale = a.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::MatrixXd scaled = a * scale.asDiagonal();
+  const Matrix<double, terms> normal = scaled.transpose() * scaled;
+  const Squares right = scaled.transpose() * b;
+  Squares best = Squares::Zero();
+  double most = 0.0;
+  for (unsigned subset = 1; subset <= allowed; ++subset) {
+    if ((subset & ~allowed) != 0) continue;
+    std::array<int, terms> index{};
+    int size = 0;
+    for (int k = 0; k < terms; ++k)
+      if ((subset >> k & 1U) != 0) index[size++] = k;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, terms, terms> part(size, size);
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, terms, 1> side(size);
+    for (int i = 0; i < size; ++i) {
+      side[i] = right[index[i]];
+      for (int j = 0; j < size; ++j) part(i, j) = normal(index[i], index[j]);
+    }
+    const auto x = part.llt().solve(side).eval();
+    const double gain = x.dot(side);
+    if (!(x.minCoeff() >= 0.0 && gain > most)) continue;
+    most = gain;
+    best.setZero();
+    for (int i = 0; i < size; ++i) best[index[i]] = x[i] * scale[index[i]];
+  }
+  return best;
+}
+
+class Fit {
+ public:
+  Fit(std::span<const AllanPoint> points, std::size_t samples)
+      : points_(points.begin(), points.end()),
+        samples_(samples),
+        shapes_(std::ssize(points_), terms),
+        log_variance_(std::ssize(points_)),
+        target_(std::ssize(points_)) {
+    for (Eigen::Index j = 0; j < size(); ++j) {
+      shapes_.row(j) = shape(points_[j].tau_s);
+      log_variance_[j] = 2.0 * std::log(points_[j].deviation);
+    }
+    tabulate_gains();
+    Squares squares = start(all_terms, Eigen::VectorXd::Zero(size()));
+    for (int round = 0; round < 4; ++round) {
+      weigh(squares);
+      squares = solve(all_terms).squares;
+    }
+  }
+
+  Eigen::Index size() const { return std::ssize(points_); }
+
+  /// Least chi-square over the allowed terms, on top of a given variance.
+  Solution solve(unsigned allowed) const { return solve(allowed, Eigen::VectorXd::Zero(size())); }
+
+  Solution solve(unsigned allowed, const Eigen::VectorXd& given) const {
+    Solution at{start(allowed, given), 0.0};
+    at.chi_square = chi_square(at.squares, given);
+    for (int iteration = 0; iteration < 100; ++iteration) {
+      const Eigen::VectorXd variance = given + shapes_ * at.squares;
+      const Eigen::MatrixXd slope = variance.cwiseInverse().asDiagonal() * shapes_;
+      const Eigen::VectorXd misfit = target_ - variance.array().log().matrix();
+      const Squares next = non_negative_least_squares(
+          whitener_ * slope, whitener_ * (misfit + slope * at.squares), allowed);
+      double step = 1.0, improved = chi_square(next, given);
+      while (!(improved <= at.chi_square) && step > 1e-6) {
+        step *= 0.5;
+        improved = chi_square(at.squares + step * (next - at.squares), given);
+      }
+      const double gain = at.chi_square - improved;
+      if (!(gain >= 0.0)) break;
+      at = {at.squares + step * (next - at.squares), improved};
+      if (gain <= 1e-9 * (1.0 + improved)) break;
+    }
+    return at;
+  }
+
+  /// Least chi-square with term k at `square`.
+  double profile(int k, double square) const {
+    return solve(all_terms & ~(1U << k), square * shapes_.col(k)).chi_square;
+  }
+
+  /// The square of term k that alone would reach the fit at one point.
+  double reach(int k, const Squares& squares) const {
+    return (shapes_ * squares).cwiseQuotient(shapes_.col(k)).minCoeff();
+  }
+
+  /// Standard errors of the squares that are not 0, the others held at 0.
+  Squares standard_errors(const Squares& squares) const {
+    const Eigen::VectorXd variance = shapes_ * squares;
+    std::vector<int> index;
+    for (int k = 0; k < terms; ++k)
+      if (squares[k] > 0.0) index.push_back(k);
+    Eigen::MatrixXd relative(size(), std::ssize(index));
+    for (Eigen::Index i = 0; i < relative.cols(); ++i)
+      relative.col(i) = shapes_.col(index[i]).cwiseQuotient(variance) * squares[index[i]];
+    relative = whitener_ * relative;
+    const Eigen::MatrixXd covariance =
+        (relative.transpose() * relative)
+            .llt()
+            .solve(Eigen::MatrixXd::Identity(relative.cols(), relative.cols()));
+    Squares out = Squares::Constant(no_value);
+    for (Eigen::Index i = 0; i < relative.cols(); ++i)
+      out[index[i]] = std::sqrt(covariance(i, i)) * squares[index[i]];
+    return out;
+  }
+
+ private:
+  /// Weighted linear least squares in the ratio to the observed variances.
+  Squares start(unsigned allowed, const Eigen::VectorXd& given) const {
+    const Eigen::VectorXd inverse = (-log_variance_).array().exp();
+    Eigen::VectorXd weight(size());
+    for (Eigen::Index j = 0; j < size(); ++j) weight[j] = std::sqrt(points_[j].edf);
+    const Eigen::VectorXd rest = Eigen::VectorXd::Ones(size()) - given.cwiseProduct(inverse);
+    return non_negative_least_squares(weight.cwiseProduct(inverse).asDiagonal() * shapes_,
+                                      weight.cwiseProduct(rest), allowed);
+  }
+
+  double chi_square(const Squares& squares, const Eigen::VectorXd& given) const {
+    const Eigen::VectorXd variance = given + shapes_ * squares;
+    return (whitener_ * (target_ - variance.array().log().matrix())).squaredNorm();
+  }
+
+  /// Power gains of the points' windows at frequencies f, cycles a sample, evenly spread in log f:
+  /// sin^4(pi f m) / (m sin(pi f))^2. Steps of the golden ratio keep f m from aliasing.
+  void tabulate_gains() {
+    constexpr double per_octave = 200.0;
+    const double octaves = std::log2(256.0 * static_cast<double>(points_.back().cluster));
+    const auto count = static_cast<Eigen::Index>(per_octave * octaves);
+    gains_.resize(count, size());
+    frequency_.resize(count);
+    double place = 0.5;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      place += std::numbers::phi - 1.0;
+      place -= std::floor(place);
+      const double f = 0.5 * std::exp2(-octaves * place);
+      frequency_[i] = f;
+      for (Eigen::Index j = 0; j < size(); ++j) {
+        const double m = static_cast<double>(points_[j].cluster);
+        const double sine = std::sin(std::numbers::pi * f * m);
+        gains_(i, j) = std::pow(sine, 4) / std::pow(m * std::sin(std::numbers::pi * f), 2);
+      }
+    }
+    frequency_measure_ = 2.0 * std::numbers::ln2 * octaves / static_cast<double>(count);
+  }
+
+  /// Means, variances and correlations of the log variances, for the spectrum of `squares`.
+  void weigh(const Squares& squares) {
+    const double interval = points_.front().tau_s / static_cast<double>(points_.front().cluster);
+    Eigen::VectorXd spectrum(frequency_.size());
+    for (Eigen::Index i = 0; i < spectrum.size(); ++i) {
+      const double w = 2.0 * std::sin(std::numbers::pi * frequency_[i]) / interval;
+      spectrum[i] = squares[0] * interval * w * w + squares[1] + squares[2] / w +
+                    squares[3] / (w * w);
+    }
+    if (!(spectrum.maxCoeff() > 0.0)) spectrum.setOnes();
+    const Eigen::VectorXd measure = frequency_measure_ * frequency_;
+    const Eigen::MatrixXd power = spectrum.asDiagonal() * gains_;
+    const Eigen::VectorXd total = power.transpose() * measure;
+    const Eigen::MatrixXd product = power.transpose() * measure.asDiagonal() * power;
+    Eigen::VectorXd scale(size());
+    for (Eigen::Index j = 0; j < size(); ++j) {
+      const double windows = static_cast<double>(samples_ - 2 * points_[j].cluster + 1);
+      const double edf =
+          std::min(points_[j].edf, windows * total[j] * total[j] / product(j, j));
+      target_[j] = log_variance_[j] - boost::math::digamma(0.5 * edf) + std::log(0.5 * edf);
+      scale[j] = std::sqrt(boost::math::trigamma(0.5 * edf) / product(j, j));
+    }
+    const Eigen::MatrixXd covariance = scale.asDiagonal() * product * scale.asDiagonal();
+    whitener_ = covariance.llt().matrixL().solve(Eigen::MatrixXd::Identity(size(), size()));
+  }
+
+  std::vector<AllanPoint> points_;
+  std::size_t samples_;
+  Eigen::Matrix<double, Eigen::Dynamic, terms> shapes_;
+  Eigen::VectorXd log_variance_, target_;
+  Eigen::MatrixXd whitener_, gains_;
+  Eigen::VectorXd frequency_;
+  double frequency_measure_ = 0.0;
+};
+
+Solution most_plausible(const Fit& fit, double dispersion) {
+  Solution best;
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned allowed = 1; allowed <= all_terms; ++allowed) {
+    const auto solution = fit.solve(allowed);
+    const double shown = static_cast<double>((solution.squares.array() > 0.0).count());
+    const double cost = solution.chi_square + cost_of_a_term * dispersion * shown;
+    if (!(cost < least)) continue;
+    least = cost;
+    best = solution;
+  }
+  return best;
+}
+
+/// Where the profile of term k passes `level` between `inside` and `outside`.
+double crossing(const Fit& fit, int k, double level, double inside, double outside) {
+  const auto excess = [&](double square) { return fit.profile(k, square) - level; };
+  const double at_inside = excess(inside);
+  const double at_outside = excess(outside);
+  if (!(at_inside < 0.0)) return inside;
+  if (!(at_outside > 0.0)) return outside;
+  std::uintmax_t evaluations = 60;
+  const auto close = [](double a, double b) { return std::abs(a - b) <= 1e-5 * std::max(a, b); };
+  const auto [a, b] =
+      inside < outside
+          ? boost::math::tools::toms748_solve(excess, inside, outside, at_inside, at_outside, close,
+                                              evaluations)
+          : boost::math::tools::toms748_solve(excess, outside, inside, at_outside, at_inside, close,
+                                              evaluations);
+  return 0.5 * (a + b);
+}
+
+std::vector<AllanPoint> an_octave_apart(std::span<const AllanPoint> points, std::size_t samples) {
+  std::vector<AllanPoint> kept;
+  double last = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& p = points[i];
+    const auto place = "points[" + std::to_string(i) + "]";
+    for (const double x : {p.tau_s, p.deviation, p.edf, static_cast<double>(p.cluster)})
+      if (!(x > 0.0 && std::isfinite(x)))
+        throw InputError(place, "tau, deviation, edf and cluster are not all positive and finite");
+    if (p.cluster > samples / 2)
+      throw InputError(place, "a cluster of " + std::to_string(p.cluster) +
+                                  " is longer than half of " + std::to_string(samples) +
+                                  " samples");
+    if (!(p.tau_s > last)) throw InputError(place, "tau does not rise");
+    last = p.tau_s;
+    if (kept.empty() || p.tau_s >= octave * kept.back().tau_s) kept.push_back(p);
+  }
+  if (kept.size() < terms)
+    throw InputError("points", std::to_string(kept.size()) + " are an octave apart; at least " +
+                                   std::to_string(terms) + " are needed");
+  return kept;
+}
+
+}  // namespace
+
+double allan_deviation(const AllanCoefficients& c, double tau_s) {
+  const Squares values(c.quantisation_deg.value, c.angle_random_walk_dps_per_sqrt_hz.value,
+                       c.bias_instability_dps.value, c.rate_random_walk_dps_sqrt_hz.value,
+                       c.rate_ramp_dps_per_s.value);
+  return std::sqrt(shape(tau_s).dot(values.cwiseAbs2()));
+}
+
+std::vector<std::size_t> octave_clusters(std::size_t samples) {
+  std::vector<std::size_t> clusters;
+  for (std::size_t m = 1; m <= samples / 8; m *= 2) clusters.push_back(m);
+  return clusters;
+}
+
+AllanCoefficients fit_allan_coefficients(std::span<const AllanPoint> points, std::size_t samples) {
+  const Fit fit(an_octave_apart(points, samples), samples);
+  const auto degrees = [&](const Solution& s) {
+    return static_cast<double>(fit.size() - (s.squares.array() > 0.0).count());
+  };
+  const auto fits = [&](const Solution& s) {
+    const double n = degrees(s);
+    return n < 1.0 || s.chi_square < quantile(boost::math::chi_squared(n), adequacy);
+  };
+  const auto full = fit.solve(all_terms);
+  const double dispersion = fits(full) ? 1.0 : full.chi_square / degrees(full);
+  const auto shown = most_plausible(fit, dispersion);
+  const Squares errors = std::sqrt(dispersion) * fit.standard_errors(shown.squares);
+
+  AllanCoefficients out;
+  const std::array<AllanCoefficient*, terms> coefficients = {
+      &out.quantisation_deg, &out.angle_random_walk_dps_per_sqrt_hz, &out.bias_instability_dps,
+      &out.rate_random_walk_dps_sqrt_hz, &out.rate_ramp_dps_per_s};
+  for (int k = 0; k < terms; ++k) {
+    const double square = shown.squares[k];
+    const double level =
+        full.chi_square + dispersion * (square > 0.0 ? two_sided : one_sided);
+    const double best = full.squares[k];
+    double outside = std::max(best, fit.reach(k, full.squares));
+    while (fit.profile(k, outside) < level) outside *= 2.0;
+    auto& c = *coefficients[k];
+    c.upper = std::sqrt(std::max(square, crossing(fit, k, level, best, outside)));
+    if (!(square > 0.0)) continue;
+    c.value = std::sqrt(square);
+    c.standard_error = errors[k] / (2.0 * c.value);
+    c.lower = best > 0.0 ? std::sqrt(std::min(square, crossing(fit, k, level, best, 0.0))) : 0.0;
+  }
+  out.chi_square = shown.chi_square;
+  out.degrees_of_freedom = static_cast<std::size_t>(degrees(shown));
+  out.adequate = fits(shown);
+  return out;
+}
+
+AllanCoefficients fit_allan_coefficients(std::span<const double> rate_dps, double rate_hz) {
+  const auto clusters = octave_clusters(rate_dps.size());
+  return fit_allan_coefficients(overlapping_allan_deviation(rate_dps, rate_hz, clusters),
+                                rate_dps.size());
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "analysis/spectra/allan.hpp"
+#include "core/types.hpp"
+
+namespace gyrostat {
+
+/// One term's coefficient. `value` and `standard_error` hold if the terms that are shown are all
+/// there are; [lower, upper] is a 95 % interval whatever the other four are. A term that the points
+/// do not show has the value 0, no standard error, and `upper` as its one-sided 95 % limit.
+struct AllanCoefficient {
+  double value = 0.0;
+  double standard_error = no_value;
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+/// Coefficients of the Allan variance of a rate in dps (IEEE Std 952-1997 annex C):
+///   sigma^2(tau) = 3 Q^2 / tau^2 + N^2 / tau + (2 ln 2 / pi) B^2 + K^2 tau / 3 + R^2 tau^2 / 2.
+struct AllanCoefficients {
+  AllanCoefficient quantisation_deg;                   ///< Q, of the angle
+  AllanCoefficient angle_random_walk_dps_per_sqrt_hz;  ///< N; white noise's std / sqrt(rate_hz)
+  AllanCoefficient bias_instability_dps;               ///< B; the flat part is at 0.664 B
+  AllanCoefficient rate_random_walk_dps_sqrt_hz;       ///< K
+  AllanCoefficient rate_ramp_dps_per_s;                ///< R
+  double chi_square = 0.0;                             ///< misfit of the terms shown
+  std::size_t degrees_of_freedom = 0;                  ///< points used minus terms shown
+  bool adequate = true;                                ///< chi_square below its 99.9 % quantile
+};
+
+constexpr double arcseconds_from_deg(double q) { return 3600.0 * q; }
+constexpr double deg_per_sqrt_hour_from_dps_per_sqrt_hz(double n) { return 60.0 * n; }
+constexpr double deg_per_hour_from_dps(double b) { return 3600.0 * b; }
+constexpr double deg_per_hour_per_sqrt_hour_from_dps_sqrt_hz(double k) { return 216000.0 * k; }
+constexpr double deg_per_hour_per_hour_from_dps_per_s(double r) { return 12960000.0 * r; }
+
+/// The deviation that the coefficients amount to at tau.
+double allan_deviation(const AllanCoefficients& coefficients, double tau_s);
+
+/// 1, 2, 4, ... up to an eighth of `samples`, where the deviation still has six or more degrees of
+/// freedom.
+std::vector<std::size_t> octave_clusters(std::size_t samples);
+
+/// Non-negative weighted least squares of log sigma^2 on the five terms, at overlapping points of a
+/// record of `samples` values. A point's log variance has the mean and variance of a log chi-square
+/// variable with AllanPoint::edf degrees of freedom, or fewer where the spectrum fitted says so (it
+/// knows quantisation noise, which that edf takes for white). Neighbouring points are correlated:
+/// of those closer than an octave only the first is used, and the rest is weighted with the full
+/// correlation matrix, from the spectrum fitted and the windows' gains (Serroukh, Walden &
+/// Percival, JASA 2000).
+///
+/// A term is shown if it belongs to the set of terms with the least chi-square + 6.63 a term (the
+/// 99 % quantile on one degree of freedom). Its interval is where the chi-square, least over all
+/// other terms, rises by 3.84 (2.71 for an upper limit) above its minimum. Where the model does not
+/// describe the points, errors grow with the root of chi-square / degrees of freedom. A ramp is no
+/// noise: where it rules, its error is overestimated.
+///
+/// Two conventions: a random walk sampled without averaging, as of a recursion x += w, has in
+/// addition N^2 = K^2 / (6 rate_hz^2); and rounding the *rate* (not the angle) makes N, not Q.
+///
+/// Throws InputError for fewer than five points an octave apart, for a point whose tau, deviation,
+/// edf or cluster is not positive and finite, for taus that do not rise, and a cluster longer than
+/// half the record.
+AllanCoefficients fit_allan_coefficients(std::span<const AllanPoint> points, std::size_t samples);
+
+/// The same for a rate sampled at `rate_hz`, at its octave_clusters.
+AllanCoefficients fit_allan_coefficients(std::span<const double> rate_dps, double rate_hz);
+
+}  // namespace gyrostat

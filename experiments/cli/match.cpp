@@ -1,0 +1,37 @@
+#include "experiments/matching.hpp"
+
+#include "experiments/atomic_file.hpp"
+#include "experiments/cli/options.hpp"
+#include "experiments/cli/verbs.hpp"
+
+namespace gyrostat::cli {
+namespace {
+
+struct MatchArguments {
+  std::string match;
+  std::string study_out;
+  FormatOption format;
+};
+
+int run(const MatchArguments& arguments, Console& console) {
+  const auto format = arguments.format.get();
+  const Match match = read_match(arguments.match);
+  const auto result = run_match(match, console.log, console.stop);
+  if (!arguments.study_out.empty()) write_atomically(arguments.study_out, result.study.dump(2) + '\n');
+  console.out << render(match_tables(match, result), format);
+  return console.stop ? stopped : complete;
+}
+
+}  // namespace
+
+void add_match(CLI::App& program, Console& console, int& exit_code) {
+  auto* verb = program.add_subcommand(
+      "match", "find the scenario behind published numbers, by simulated moments");
+  auto arguments = std::make_shared<MatchArguments>();
+  verb->add_option("match", arguments->match, "match file (JSON)")->required();
+  verb->add_option("--study", arguments->study_out, "write the study at the scenario found");
+  arguments->format.add_to(verb);
+  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+}
+
+}  // namespace gyrostat::cli

@@ -1,0 +1,73 @@
+#include "experiments/tuning.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "analysis/search/box_search.hpp"
+#include "experiments/trial.hpp"
+
+namespace gyrostat {
+namespace {
+
+/// Signals under the calibration's seed, beyond the trials that calibrations use.
+std::vector<Series> tuning_signals(const Cell& cell, std::uint64_t seed) {
+  std::vector<Series> signals(cell.tuning.trials);
+  tbb::parallel_for(std::size_t{0}, signals.size(), [&](std::size_t i) {
+    synthesise(cell.scenario, calibration_noise(seed, cell.trials + static_cast<std::uint32_t>(i)),
+               signals[i]);
+  });
+  return signals;
+}
+
+double mean_metric(const Cell& cell, const Method& method, const Calibration& calibration,
+                   const std::vector<Series>& signals) {
+  std::vector<double> values(signals.size());
+  tbb::parallel_for(std::size_t{0}, signals.size(), [&](std::size_t i) {
+    thread_local Track track;
+    const auto parameters = told_parameters(cell, method, calibration, signals[i]);
+    values[i] = run_method(method, parameters, signals[i], track).metrics[cell.tuning.metric];
+  });
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+std::vector<TunedMethod> tune_methods(const Cell& cell, const Calibration& calibration,
+                                      std::uint64_t seed) {
+  std::vector<TunedMethod> tuned(cell.methods.size());
+  const auto is_tuned = [](const Method& m) { return !m.tune.empty(); };
+  if (std::none_of(cell.methods.begin(), cell.methods.end(), is_tuned)) return tuned;
+
+  const auto signals = tuning_signals(cell, seed);
+  for (std::size_t m = 0; m < tuned.size(); ++m) {
+    Method method = cell.methods[m];
+    if (!is_tuned(method)) continue;
+    tuned[m].objective_before = mean_metric(cell, method, calibration, signals);
+    std::vector<SearchRange> ranges;
+    for (const auto& [name, range] : method.tune) ranges.push_back(range);
+    const auto set = [&](const std::vector<double>& values) {
+      std::size_t i = 0;
+      for (const auto& [name, range] : method.tune) method.overrides[name] = values[i++];
+    };
+    const auto found = box_search(ranges, cell.tuning.evaluations, [&](const auto& values) {
+      set(values);
+      return mean_metric(cell, method, calibration, signals);
+    });
+    set(found.values);
+    for (const auto& [name, range] : method.tune) tuned[m].values[name] = method.overrides[name];
+    tuned[m].objective_after = found.objective;
+  }
+  return tuned;
+}
+
+Cell with_tuned(const Cell& cell, const std::vector<TunedMethod>& tuned) {
+  Cell fixed = cell;
+  for (std::size_t m = 0; m < tuned.size(); ++m)
+    for (const auto& [name, value] : tuned[m].values) fixed.methods[m].overrides[name] = value;
+  return fixed;
+}
+
+}  // namespace gyrostat
