@@ -1,6 +1,7 @@
 #include "analysis/errors.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace gyrostat {
 
@@ -22,7 +23,17 @@ TrackErrors track_errors(const Series& series, const Track& track) {
   errors.nis = over_time([&](std::size_t i) {
     return track.innovation_dps[i] * track.innovation_dps[i] / track.innovation_variance[i];
   });
+  errors.log_score = over_time([&](std::size_t i) {
+    const double variance = track.innovation_variance[i];
+    return 0.5 * (std::log(2.0 * std::numbers::pi * variance) +
+                  track.innovation_dps[i] * track.innovation_dps[i] / variance);
+  });
   errors.heading = heading_excursion(series, track);
+  const auto broken = std::find_if(track.status.begin(), track.status.end(), is_breakdown);
+  if (broken != track.status.end())
+    errors.first_breakdown_s = series.t_s[broken - track.status.begin()] - series.t_s.front();
+  errors.learned_first = track.learned_first;
+  errors.learned_last = track.learned_last;
   if (!has_truth(series)) return errors;
   errors.bias = over_time([&](std::size_t i) { return bias_error_dps(series, track, i); });
   errors.nees = over_time([&](std::size_t i) {

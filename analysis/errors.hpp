@@ -69,7 +69,10 @@ struct TrackErrors {
   ErrorMoments bias;  ///< dps; empty without the truth
   ErrorMoments nis;   ///< nu^2 / S, where there was an innovation
   ErrorMoments nees;  ///< bias error^2 / the variance that the filter states; empty without either
+  ErrorMoments log_score;  ///< -log N(nu; 0, S), nats: how well the next sample was foretold
   HeadingExcursion heading;
+  double first_breakdown_s = no_value;  ///< time of the first step that was left out, if any
+  LearnedParameters learned_first, learned_last;
 };
 
 TrackErrors track_errors(const Series& series, const Track& track);

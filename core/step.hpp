@@ -56,6 +56,14 @@ bool is_missing(const T& value) {
   return isnan(value);
 }
 
+/// How a filter that carries phi, delta1 and delta2 as unknowns holds them.
+struct LearnedParameters {
+  double phi = no_value;
+  double phi_std = no_value;
+  double delta1_dps = no_value;
+  double delta2_dps = no_value;
+};
+
 /// The channels that a filter cannot do without.
 struct Needs {
   bool temperature = false;

@@ -16,6 +16,8 @@ struct Track {
   std::vector<double> innovation_dps;
   std::vector<double> innovation_variance;
   std::vector<Status> status;
+  LearnedParameters learned_first;  ///< before the first sample; NaN for filters that learn none
+  LearnedParameters learned_last;   ///< after the last
 
   void resize(std::size_t samples);
   /// Steps of each Status, in the order of the enumeration.
@@ -28,10 +30,17 @@ Sample<double> sample_at(const Series& series, std::size_t i);
 /// The channels that `needs` asks for and `series` lacks, by name; empty when it can be run.
 std::vector<std::string> missing_channels(const Needs& needs, const Series& series);
 
+template <Filter F>
+LearnedParameters learned_by(const F& filter) {
+  if constexpr (requires { filter.learned(); }) return filter.learned();
+  else return {};
+}
+
 /// Runs `filter` over every sample of `series` into `track`, whose memory is reused.
 template <Filter F>
 void run_filter(F filter, const Series& series, Track& track) {
   track.resize(series.size());
+  track.learned_first = learned_by(filter);
   for (std::size_t i = 0; i < series.size(); ++i) {
     const auto step = filter.step(sample_at(series, i));
     track.estimate_dps[i] = step.estimate_dps;
@@ -40,6 +49,7 @@ void run_filter(F filter, const Series& series, Track& track) {
     track.innovation_variance[i] = step.innovation_variance;
     track.status[i] = step.status;
   }
+  track.learned_last = learned_by(filter);
 }
 
 }  // namespace gyrostat

@@ -14,12 +14,16 @@ namespace gyrostat {
 namespace {
 
 Track from_sample(const Track& track, std::size_t first) {
-  const auto tail = [&](const auto& column) {
-    return std::remove_cvref_t<decltype(column)>(
-        column.begin() + static_cast<std::ptrdiff_t>(first), column.end());
+  Track rest = track;
+  const auto cut_head = [&](auto& column) {
+    column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(first));
   };
-  return {tail(track.estimate_dps), tail(track.estimate_variance), tail(track.innovation_dps),
-          tail(track.innovation_variance), tail(track.status)};
+  cut_head(rest.estimate_dps);
+  cut_head(rest.estimate_variance);
+  cut_head(rest.innovation_dps);
+  cut_head(rest.innovation_variance);
+  cut_head(rest.status);
+  return rest;
 }
 
 /// The rate error with missing samples held at the last value, since an Allan deviation needs a

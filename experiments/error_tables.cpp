@@ -130,8 +130,9 @@ Table consistency_table(const Cell& cell, const CellResult& result) {
 
 Table calibration_table(const Cell& cell, const CellResult& result) {
   const auto& fit = result.calibration;
-  Table table{.title = fmt::format("{}: parameters fitted on a calibration signal of the same scenario",
-                                   cell.name),
+  Table table{.title = fmt::format("{}: parameters fitted on {}", cell.name,
+                                   cell.recording ? "the recording before the trials"
+                                                  : "a calibration signal of the same scenario"),
               .columns = {{"parameter", ""}, {"unit", ""}, {"fitted", ""}, {"standard error", ""},
                           {"true", ""}},
               .rows = {}, .notes = {}};
@@ -139,7 +140,8 @@ Table calibration_table(const Cell& cell, const CellResult& result) {
     using P = std::remove_cvref_t<decltype(fitted)>;
     for (const auto& f : P::fields())
       table.rows.push_back({std::string(f.name), std::string(f.unit), fitted.*(f.member),
-                            errors.*(f.member), truth.*(f.member)});
+                            errors.*(f.member),
+                            cell.recording ? TableCell() : TableCell(truth.*(f.member))});
   };
   add(fit.random_error.parameters, fit.random_error.standard_errors, cell.scenario.random_error);
   if (fit.thermal)
@@ -171,22 +173,37 @@ Table tuning_table(const Cell& cell, const CellResult& result) {
 }
 
 std::vector<Table> error_tables(const Cell& cell, const CellResult& result) {
-  std::vector<Table> tables = {
-      metric_table(cell, result, "bias_rmse",
-                   "bias estimation error (estimate - drift - random error), RMSE over time", "dps"),
-      comparison_table(cell, result, "bias_rmse", "RMSE of the bias estimation error", "dps"),
-      metric_table(cell, result, "rate_rmse", "compensated rate error, RMSE over time", "dps"),
-      metric_table(cell, result, "rate_mean", "compensated rate error, mean over time", "dps"),
-      metric_table(cell, result, "heading_end", "heading error at the end", "deg"),
-      metric_table(cell, result, "heading_range", "heading error, highest minus lowest", "deg"),
-      consistency_table(cell, result)};
-  tables[0].notes.push_back(
+  struct Shown {
+    const char* metric;
+    const char* title;
+    const char* unit;
+  };
+  static constexpr Shown shown[] = {
+      {"bias_rmse", "bias estimation error (estimate - drift - random error), RMSE over time", "dps"},
+      {"log_score", "logarithmic score of the innovations (small: foretells the gyro well)", "nat"},
+      {"rate_rmse", "compensated rate error, RMSE over time", "dps"},
+      {"rate_std", "compensated rate error, standard deviation over time", "dps"},
+      {"rate_mean", "compensated rate error, mean over time", "dps"},
+      {"heading_end", "heading error at the end", "deg"},
+      {"heading_range", "heading error, highest minus lowest", "deg"}};
+  const bool truth = !cell.recording;
+  std::vector<Table> tables;
+  for (const auto& [metric, title, unit] : shown)
+    if (std::string_view(metric) != (truth ? "log_score" : "bias_rmse"))
+      tables.push_back(metric_table(cell, result, metric, title, unit));
+  tables.front().notes.push_back(
       fmt::format("statistics over {} of {} trials; diverged: bias RMSE above {} x that of no "
                   "compensation; broke down: a step had to be left out. Both stay in every mean.",
                   result.finished(), cell.trials, divergence_ratio));
-  tables[2].notes.push_back(
+  tables[1].notes.push_back(
       "the white noise is part of it: an estimate that follows the noise makes it small, so it can "
       "lie below the oracle's, and only the bias estimation error tells who knows the bias");
+  tables.insert(tables.begin() + 1,
+                truth ? comparison_table(cell, result, "bias_rmse",
+                                         "RMSE of the bias estimation error", "dps")
+                      : comparison_table(cell, result, "log_score",
+                                         "logarithmic score of the innovations", "nat"));
+  tables.push_back(consistency_table(cell, result));
   return tables;
 }
 

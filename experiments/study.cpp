@@ -5,6 +5,7 @@
 
 #include "analysis/metrics/list.hpp"
 #include "core/filters/list.hpp"
+#include "core/track.hpp"
 #include "experiments/grid.hpp"
 #include "experiments/recording.hpp"
 
@@ -74,6 +75,37 @@ void read_recorded(JsonObject object, const std::string& folder, Scenario& scena
   }
 }
 
+/// "pieces": a recording whose part before "from_s" is calibrated on and whose rest is cut into
+/// trials of "duration_s".
+void read_pieces(JsonObject object, const std::string& folder, Cell& cell) {
+  const auto file = object.text("file", "");
+  const auto path = (std::filesystem::path(folder) / file).lexically_normal().string();
+  const auto axis = object.text("axis", "");
+  const double from_s = object.number("from_s", 300.0, ranges::positive, "s");
+  const double duration_s = object.number("duration_s", 60.0, ranges::positive, "s");
+  object.finish();
+  const auto recording = read_recording(path, axis);
+  require_uniform(recording.series, path);
+  cell.calibration_span = cut(recording.series, 0.0, from_s, object.place());
+  cell.recording = std::make_shared<const Series>(
+      cut(recording.series, from_s, recording.series.duration_s() + 1.0, object.place()));
+  cell.scenario.sampling = {duration_s, cell.recording->rate_hz()};
+  const auto pieces = cell.recording->size() / cell.scenario.sampling.samples();
+  if (pieces == 0)
+    throw InputError(object.place(), fmt::format("no whole piece of {} s after {} s", duration_s, from_s));
+  cell.trials = static_cast<std::uint32_t>(pieces);
+  for (const auto& method : cell.methods)
+    if (!method.tune.empty())
+      throw InputError(object.place(), method.id + " cannot be tuned on the pieces that judge it");
+  for (const auto& method : cell.methods)
+    Filters::with(object.place(), "filter", method.filter, [&](auto plugin) {
+      const auto missing = missing_channels(decltype(plugin)::type::needs, *cell.recording);
+      if (!missing.empty())
+        throw InputError(object.place(), fmt::format("{} needs {}, which the recording has not",
+                                                     method.id, fmt::join(missing, ", ")));
+    });
+}
+
 CalibrationPlan read_calibration(JsonObject object) {
   CalibrationPlan plan;
   plan.method = fit_method_named(object.text("fit", "likelihood"), object.place_of("fit"));
@@ -118,6 +150,7 @@ Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) 
                                              object.place_of("parameters_from"));
   cell.methods = object.has("filters") ? read_methods(object, "filters", source) : all_methods(source);
   if (cell.methods.empty()) throw InputError(object.place_of("filters"), "the list is empty");
+  if (auto pieces = object.child("pieces")) read_pieces(*pieces, folder, cell);
   object.finish();
   return cell;
 }
@@ -152,6 +185,12 @@ Scenario read_scenario(JsonObject object, const std::string& folder) {
     scenario.effects.push_back(read_plugin<Effects>({*value, place}, "effect", "effect"));
   object.finish();
   return scenario;
+}
+
+void Cell::make_trial(std::uint64_t seed, std::uint32_t trial, Series& series) const {
+  if (!recording) return synthesise(scenario, {seed, trial}, series);
+  const std::size_t samples = scenario.sampling.samples();
+  series = recording->slice(trial * samples, samples);
 }
 
 std::size_t metric_named(const std::string& name, const std::string& place) {

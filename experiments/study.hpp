@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,15 +26,20 @@ struct TuningPlan {
   int evaluations = 60;
 };
 
-/// One scenario with the filters that are tried on it.
+/// One scenario, or one recording in pieces, with the filters that are tried on it.
 struct Cell {
   std::string name;
   std::uint32_t trials = 1000;
   Scenario scenario;
+  std::shared_ptr<const Series> recording;  ///< where present, trials are successive pieces of it,
+  Series calibration_span;                  ///< and this, which comes before, is calibrated on
   CalibrationPlan calibration;
   TuningPlan tuning;
   ParameterMap assumed;  ///< factors on what filters other than the oracle are told
   std::vector<Method> methods;
+
+  /// The signal of trial `trial` into `series`.
+  void make_trial(std::uint64_t seed, std::uint32_t trial, Series& series) const;
 };
 
 struct Study {

@@ -8,8 +8,9 @@
 namespace gyrostat {
 namespace {
 
-/// RMS of what there is to compensate: drift and random error.
+/// RMS of what there is to compensate: drift and random error. NaN without the truth.
 double uncompensated_rmse(const Series& series) {
+  if (!has_truth(series)) return no_value;
   return error_moments(series.size(), [&](std::size_t i) {
            return series.thermal_bias_dps[i] + series.random_error_dps[i];
          }).rmse;
@@ -51,7 +52,9 @@ ParameterMap told_parameters(const Cell& cell, const Method& method, const Calib
   ParameterMap parameters;
   if (method.source == ParameterSource::truth) parameters = true_parameters(cell.scenario);
   if (method.source == ParameterSource::calibration)
-    parameters = parameters_from(calibration, series.temperature_C.front());
+    parameters = parameters_from(calibration, series.temperature_C.empty()
+                                                  ? no_value
+                                                  : series.temperature_C.front());
   if (method.filter == "oracle") return parameters;
   for (const auto& [name, factor] : cell.assumed)
     if (const auto value = parameters.find(name); value != parameters.end())
@@ -61,6 +64,7 @@ ParameterMap told_parameters(const Cell& cell, const Method& method, const Calib
 
 Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t trial,
                            Series& buffer) {
+  if (cell.recording) return calibrate(cell.calibration_span, cell.calibration.method);
   Scenario scenario = cell.scenario;
   if (cell.calibration.duration_s > 0.0)
     scenario.sampling.duration_s = cell.calibration.duration_s;
@@ -72,7 +76,7 @@ Record run_trial(const Cell& cell, const Calibration& shared, std::uint64_t seed
                  std::uint32_t trial, Workspace& workspace) {
   Record record;
   auto& series = workspace.series;
-  synthesise(cell.scenario, {seed, trial}, series);
+  cell.make_trial(seed, trial, series);
   Calibration own;
   if (cell.calibration.each_trial) {
     own = calibrate_cell(cell, seed, trial, workspace.calibration_series);

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/special_functions/digamma.hpp>
 #include <boost/math/special_functions/trigamma.hpp>
@@ -19,9 +23,9 @@ namespace {
 
 constexpr int terms = 5;
 constexpr unsigned all_terms = (1U << terms) - 1;
-constexpr double cost_of_a_term = 6.6348966010212145;   // chi-square on 1 degree, 99 %
-constexpr double two_sided = 3.8414588206941254;        // 95 %
-constexpr double one_sided = 2.7055434540954148;        // 90 %
+constexpr double cost_of_a_term = 6.6348966010212145;  // chi-square on 1 degree, 99 %
+constexpr double two_sided = 3.8414588206941254;       // 95 %
+constexpr double one_sided = 2.7055434540954148;       // 90 %
 constexpr double adequacy = 0.999;
 constexpr double octave = 1.9;
 
@@ -38,8 +42,8 @@ struct Solution {
   double chi_square = 0.0;
 };
 
-/// argmin |A x - b| over x >= 0 with x_k = 0 for k outside `allowed`: the least of the unconstrained
-/// solutions of all subsets that are feasible.
+/// argmin |A x - b| over x >= 0 with x_k = 0 for k outside `allowed`: the least of the
+/// unconstrained solutions of all subsets that are feasible.
 Squares non_negative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
                                    unsigned allowed) {
   const Squares scale = a.colwise().norm().cwiseMax(1e-300).cwiseInverse();
@@ -50,31 +54,27 @@ Squares non_negative_least_squares(const Eigen::MatrixXd& a, const Eigen::Vector
   double most = 0.0;
   for (unsigned subset = 1; subset <= allowed; ++subset) {
     if ((subset & ~allowed) != 0) continue;
-    std::array<int, terms> index{};
-    int size = 0;
-    for (int k = 0; k < terms; ++k)
-      if ((subset >> k & 1U) != 0) index[size++] = k;
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, terms, terms> part(size, size);
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, terms, 1> side(size);
-    for (int i = 0; i < size; ++i) {
-      side[i] = right[index[i]];
-      for (int j = 0; j < size; ++j) part(i, j) = normal(index[i], index[j]);
+    Matrix<double, terms> part = Matrix<double, terms>::Identity();
+    Squares side = Squares::Zero();
+    for (int i = 0; i < terms; ++i) {
+      if ((subset >> i & 1U) == 0) continue;
+      side[i] = right[i];
+      for (int j = 0; j < terms; ++j)
+        if ((subset >> j & 1U) != 0) part(i, j) = normal(i, j);
     }
-    const auto x = part.llt().solve(side).eval();
+    const Squares x = part.llt().solve(side);
     const double gain = x.dot(side);
     if (!(x.minCoeff() >= 0.0 && gain > most)) continue;
     most = gain;
-    best.setZero();
-    for (int i = 0; i < size; ++i) best[index[i]] = x[i] * scale[index[i]];
+    best = scale.cwiseProduct(x);
   }
   return best;
 }
 
 class Fit {
  public:
-  Fit(std::span<const AllanPoint> points, std::size_t samples)
-      : points_(points.begin(), points.end()),
-        samples_(samples),
+  explicit Fit(std::vector<AllanPoint> points)
+      : points_(std::move(points)),
         shapes_(std::ssize(points_), terms),
         log_variance_(std::ssize(points_)),
         target_(std::ssize(points_)) {
@@ -89,6 +89,9 @@ class Fit {
       squares = solve(all_terms).squares;
     }
   }
+
+  /// Multiplies all variances.
+  void widen(double factor) { whitener_ /= std::sqrt(factor); }
 
   Eigen::Index size() const { return std::ssize(points_); }
 
@@ -129,31 +132,22 @@ class Fit {
 
   /// Standard errors of the squares that are not 0, the others held at 0.
   Squares standard_errors(const Squares& squares) const {
-    const Eigen::VectorXd variance = shapes_ * squares;
-    std::vector<int> index;
+    const Eigen::VectorXd inverse = (shapes_ * squares).cwiseInverse();
+    const Eigen::MatrixXd relative =
+        whitener_ * inverse.asDiagonal() * shapes_ * squares.asDiagonal();
+    Matrix<double, terms> information = relative.transpose() * relative;
     for (int k = 0; k < terms; ++k)
-      if (squares[k] > 0.0) index.push_back(k);
-    Eigen::MatrixXd relative(size(), std::ssize(index));
-    for (Eigen::Index i = 0; i < relative.cols(); ++i)
-      relative.col(i) = shapes_.col(index[i]).cwiseQuotient(variance) * squares[index[i]];
-    relative = whitener_ * relative;
-    const Eigen::MatrixXd covariance =
-        (relative.transpose() * relative)
-            .llt()
-            .solve(Eigen::MatrixXd::Identity(relative.cols(), relative.cols()));
-    Squares out = Squares::Constant(no_value);
-    for (Eigen::Index i = 0; i < relative.cols(); ++i)
-      out[index[i]] = std::sqrt(covariance(i, i)) * squares[index[i]];
-    return out;
+      if (squares[k] == 0.0) information(k, k) = 1.0;
+    return information.inverse().diagonal().cwiseSqrt().cwiseProduct(squares);
   }
 
  private:
-  /// Weighted linear least squares in the ratio to the observed variances.
+  /// Linear least squares in the ratio to the observed variances, each by its own weight only.
   Squares start(unsigned allowed, const Eigen::VectorXd& given) const {
     const Eigen::VectorXd inverse = (-log_variance_).array().exp();
     Eigen::VectorXd weight(size());
     for (Eigen::Index j = 0; j < size(); ++j) weight[j] = std::sqrt(points_[j].edf);
-    const Eigen::VectorXd rest = Eigen::VectorXd::Ones(size()) - given.cwiseProduct(inverse);
+    const Eigen::VectorXd rest = 1.0 - given.array() * inverse.array();
     return non_negative_least_squares(weight.cwiseProduct(inverse).asDiagonal() * shapes_,
                                       weight.cwiseProduct(rest), allowed);
   }
@@ -180,31 +174,30 @@ class Fit {
       for (Eigen::Index j = 0; j < size(); ++j) {
         const double m = static_cast<double>(points_[j].cluster);
         const double sine = std::sin(std::numbers::pi * f * m);
-        gains_(i, j) = std::pow(sine, 4) / std::pow(m * std::sin(std::numbers::pi * f), 2);
+        const double ratio = sine * sine / (m * std::sin(std::numbers::pi * f));
+        gains_(i, j) = ratio * ratio;
       }
     }
     frequency_measure_ = 2.0 * std::numbers::ln2 * octaves / static_cast<double>(count);
   }
 
-  /// Means, variances and correlations of the log variances, for the spectrum of `squares`.
+  /// Means, variances and correlations of the log variances, for the spectrum of `squares`. A point
+  /// knows its degrees of freedom if quantisation noise were white noise of the same variance.
   void weigh(const Squares& squares) {
     const double interval = points_.front().tau_s / static_cast<double>(points_.front().cluster);
-    Eigen::VectorXd spectrum(frequency_.size());
-    for (Eigen::Index i = 0; i < spectrum.size(); ++i) {
-      const double w = 2.0 * std::sin(std::numbers::pi * frequency_[i]) / interval;
-      spectrum[i] = squares[0] * interval * w * w + squares[1] + squares[2] / w +
-                    squares[3] / (w * w);
-    }
-    if (!(spectrum.maxCoeff() > 0.0)) spectrum.setOnes();
+    const Eigen::ArrayXd w = 2.0 / interval * (std::numbers::pi * frequency_.array()).sin();
+    Eigen::ArrayXd rest = squares[1] + squares[2] / w + squares[3] / w.square();
+    const Eigen::ArrayXd quantisation = squares[0] * interval * w.square();
+    if (!(rest.maxCoeff() + quantisation.maxCoeff() > 0.0)) rest.setOnes();
+
     const Eigen::VectorXd measure = frequency_measure_ * frequency_;
-    const Eigen::MatrixXd power = spectrum.asDiagonal() * gains_;
-    const Eigen::VectorXd total = power.transpose() * measure;
+    const Eigen::MatrixXd power = (rest + quantisation).matrix().asDiagonal() * gains_;
     const Eigen::MatrixXd product = power.transpose() * measure.asDiagonal() * power;
     Eigen::VectorXd scale(size());
     for (Eigen::Index j = 0; j < size(); ++j) {
-      const double windows = static_cast<double>(samples_ - 2 * points_[j].cluster + 1);
-      const double edf =
-          std::min(points_[j].edf, windows * total[j] * total[j] / product(j, j));
+      const Eigen::ArrayXd as_white =
+          gains_.col(j).array() * (rest + 3.0 * squares[0] / points_[j].tau_s);
+      const double edf = points_[j].edf * measure.dot(as_white.square().matrix()) / product(j, j);
       target_[j] = log_variance_[j] - boost::math::digamma(0.5 * edf) + std::log(0.5 * edf);
       scale[j] = std::sqrt(boost::math::trigamma(0.5 * edf) / product(j, j));
     }
@@ -213,7 +206,6 @@ class Fit {
   }
 
   std::vector<AllanPoint> points_;
-  std::size_t samples_;
   Eigen::Matrix<double, Eigen::Dynamic, terms> shapes_;
   Eigen::VectorXd log_variance_, target_;
   Eigen::MatrixXd whitener_, gains_;
@@ -221,13 +213,16 @@ class Fit {
   double frequency_measure_ = 0.0;
 };
 
-Solution most_plausible(const Fit& fit, double dispersion) {
+int count_terms(const Solution& solution) {
+  return static_cast<int>((solution.squares.array() > 0.0).count());
+}
+
+Solution most_plausible(const Fit& fit) {
   Solution best;
   double least = std::numeric_limits<double>::infinity();
   for (unsigned allowed = 1; allowed <= all_terms; ++allowed) {
     const auto solution = fit.solve(allowed);
-    const double shown = static_cast<double>((solution.squares.array() > 0.0).count());
-    const double cost = solution.chi_square + cost_of_a_term * dispersion * shown;
+    const double cost = solution.chi_square + cost_of_a_term * count_terms(solution);
     if (!(cost < least)) continue;
     least = cost;
     best = solution;
@@ -244,16 +239,15 @@ double crossing(const Fit& fit, int k, double level, double inside, double outsi
   if (!(at_outside > 0.0)) return outside;
   std::uintmax_t evaluations = 60;
   const auto close = [](double a, double b) { return std::abs(a - b) <= 1e-5 * std::max(a, b); };
-  const auto [a, b] =
-      inside < outside
-          ? boost::math::tools::toms748_solve(excess, inside, outside, at_inside, at_outside, close,
-                                              evaluations)
-          : boost::math::tools::toms748_solve(excess, outside, inside, at_outside, at_inside, close,
-                                              evaluations);
+  const auto [a, b] = inside < outside
+                          ? boost::math::tools::toms748_solve(excess, inside, outside, at_inside,
+                                                              at_outside, close, evaluations)
+                          : boost::math::tools::toms748_solve(excess, outside, inside, at_outside,
+                                                              at_inside, close, evaluations);
   return 0.5 * (a + b);
 }
 
-std::vector<AllanPoint> an_octave_apart(std::span<const AllanPoint> points, std::size_t samples) {
+std::vector<AllanPoint> an_octave_apart(std::span<const AllanPoint> points) {
   std::vector<AllanPoint> kept;
   double last = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -262,10 +256,6 @@ std::vector<AllanPoint> an_octave_apart(std::span<const AllanPoint> points, std:
     for (const double x : {p.tau_s, p.deviation, p.edf, static_cast<double>(p.cluster)})
       if (!(x > 0.0 && std::isfinite(x)))
         throw InputError(place, "tau, deviation, edf and cluster are not all positive and finite");
-    if (p.cluster > samples / 2)
-      throw InputError(place, "a cluster of " + std::to_string(p.cluster) +
-                                  " is longer than half of " + std::to_string(samples) +
-                                  " samples");
     if (!(p.tau_s > last)) throw InputError(place, "tau does not rise");
     last = p.tau_s;
     if (kept.empty() || p.tau_s >= octave * kept.back().tau_s) kept.push_back(p);
@@ -291,48 +281,54 @@ std::vector<std::size_t> octave_clusters(std::size_t samples) {
   return clusters;
 }
 
-AllanCoefficients fit_allan_coefficients(std::span<const AllanPoint> points, std::size_t samples) {
-  const Fit fit(an_octave_apart(points, samples), samples);
-  const auto degrees = [&](const Solution& s) {
-    return static_cast<double>(fit.size() - (s.squares.array() > 0.0).count());
-  };
-  const auto fits = [&](const Solution& s) {
-    const double n = degrees(s);
-    return n < 1.0 || s.chi_square < quantile(boost::math::chi_squared(n), adequacy);
-  };
-  const auto full = fit.solve(all_terms);
-  const double dispersion = fits(full) ? 1.0 : full.chi_square / degrees(full);
-  const auto shown = most_plausible(fit, dispersion);
-  const Squares errors = std::sqrt(dispersion) * fit.standard_errors(shown.squares);
-
+AllanCoefficients fit_allan_coefficients(std::span<const AllanPoint> points) {
+  const auto all = an_octave_apart(points);
   AllanCoefficients out;
+  const auto fit_from = [&](std::size_t first) {
+    Fit fit({all.begin() + static_cast<std::ptrdiff_t>(first), all.end()});
+    const auto full = fit.solve(all_terms);
+    out.shortest_tau_s = all[first].tau_s;
+    out.chi_square = full.chi_square;
+    out.degrees_of_freedom = static_cast<int>(fit.size()) - count_terms(full);
+    out.adequate =
+        out.degrees_of_freedom < 1 ||
+        out.chi_square <= quantile(boost::math::chi_squared(out.degrees_of_freedom), adequacy);
+    return fit;
+  };
+  auto fit = fit_from(0);
+  const std::size_t fewest = std::max<std::size_t>(terms, (all.size() + 1) / 2);
+  for (std::size_t first = 1; !out.adequate && first + fewest <= all.size(); ++first)
+    fit = fit_from(first);
+  if (!out.adequate) {
+    fit = fit_from(0);
+    fit.widen(out.chi_square / out.degrees_of_freedom);
+  }
+  const auto shown = most_plausible(fit);
+  const Squares errors = fit.standard_errors(shown.squares);
+
   const std::array<AllanCoefficient*, terms> coefficients = {
       &out.quantisation_deg, &out.angle_random_walk_dps_per_sqrt_hz, &out.bias_instability_dps,
       &out.rate_random_walk_dps_sqrt_hz, &out.rate_ramp_dps_per_s};
   for (int k = 0; k < terms; ++k) {
     const double square = shown.squares[k];
-    const double level =
-        full.chi_square + dispersion * (square > 0.0 ? two_sided : one_sided);
-    const double best = full.squares[k];
-    double outside = std::max(best, fit.reach(k, full.squares));
-    while (fit.profile(k, outside) < level) outside *= 2.0;
+    const double level = shown.chi_square + (square > 0.0 ? two_sided : one_sided);
+    double outside = std::max(square, fit.reach(k, shown.squares));
+    for (int i = 0; i < 500 && fit.profile(k, outside) < level; ++i) outside *= 2.0;
     auto& c = *coefficients[k];
-    c.upper = std::sqrt(std::max(square, crossing(fit, k, level, best, outside)));
+    c.upper = std::sqrt(crossing(fit, k, level, square, outside));
     if (!(square > 0.0)) continue;
     c.value = std::sqrt(square);
     c.standard_error = errors[k] / (2.0 * c.value);
-    c.lower = best > 0.0 ? std::sqrt(std::min(square, crossing(fit, k, level, best, 0.0))) : 0.0;
+    c.lower = std::sqrt(crossing(fit, k, level, square, 0.0));
   }
-  out.chi_square = shown.chi_square;
-  out.degrees_of_freedom = static_cast<std::size_t>(degrees(shown));
-  out.adequate = fits(shown);
   return out;
 }
 
 AllanCoefficients fit_allan_coefficients(std::span<const double> rate_dps, double rate_hz) {
   const auto clusters = octave_clusters(rate_dps.size());
-  return fit_allan_coefficients(overlapping_allan_deviation(rate_dps, rate_hz, clusters),
-                                rate_dps.size());
+  if (clusters.empty())
+    throw InputError("rate", std::to_string(rate_dps.size()) + " samples; at least 128 are needed");
+  return fit_allan_coefficients(overlapping_allan_deviation(rate_dps, rate_hz, clusters));
 }
 
 }  // namespace gyrostat

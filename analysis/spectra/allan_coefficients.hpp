@@ -27,45 +27,55 @@ struct AllanCoefficients {
   AllanCoefficient bias_instability_dps;               ///< B; the flat part is at 0.664 B
   AllanCoefficient rate_random_walk_dps_sqrt_hz;       ///< K
   AllanCoefficient rate_ramp_dps_per_s;                ///< R
-  double chi_square = 0.0;                             ///< misfit of the terms shown
-  std::size_t degrees_of_freedom = 0;                  ///< points used minus terms shown
-  bool adequate = true;                                ///< chi_square below its 99.9 % quantile
+  double shortest_tau_s = 0.0;                         ///< of the points used
+  double chi_square = 0.0;                             ///< misfit of all five terms together
+  int degrees_of_freedom = 0;                          ///< points used minus terms above 0
+  bool adequate = true;                                ///< chi_square is below its 99.9 % quantile
 };
 
-constexpr double arcseconds_from_deg(double q) { return 3600.0 * q; }
-constexpr double deg_per_sqrt_hour_from_dps_per_sqrt_hz(double n) { return 60.0 * n; }
-constexpr double deg_per_hour_from_dps(double b) { return 3600.0 * b; }
-constexpr double deg_per_hour_per_sqrt_hour_from_dps_sqrt_hz(double k) { return 216000.0 * k; }
-constexpr double deg_per_hour_per_hour_from_dps_per_s(double r) { return 12960000.0 * r; }
+/// The customary units: arcseconds, deg/sqrt(h), deg/h, deg/h/sqrt(h), deg/h^2.
+constexpr double quantisation_arcsec(double deg) { return 3600.0 * deg; }
+constexpr double angle_random_walk_deg_per_sqrt_h(double dps_per_sqrt_hz) {
+  return 60.0 * dps_per_sqrt_hz;
+}
+constexpr double bias_instability_deg_per_h(double dps) { return 3600.0 * dps; }
+constexpr double rate_random_walk_deg_per_h_per_sqrt_h(double dps_sqrt_hz) {
+  return 3600.0 * 60.0 * dps_sqrt_hz;
+}
+constexpr double rate_ramp_deg_per_h2(double dps_per_s) { return 3600.0 * 3600.0 * dps_per_s; }
 
 /// The deviation that the coefficients amount to at tau.
 double allan_deviation(const AllanCoefficients& coefficients, double tau_s);
 
-/// 1, 2, 4, ... up to an eighth of `samples`, where the deviation still has six or more degrees of
-/// freedom.
+/// 1, 2, 4, ... up to an eighth of `samples`, where a random walk has six degrees of freedom.
 std::vector<std::size_t> octave_clusters(std::size_t samples);
 
-/// Non-negative weighted least squares of log sigma^2 on the five terms, at overlapping points of a
-/// record of `samples` values. A point's log variance has the mean and variance of a log chi-square
-/// variable with AllanPoint::edf degrees of freedom, or fewer where the spectrum fitted says so (it
-/// knows quantisation noise, which that edf takes for white). Neighbouring points are correlated:
-/// of those closer than an octave only the first is used, and the rest is weighted with the full
-/// correlation matrix, from the spectrum fitted and the windows' gains (Serroukh, Walden &
-/// Percival, JASA 2000).
+/// Non-negative weighted least squares of log sigma^2 on the five terms, at overlapping points.
+///
+/// A point's log variance has the mean and variance of a log chi-square variable with
+/// AllanPoint::edf degrees of freedom, times 0.77 to (tau / 2 interval) where the fit finds
+/// quantisation noise, which that edf takes for white. Neighbouring points are correlated: of those
+/// closer than an octave only the first is used, and the rest is weighted with the full correlation
+/// matrix, from the spectrum fitted and the gains of the windows (Serroukh, Walden & Percival, JASA
+/// 2000).
 ///
 /// A term is shown if it belongs to the set of terms with the least chi-square + 6.63 a term (the
 /// 99 % quantile on one degree of freedom). Its interval is where the chi-square, least over all
-/// other terms, rises by 3.84 (2.71 for an upper limit) above its minimum. Where the model does not
-/// describe the points, errors grow with the root of chi-square / degrees of freedom. A ramp is no
-/// noise: where it rules, its error is overestimated.
+/// other terms, rises by 3.84 (2.71 for an upper limit) above its minimum. A ramp is no noise:
+/// where it rules, its error is overestimated.
+///
+/// The five terms do not describe every gyro. An anti-aliasing filter lowers the points at the
+/// shortest taus, which weigh most: where the terms are not adequate, points are left out from
+/// there until they are, up to half of them. Where that does not help either (a first-order Markov
+/// bias, a vibration), all points are used and errors grow by the root of chi-square / degrees of
+/// freedom.
 ///
 /// Two conventions: a random walk sampled without averaging, as of a recursion x += w, has in
 /// addition N^2 = K^2 / (6 rate_hz^2); and rounding the *rate* (not the angle) makes N, not Q.
 ///
 /// Throws InputError for fewer than five points an octave apart, for a point whose tau, deviation,
-/// edf or cluster is not positive and finite, for taus that do not rise, and a cluster longer than
-/// half the record.
-AllanCoefficients fit_allan_coefficients(std::span<const AllanPoint> points, std::size_t samples);
+/// edf or cluster is not positive and finite, and for taus that do not rise.
+AllanCoefficients fit_allan_coefficients(std::span<const AllanPoint> points);
 
 /// The same for a rate sampled at `rate_hz`, at its octave_clusters.
 AllanCoefficients fit_allan_coefficients(std::span<const double> rate_dps, double rate_hz);

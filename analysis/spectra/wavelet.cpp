@@ -17,10 +17,9 @@ constexpr double root3 = std::numbers::sqrt3;
 
 constexpr std::array haar = {half_root2, half_root2};
 
-constexpr std::array daubechies4 = {(1.0 + root3) / 4.0 * half_root2,
-                                    (3.0 + root3) / 4.0 * half_root2,
-                                    (3.0 - root3) / 4.0 * half_root2,
-                                    (1.0 - root3) / 4.0 * half_root2};
+constexpr std::array daubechies4 = {
+    (1.0 + root3) / 4.0 * half_root2, (3.0 + root3) / 4.0 * half_root2,
+    (3.0 - root3) / 4.0 * half_root2, (1.0 - root3) / 4.0 * half_root2};
 
 /// The solution of the eight equations sum_l g_l g_{l+2k} = [k = 0] and sum_l (-1)^l l^k g_l = 0,
 /// k = 0..3, that lies next to the table of Percival & Walden (p. 109), by Newton's method in 60

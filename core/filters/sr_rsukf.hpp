@@ -64,6 +64,11 @@ class SrRsukf {
   Step<T> step(const Sample<T>& sample) { return nl_cycle<T>(filter_, mu_, sample.gyro_dps); }
 
   const NlUnscented<T>& state() const { return filter_; }
+  LearnedParameters learned() const
+    requires std::same_as<T, double>
+  {
+    return filter_.learned();
+  }
 
  private:
   NlUnscented<T> filter_;

@@ -21,6 +21,11 @@ class SrUkf {
   }
 
   const NlUnscented<T>& state() const { return filter_; }
+  LearnedParameters learned() const
+    requires std::same_as<T, double>
+  {
+    return filter_.learned();
+  }
 
  private:
   NlUnscented<T> filter_;

@@ -117,6 +117,11 @@ class NlUnscented {
 
   T estimate() const { return mean_(0); }
   T variance() const { return root_(0, 0) * root_(0, 0); }
+  LearnedParameters learned() const
+    requires std::same_as<T, double>
+  {
+    return {mean_(2), root_.row(2).norm(), mean_(3), mean_(4)};
+  }
   const State& mean() const { return mean_; }
   const Root& root() const { return root_; }
 

@@ -145,7 +145,8 @@ TEST(Shrink, StationaryIsTheMeanOfDecimatedOverAllShifts) {
 /// The rate when no detail is kept.
 std::vector<double> smooth_only(std::span<const double> rate, const ShrinkageOptions& options) {
   const std::size_t levels = most_levels(options.wavelet, rate.size());
-  const std::size_t block = options.transform == Transform::Decimated ? std::size_t{1} << levels : 1;
+  const std::size_t block =
+      options.transform == Transform::Decimated ? std::size_t{1} << levels : 1;
   const std::size_t half = (rate.size() + block - 1) / block * block;
   const auto mirrored = reflected(reflected(rate, half), 2 * half);
   auto coefficients = options.transform == Transform::Decimated
@@ -273,8 +274,9 @@ TEST(ShrinkRate, OfAStepInNoiseIsBelowTheBoundAndFarBelowTheNoise) {
   for (const Wavelet wavelet : wavelets)
     for (const Transform transform : transforms)
       for (const ThresholdRule rule : rules) {
-        const auto error = mean_over(
-            30, [&](std::uint32_t trial) { return step_error({wavelet, transform, rule}, trial); });
+        const auto error = mean_over(30, [&](std::uint32_t trial) {
+          return step_error({wavelet, transform, rule}, trial);
+        });
         EXPECT_LT(error.value + 4.5 * error.standard_error, 0.174);
       }
 }

@@ -54,7 +54,8 @@ double energy(const WaveletCoefficients& coefficients) {
 /// All coefficients in one column: details from the finest, then the smooth.
 Eigen::VectorXd column(const WaveletCoefficients& coefficients) {
   std::vector<double> all;
-  for (const auto& detail : coefficients.detail) all.insert(all.end(), detail.begin(), detail.end());
+  for (const auto& detail : coefficients.detail)
+    all.insert(all.end(), detail.begin(), detail.end());
   all.insert(all.end(), coefficients.smooth.begin(), coefficients.smooth.end());
   return Eigen::VectorXd::Map(all.data(), std::ssize(all));
 }
@@ -111,15 +112,15 @@ TEST(WaveletFilter, HasAsManyVanishingMomentsAsHalfItsWidth) {
 
 // Daubechies 1992, table 6.1; Percival & Walden, p. 109, whose LA(8) is good to 4e-13.
 TEST(WaveletFilter, IsThePublishedOne) {
-  expect_near(scaling_filter(Wavelet::Daubechies4),
-              std::vector{0.4829629131445341, 0.8365163037378077, 0.2241438680420134,
-                          -0.1294095225512603},
-              1e-15);
-  expect_near(scaling_filter(Wavelet::LeastAsymmetric8),
-              std::vector{-0.0757657147893407, -0.0296355276459541, 0.4976186676324578,
-                          0.8037387518052163, 0.2978577956055422, -0.0992195435769354,
-                          -0.0126039672622612, 0.0322231006040713},
-              4e-13);
+  expect_near(
+      scaling_filter(Wavelet::Daubechies4),
+      std::vector{0.4829629131445341, 0.8365163037378077, 0.2241438680420134, -0.1294095225512603},
+      1e-15);
+  expect_near(
+      scaling_filter(Wavelet::LeastAsymmetric8),
+      std::vector{-0.0757657147893407, -0.0296355276459541, 0.4976186676324578, 0.8037387518052163,
+                  0.2978577956055422, -0.0992195435769354, -0.0126039672622612, 0.0322231006040713},
+      4e-13);
 }
 
 TEST(Wavelet, ReconstructsPerfectlyAtAnyLength) {
@@ -183,8 +184,8 @@ std::vector<double> equivalent_filter(Wavelet wavelet, std::size_t level) {
   std::vector<double> out = {1.0};
   for (std::size_t k = 1; k <= level; ++k) {
     const auto scaling = scaling_filter(wavelet);
-    const auto next = k == level ? wavelet_filter(wavelet)
-                                 : std::vector<double>(scaling.begin(), scaling.end());
+    const auto next =
+        k == level ? wavelet_filter(wavelet) : std::vector<double>(scaling.begin(), scaling.end());
     const std::size_t spread = std::size_t{1} << (k - 1);
     std::vector<double> product(out.size() + spread * (next.size() - 1), 0.0);
     for (std::size_t i = 0; i < out.size(); ++i)
@@ -281,7 +282,8 @@ TEST(Wavelet, OfWhiteNoiseHasTheStatedStandardDeviations) {
     const double count = static_cast<double>(decimated.size());
     EXPECT_NEAR(energy(decimated) / count, 1.0, 4.5 * std::sqrt(2.0 / count));
     const auto stationary = modwt(signal, Wavelet::LeastAsymmetric8, 6).detail[level - 1];
-    EXPECT_NEAR(energy(stationary) / 65'536.0 * std::exp2(level), 1.0, 4.5 * std::sqrt(2.0 / count));
+    EXPECT_NEAR(energy(stationary) / 65'536.0 * std::exp2(level), 1.0,
+                4.5 * std::sqrt(2.0 / count));
   }
 }
 

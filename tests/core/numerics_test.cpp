@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <ceres/jet.h>
 #include <gtest/gtest.h>
 
 #include "core/numerics/kalman.hpp"
@@ -223,6 +224,48 @@ TEST_F(Numerics, InflateRefusesExactlyWhereTheInformationIsNotPositiveDefinite) 
       EXPECT_FALSE((inflate_root<double, n>(root, mu * (1.0 + margin)))) << margin;
       EXPECT_TRUE((root.array() == before.array()).all()) << "the root was touched";
     }
+}
+
+using Jet = ceres::Jet<double, 1>;
+
+/// A + t B at t = 0, with its derivative by t.
+template <int Rows, int Columns>
+Matrix<Jet, Rows, Columns> line(const Matrix<double, Rows, Columns>& A,
+                                const Matrix<double, Rows, Columns>& B) {
+  Matrix<Jet, Rows, Columns> out = A.template cast<Jet>();
+  for (int i = 0; i < A.size(); ++i) out(i).v[0] = B(i);
+  return out;
+}
+
+Square derivative(const Matrix<Jet, n>& m) {
+  return m.unaryExpr([](const Jet& j) { return j.v[0]; });
+}
+
+/// The derivative of L L^T is that of A A^T, also where an entry is zero and only passes through.
+TEST_F(Numerics, LowerRootOnJetsHasTheDerivativeOfTheGramMatrix) {
+  for (const bool zeros : {false, true}) {
+    Matrix<double, n, n + 2> a = random<n, n + 2>();
+    if (zeros) a.triangularView<Eigen::StrictlyUpper>().setZero();
+    const auto jets = line<n, n + 2>(a, random<n, n + 2>());
+    const Matrix<Jet, n> root = lower_root<Jet, n, n + 2>(jets);
+    expect_close(derivative(root * root.transpose()), derivative(jets * jets.transpose()), 1e-11);
+  }
+}
+
+TEST_F(Numerics, UpdateAndDowndateOnJetsHaveTheDerivativeOfTheOuterProduct) {
+  for (const bool zeros : {false, true}) {
+    const Square slope = random<n, n>().triangularView<Eigen::Lower>();
+    Column v = 0.1 * random<n, 1>();
+    if (zeros) v.head<3>().setZero();
+    const auto jets = line<n, n>(random_root(), slope);
+    const auto direction = line<n, 1>(v, random<n, 1>());
+    const Matrix<Jet, n> P = jets * jets.transpose(), vv = direction * direction.transpose();
+    Matrix<Jet, n> up = jets, down = jets;
+    update_root<Jet, n>(up, direction);
+    ASSERT_TRUE((downdate_root<Jet, n>(down, direction)));
+    expect_close(derivative(up * up.transpose()), derivative(P + vv), 1e-11);
+    expect_close(derivative(down * down.transpose()), derivative(P - vv), 1e-11);
+  }
 }
 
 TEST_F(Numerics, PropagationIsTheSimilarityByF) {

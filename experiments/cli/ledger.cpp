@@ -1,0 +1,46 @@
+#include "experiments/ledger.hpp"
+
+#include "experiments/atomic_file.hpp"
+#include "experiments/cli/options.hpp"
+#include "experiments/cli/progress.hpp"
+#include "experiments/cli/verbs.hpp"
+
+namespace gyrostat::cli {
+namespace {
+
+struct LedgerArguments {
+  std::string ledger;
+  std::uint32_t trials = 0;
+  FormatOption format;
+};
+
+int run(const LedgerArguments& arguments, Console& console) {
+  const auto format = arguments.format.get();
+  const Ledger ledger = read_ledger(arguments.ledger);
+  const auto findings = judge(ledger, [&](const Study& study, const Cell& cell) {
+    Cell shown = cell;
+    if (arguments.trials > 0 && !cell.recording) shown.trials = arguments.trials;
+    Progress progress(console.log, console.log_is_terminal, cell.name, shown.trials);
+    return run_cell(shown, study.seed,
+                    {.threads = 0,
+                     .stop = &console.stop,
+                     .progress = [&](std::size_t done) { progress.set(done); }});
+  });
+  if (console.stop) return stopped;
+  console.out << render(ledger_tables(ledger, findings), format);
+  return complete;
+}
+
+}  // namespace
+
+void add_ledger(CLI::App& program, Console& console, int& exit_code) {
+  auto* verb = program.add_subcommand("ledger", "decide claims by trials: holds, holds only where, not");
+  auto arguments = std::make_shared<LedgerArguments>();
+  verb->add_option("ledger", arguments->ledger, "ledger file (JSON)")->required();
+  verb->add_option("--trials", arguments->trials, "trials of every cell, instead of the study's")
+      ->check(CLI::Range(2U, 4294967295U));
+  arguments->format.add_to(verb);
+  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+}
+
+}  // namespace gyrostat::cli

@@ -1,0 +1,176 @@
+#include "experiments/ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "analysis/statistics/paired.hpp"
+
+namespace gyrostat {
+namespace {
+
+std::size_t method_index(const Cell& cell, const std::string& id) {
+  const auto found = std::find_if(cell.methods.begin(), cell.methods.end(),
+                                  [&](const Method& m) { return m.id == id; });
+  return static_cast<std::size_t>(found - cell.methods.begin());
+}
+
+bool concerns(const Claim& claim, const std::string& study, const Cell& cell) {
+  if (claim.study != study) return false;
+  return claim.cells.empty() ||
+         std::find(claim.cells.begin(), claim.cells.end(), cell.name) != claim.cells.end();
+}
+
+std::vector<double> values_for(const Claim& claim, const CellResult& result, std::size_t method) {
+  auto values = metric_values(result, method, claim.metric);
+  if (claim.absolute)
+    for (double& v : values) v = std::abs(v);
+  return values;
+}
+
+Finding judge_one(const Claim& claim, const Cell& cell, const CellResult& result,
+                  std::size_t family) {
+  const auto values = values_for(claim, result, method_index(cell, claim.method));
+  const auto against = claim.than.empty()
+                           ? std::vector<double>(values.size(), claim.value)
+                           : values_for(claim, result, method_index(cell, claim.than));
+  const auto d = paired_difference(values, against, family);
+  Finding finding{.cell = cell.name,
+                  .quantity = d.mean,
+                  .half_width = d.half_width,
+                  .trials_needed = d.trials_needed,
+                  .trials = d.count};
+  const double towards = claim.above ? d.mean : -d.mean;
+  if (d.separable) finding.verdict = towards > 0.0 ? Verdict::holds : Verdict::does_not_hold;
+  return finding;
+}
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::holds: return "holds";
+    case Verdict::does_not_hold: return "does not hold";
+    default: return "not separable";
+  }
+}
+
+std::string statement(const Claim& claim) {
+  const auto metric = Metrics::ids()[claim.metric];
+  const auto subject = fmt::format("{}{}{} of {}", claim.absolute ? "|" : "", metric,
+                                   claim.absolute ? "|" : "", claim.method);
+  const auto object = claim.than.empty() ? fmt::format("{:g}", claim.value) : "that of " + claim.than;
+  return fmt::format("{} {} {}", subject, claim.above ? "above" : "below", object);
+}
+
+std::string summary_of(const std::vector<const Finding*>& findings) {
+  std::vector<std::string> where;
+  std::size_t fails = 0;
+  for (const auto* f : findings) {
+    if (f->verdict == Verdict::holds) where.push_back(f->cell);
+    fails += f->verdict == Verdict::does_not_hold;
+  }
+  if (findings.empty()) return "not run";
+  if (where.size() == findings.size()) return "holds";
+  if (where.empty())
+    return fails == findings.size() ? "does not hold"
+           : fails == 0             ? "not separable"
+                                    : "does not hold, or not separable";
+  return fmt::format("holds only in {}", fmt::join(where, ", "));
+}
+
+}  // namespace
+
+Ledger read_ledger(const std::string& path) {
+  const Json json = read_json(path);
+  JsonObject object(json, path + ":");
+  const auto folder = std::filesystem::path(path).parent_path();
+  Ledger ledger;
+  ledger.title = object.text("title", path);
+  for (const auto& [value, place] : object.list("claims")) {
+    JsonObject entry(*value, place);
+    Claim claim;
+    claim.text = entry.text("claim", "");
+    claim.source = entry.text("source", "");
+    claim.study = (folder / entry.text("study", "")).lexically_normal().string();
+    claim.method = entry.text("method", "");
+    claim.than = entry.text("than", "");
+    claim.value = entry.number("value", 0.0, ranges::any, "");
+    claim.metric = metric_named(entry.text("metric", ""), entry.place_of("metric"));
+    claim.absolute = entry.number("absolute", 0, ranges::flag, "") != 0.0;
+    claim.above = entry.number("above", 0, ranges::flag, "") != 0.0;
+    for (const auto& [cell, cell_place] : entry.list("cells")) {
+      if (!cell->is_string()) throw InputError(cell_place, "the name of a cell is needed here");
+      claim.cells.push_back(cell->get<std::string>());
+    }
+    entry.finish();
+    const Study study = read_study(claim.study);
+    std::vector<std::string> names;
+    for (const auto& cell : study.cells) names.push_back(cell.name);
+    for (const auto& name : claim.cells)
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        throw InputError(place, unknown_name("cell", name, names));
+    for (const auto& cell : study.cells)
+      for (const auto& id : {claim.method, claim.than})
+        if (concerns(claim, claim.study, cell) && !id.empty() &&
+            method_index(cell, id) == cell.methods.size())
+          throw InputError(place, fmt::format("cell {} has no method '{}'", cell.name, id));
+    if (std::find(ledger.studies.begin(), ledger.studies.end(), claim.study) == ledger.studies.end())
+      ledger.studies.push_back(claim.study);
+    ledger.claims.push_back(claim);
+  }
+  object.finish();
+  if (ledger.claims.empty()) throw InputError(path, "\"claims\" is missing or empty");
+  return ledger;
+}
+
+std::vector<Finding> judge(const Ledger& ledger,
+                           const std::function<CellResult(const Study&, const Cell&)>& run) {
+  std::vector<Finding> findings;
+  for (const auto& path : ledger.studies) {
+    const Study study = read_study(path);
+    std::vector<std::size_t> family(ledger.claims.size(), 0);
+    for (std::size_t c = 0; c < ledger.claims.size(); ++c)
+      for (const auto& cell : study.cells) family[c] += concerns(ledger.claims[c], path, cell);
+    for (const auto& cell : study.cells) {
+      const auto wanted = [&](const Claim& claim) { return concerns(claim, path, cell); };
+      if (std::none_of(ledger.claims.begin(), ledger.claims.end(), wanted)) continue;
+      const CellResult result = run(study, cell);
+      for (std::size_t c = 0; c < ledger.claims.size(); ++c) {
+        if (!wanted(ledger.claims[c])) continue;
+        findings.push_back(judge_one(ledger.claims[c], cell, result, family[c]));
+        findings.back().claim = c;
+      }
+    }
+  }
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.claim < b.claim; });
+  return findings;
+}
+
+std::vector<Table> ledger_tables(const Ledger& ledger, const std::vector<Finding>& findings) {
+  Table claims{.title = ledger.title,
+               .columns = {{"claim", ""}, {"source", ""}, {"measured", ""}, {"verdict", ""}},
+               .rows = {}, .notes = {}};
+  Table detail{.title = ledger.title + ": findings",
+               .columns = {{"claim", ""}, {"cell", ""}, {"difference", ""},
+                           {"± 95 % simultaneous", ""}, {"trials", ""}, {"verdict", ""},
+                           {"trials to tell", ""}},
+               .rows = {}, .notes = {}};
+  for (std::size_t c = 0; c < ledger.claims.size(); ++c) {
+    std::vector<const Finding*> own;
+    for (const auto& f : findings) {
+      if (f.claim != c) continue;
+      own.push_back(&f);
+      detail.rows.push_back({ledger.claims[c].text, f.cell, cell(f.quantity), cell(f.half_width),
+                             static_cast<std::int64_t>(f.trials), std::string(name_of(f.verdict)),
+                             f.verdict == Verdict::not_separable ? cell(f.trials_needed)
+                                                                 : TableCell()});
+    }
+    claims.rows.push_back({ledger.claims[c].text, ledger.claims[c].source,
+                           statement(ledger.claims[c]), summary_of(own)});
+  }
+  detail.notes.push_back("difference: the measured quantity minus what it is claimed to lie below or "
+                         "above, in the metric's unit; mean over trials");
+  return {claims, detail};
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,126 @@
+#include "generators/effects/list.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace gyrostat {
+namespace {
+
+using effects::Outliers;
+using effects::ThermalCurvature;
+using effects::ThermalHysteresis;
+
+/// What the effect adds to the drift of a sensor that goes through these temperatures.
+template <class Effect>
+std::vector<double> drift(const Effect& effect, const std::vector<double>& temperature_C) {
+  Series series;
+  series.temperature_C = temperature_C;
+  series.t_s.resize(temperature_C.size());
+  series.thermal_bias_dps.resize(temperature_C.size());
+  effect.apply(series, {1, 0});
+  return series.thermal_bias_dps;
+}
+
+/// From one temperature to another and on, 0.25 °C at a time.
+std::vector<double> moves(const std::vector<double>& turning_points) {
+  std::vector<double> T = {turning_points.front()};
+  for (const double to : turning_points)
+    while (T.back() != to) T.push_back(T.back() + (to > T.back() ? 0.25 : -0.25));
+  return T;
+}
+
+TEST(ThermalCurvature, IsTheParabolaAboutItsReference) {
+  const auto bias = drift(ThermalCurvature{.curvature_dps_per_C2 = 2e-4, .reference_C = 40.0},
+                          {40.0, 30.0, 50.0, 41.0});
+  EXPECT_EQ(bias[0], 0.0);
+  EXPECT_DOUBLE_EQ(bias[1], 0.02);
+  EXPECT_DOUBLE_EQ(bias[2], 0.02);
+  EXPECT_DOUBLE_EQ(bias[3], 2e-4);
+}
+
+TEST(ThermalHysteresis, ALongMoveOneWayEndsOnThePlusOrMinusBranch) {
+  const ThermalHysteresis hysteresis{.amplitude_dps = 0.01, .width_C = 3.0};
+  EXPECT_DOUBLE_EQ(drift(hysteresis, moves({20.0, 40.0})).back(), 0.01);
+  EXPECT_DOUBLE_EQ(drift(hysteresis, moves({40.0, 20.0})).back(), -0.01);
+  EXPECT_DOUBLE_EQ(drift(hysteresis, moves({20.0, 40.0, 20.0})).back(), -0.01);
+  EXPECT_DOUBLE_EQ(drift(hysteresis, moves({20.0, 40.0, 20.0, 27.0})).back(), 0.01);
+}
+
+TEST(ThermalHysteresis, LeadsFromBranchToBranchOverTwiceItsWidth) {
+  const ThermalHysteresis hysteresis{.amplitude_dps = 0.01, .width_C = 3.0};
+  EXPECT_NEAR(drift(hysteresis, moves({20.0, 40.0, 37.0})).back(), 0.0, 1e-15);
+  EXPECT_NEAR(drift(hysteresis, moves({20.0, 40.0, 34.25})).back(), -0.01 * 11.0 / 12.0, 1e-15);
+  EXPECT_DOUBLE_EQ(drift(hysteresis, moves({20.0, 40.0, 34.0})).back(), -0.01);
+}
+
+TEST(ThermalHysteresis, ClosesItsLoop) {
+  const ThermalHysteresis hysteresis{.amplitude_dps = 0.01, .width_C = 3.0};
+  for (const double low : {25.0, 36.0, 39.0}) {
+    const auto bias = drift(hysteresis, moves({20.0, 40.0, low, 40.0, low, 40.0}));
+    const auto loop = static_cast<std::size_t>(8.0 * (40.0 - low));
+    for (std::size_t k = bias.size() - loop; k < bias.size(); ++k)
+      EXPECT_NEAR(bias[k], bias[k - loop], 1e-15) << "loop down to " << low;
+  }
+}
+
+TEST(ThermalHysteresis, TheLoopOfALongCycleEnclosesItsTheoreticalArea) {
+  const ThermalHysteresis hysteresis{.amplitude_dps = 0.01, .width_C = 3.0};
+  const auto T = moves({20.0, 50.0, 20.0, 50.0});
+  const auto bias = drift(hysteresis, T);
+  double area = 0.0;  // over the last closed cycle, from 50 °C to 50 °C
+  for (std::size_t k = T.size() - 240; k < T.size(); ++k)
+    area += 0.5 * (bias[k] + bias[k - 1]) * (T[k] - T[k - 1]);
+  // A parallelogram of height 2 amplitude and width 30 - 2 width, by the trapezoid rule exactly.
+  EXPECT_NEAR(std::abs(area), 2.0 * 0.01 * (30.0 - 6.0), 1e-12);
+}
+
+TEST(ThermalHysteresis, DependsOnTheOrderOfTemperaturesAndNotOnTime) {
+  const ThermalHysteresis hysteresis{.amplitude_dps = 0.01, .width_C = 3.0};
+  const auto once = moves({20.0, 40.0, 30.0});
+  std::vector<double> twice;
+  for (const double T : once) twice.insert(twice.end(), {T, T});
+  const auto fast = drift(hysteresis, once), slow = drift(hysteresis, twice);
+  for (std::size_t k = 0; k < fast.size(); ++k) EXPECT_EQ(fast[k], slow[2 * k]);
+}
+
+std::vector<double> outliers(const Outliers& effect, std::size_t samples, std::uint32_t trial = 0) {
+  Series series;
+  series.t_s.resize(samples);
+  series.gyro_dps.resize(samples);
+  effect.apply(series, {1, trial});
+  return series.gyro_dps;
+}
+
+// The hits are binomial and their mean square has relative standard error sqrt(2 / hits); at 5
+// standard errors each fails falsely at 6e-7.
+TEST(Outliers, HitTheirShareOfSamplesWithTheirStandardDeviation) {
+  constexpr std::size_t n = 500000;
+  const Outliers effect{.probability = 0.01, .std_dps = 3.0};
+  double hits = 0.0, square = 0.0;
+  for (const double v : outliers(effect, n)) {
+    hits += v != 0.0;
+    square += v * v;
+  }
+  EXPECT_NEAR(hits, 5000.0, 5.0 * std::sqrt(n * 0.01 * 0.99));
+  EXPECT_NEAR(square / hits, 9.0, 5.0 * 9.0 * std::sqrt(2.0 / hits));
+}
+
+TEST(Outliers, OfProbabilityOneAreWhiteNoiseOnEverySample) {
+  for (const double v : outliers({.probability = 1.0, .std_dps = 3.0}, 1000)) EXPECT_NE(v, 0.0);
+}
+
+TEST(Outliers, AreTheSameHitsAtAnyStrengthAndMoreOfThemAtAHigherProbability) {
+  const auto weak = outliers({.probability = 0.01, .std_dps = 1.0}, 10000);
+  const auto strong = outliers({.probability = 0.01, .std_dps = 10.0}, 10000);
+  const auto more = outliers({.probability = 0.1, .std_dps = 1.0}, 10000);
+  for (std::size_t k = 0; k < weak.size(); ++k) {
+    EXPECT_DOUBLE_EQ(strong[k], 10.0 * weak[k]);
+    EXPECT_EQ(weak[k] == 0.0 ? 0.0 : more[k], weak[k]);
+  }
+}
+
+}  // namespace
+}  // namespace gyrostat

@@ -1,0 +1,146 @@
+#include "generators/scenario.hpp"
+
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace gyrostat {
+namespace {
+
+Series synthesised(const Scenario& scenario, const Noise& noise = {1, 0}) {
+  Series series;
+  synthesise(scenario, noise, series);
+  return series;
+}
+
+std::vector<std::uint64_t> bits_of(const std::vector<double>& values) {
+  std::vector<std::uint64_t> bits;
+  for (const double v : values) bits.push_back(std::bit_cast<std::uint64_t>(v));
+  return bits;
+}
+
+bool same_bits(const Series& a, const Series& b) {
+  for (const auto& channel : channels)
+    if (bits_of(a.*channel.values) != bits_of(b.*channel.values)) return false;
+  return true;
+}
+
+/// Everything at once, short.
+Scenario busy() {
+  Scenario scenario;
+  scenario.sampling = {.duration_s = 120.0, .rate_hz = 20.0};
+  scenario.thermal_drift = {.a_dps_per_C = 0.002, .b_dps_s_per_C = 0.3, .c_dps = -0.05};
+  scenario.temperature = temperature::Cycle{.low_C = 20.0, .high_C = 50.0, .period_s = 60.0};
+  scenario.motion = motion::RateTable{};
+  scenario.compass.disturbances = {{.start_s = 30.0, .duration_s = 20.0}};
+  scenario.effects = {effects::ThermalCurvature{}, effects::ThermalHysteresis{},
+                      effects::Outliers{.probability = 0.05}};
+  return scenario;
+}
+
+TEST(Sampling, CountsItsSamplesAndNeverNone) {
+  EXPECT_EQ((Sampling{.duration_s = 60.0, .rate_hz = 100.0}.samples()), 6000U);
+  EXPECT_EQ((Sampling{.duration_s = 0.3, .rate_hz = 10.0}.samples()), 3U);
+  EXPECT_EQ((Sampling{.duration_s = 1e-9, .rate_hz = 1.0}.samples()), 1U);
+}
+
+TEST(Synthesise, TheLinearDriftIsATPlusBSlopePlusC) {
+  auto scenario = busy();
+  scenario.effects.clear();
+  const auto series = synthesised(scenario);
+  const auto& T = series.temperature_C;
+  for (std::size_t i = 1; i < series.size(); ++i) {
+    const double slope = (T[i] - T[i - 1]) / (series.t_s[i] - series.t_s[i - 1]);
+    EXPECT_DOUBLE_EQ(series.thermal_bias_dps[i], 0.002 * T[i] + 0.3 * slope - 0.05);
+  }
+  EXPECT_DOUBLE_EQ(series.thermal_bias_dps[0], 0.002 * T[0] + 0.3 * (T[1] - T[0]) / 0.05 - 0.05);
+}
+
+TEST(Synthesise, TheGyroIsTheSumOfItsParts) {
+  auto scenario = busy();
+  scenario.random_error.measurement_noise_std_dps = 0.0;
+  scenario.effects.pop_back();
+  const auto series = synthesised(scenario);
+  for (std::size_t i = 0; i < series.size(); ++i)
+    EXPECT_DOUBLE_EQ(series.gyro_dps[i], series.rate_ref_dps[i] + series.thermal_bias_dps[i] +
+                                             series.random_error_dps[i]);
+}
+
+TEST(Synthesise, EveryChannelOfASimulationIsAsLongAsTheSignal) {
+  const auto series = synthesised(busy());
+  for (const auto* channel :
+       {&series.t_s, &series.gyro_dps, &series.temperature_C, &series.heading_deg, &series.mag_valid,
+        &series.rate_ref_dps, &series.thermal_bias_dps, &series.random_error_dps})
+    EXPECT_EQ(channel->size(), 2400U);
+}
+
+TEST(Synthesise, ASignalOfOneSampleIsFinite) {
+  auto scenario = busy();
+  scenario.sampling.duration_s = 1e-3;
+  const auto series = synthesised(scenario);
+  ASSERT_EQ(series.size(), 1U);
+  EXPECT_TRUE(std::isfinite(series.gyro_dps[0]));
+}
+
+TEST(Synthesise, ATrialsSignalDoesNotDependOnWhatRanBefore) {
+  Series reused;
+  auto longer = busy();
+  longer.sampling.duration_s = 300.0;
+  synthesise(longer, {9, 9}, reused);
+  synthesise(busy(), {1, 4}, reused);
+  EXPECT_TRUE(same_bits(reused, synthesised(busy(), {1, 4})));
+  reused.acc_x_mps2.assign(17, 1.0);
+  synthesise(busy(), {1, 4}, reused);
+  EXPECT_TRUE(same_bits(reused, synthesised(busy(), {1, 4})));
+}
+
+TEST(Synthesise, TrialsAndSeedsAreDifferentSignals) {
+  EXPECT_NE(synthesised(busy(), {1, 0}).gyro_dps, synthesised(busy(), {1, 1}).gyro_dps);
+  EXPECT_NE(synthesised(busy(), {1, 0}).gyro_dps, synthesised(busy(), {2, 0}).gyro_dps);
+}
+
+TEST(Synthesise, ADisturbanceOfTheCompassMovesNothingElse) {
+  auto scenario = busy();
+  const auto before = synthesised(scenario);
+  scenario.compass.disturbances.clear();
+  scenario.compass.noise_std_deg = 3.0;
+  const auto after = synthesised(scenario);
+  for (const auto& channel : channels) {
+    const bool of_compass = channel.name == "heading_deg" || channel.name == "mag_valid";
+    EXPECT_EQ(bits_of(before.*channel.values) == bits_of(after.*channel.values), !of_compass)
+        << channel.name;
+  }
+}
+
+TEST(Synthesise, MotionMovesGyroAndHeadingByItselfAlone) {
+  auto scenario = busy();
+  scenario.compass.noise_std_deg = 0.0;
+  scenario.compass.disturbances.clear();
+  const auto moving = synthesised(scenario);
+  scenario.motion = motion::Stationary{};
+  const auto still = synthesised(scenario);
+  double heading = 0.0;
+  for (std::size_t i = 0; i < still.size(); ++i) {
+    EXPECT_NEAR(moving.gyro_dps[i] - still.gyro_dps[i], moving.rate_ref_dps[i], 1e-12);
+    if (i > 0) heading += moving.rate_ref_dps[i] * (moving.t_s[i] - moving.t_s[i - 1]);
+    EXPECT_NEAR(wrap_degrees(moving.heading_deg[i] - heading - still.heading_deg[i]), 0.0, 1e-9);
+  }
+  EXPECT_EQ(bits_of(moving.random_error_dps), bits_of(still.random_error_dps));
+}
+
+TEST(Synthesise, TheWhiteNoiseIsTheSameAtAnyStrength) {
+  auto scenario = busy();
+  scenario.effects.clear();
+  const auto with = [&](double std) {
+    scenario.random_error.measurement_noise_std_dps = std;
+    return synthesised(scenario).gyro_dps;
+  };
+  const auto none = with(0.0), once = with(0.1), thrice = with(0.3);
+  for (std::size_t i = 0; i < none.size(); ++i)
+    EXPECT_NEAR(thrice[i] - none[i], 3.0 * (once[i] - none[i]), 1e-12);
+}
+
+}  // namespace
+}  // namespace gyrostat
