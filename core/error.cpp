@@ -7,19 +7,28 @@
 namespace gyrostat {
 namespace {
 
+/// Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t substitution = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({substitution, row[j] + 1, diagonal + 1});
+  std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+  std::iota(above.begin(), above.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = a[i - 1] == b[j - 1] ? 0 : 1;
+      row[j] = std::min({above[j - 1] + change, row[j - 1] + 1, above[j] + 1});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
     }
+    before.swap(above);
+    above.swap(row);
   }
-  return row.back();
+  return above.back();
+}
+
+/// Edit distance, but a name that only lacks its end is next to the whole one.
+std::size_t distance(std::string_view name, std::string_view candidate) {
+  const bool shortened = name.size() >= 3 && candidate.starts_with(name);
+  return shortened ? 1 : edit_distance(name, candidate);
 }
 
 }  // namespace
@@ -27,9 +36,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
   const auto nearest =
       std::min_element(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
-        return edit_distance(name, a) < edit_distance(name, b);
+        return distance(name, a) < distance(name, b);
       });
   return nearest == candidates.end() ? std::string{} : *nearest;
+}
+
+bool is_misspelling(std::string_view name, std::string_view meant) {
+  return distance(name, meant) <= 1 + meant.size() / 4;
 }
 
 std::string unknown_name(std::string_view kind, std::string_view name,

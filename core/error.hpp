@@ -11,11 +11,15 @@ namespace gyrostat {
 class InputError : public std::runtime_error {
  public:
   InputError(std::string_view place, std::string_view problem)
-      : std::runtime_error(std::string(place) + ": " + std::string(problem)) {}
+      : std::runtime_error(std::string(place) + (place.ends_with(':') ? " " : ": ") +
+                           std::string(problem)) {}
 };
 
 /// The candidate with the smallest edit distance to `name`; empty when there are no candidates.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
+
+/// Whether `name` is close enough to `meant` to have been meant so.
+bool is_misspelling(std::string_view name, std::string_view meant);
 
 /// "unknown <kind> 'name'; did you mean 'nearest'?"
 std::string unknown_name(std::string_view kind, std::string_view name,

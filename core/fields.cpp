@@ -4,15 +4,12 @@
 #include <cstdio>
 
 namespace gyrostat {
-namespace {
 
-std::string number(double value) {
+std::string short_number(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%g", value);
   return text.data();
 }
-
-}  // namespace
 
 bool Range::contains(double value) const {
   if (!std::isfinite(value)) return false;
@@ -24,7 +21,7 @@ bool Range::contains(double value) const {
 std::string Range::to_string() const {
   const bool no_floor = std::isinf(from), no_ceiling = std::isinf(to);
   std::string text = open_from || no_floor ? "(" : "[";
-  text += number(from) + ", " + number(to);
+  text += short_number(from) + ", " + short_number(to);
   text += open_to || no_ceiling ? ")" : "]";
   return whole ? text + ", whole numbers" : text;
 }

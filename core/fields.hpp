@@ -20,6 +20,9 @@ struct Range {
   std::string to_string() const;  ///< interval notation, e.g. "[0, inf)" or "(-1, 1)"
 };
 
+/// Six significant digits, no trailing zeros.
+std::string short_number(double value);
+
 namespace ranges {
 inline constexpr Range any{};
 inline constexpr Range positive{.from = 0, .open_from = true};

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/fields.hpp"
 
 namespace gyrostat {
 
@@ -30,9 +31,9 @@ Series cut(const Series& series, double from_s, double to_s, std::string_view pl
   };
   const std::size_t first = index_at(from_s), last = index_at(to_s);
   if (last <= first)
-    throw InputError(place, "no samples between " + std::to_string(from_s) + " s and " +
-                                std::to_string(to_s) + " s; the recording lasts " +
-                                std::to_string(series.duration_s()) + " s");
+    throw InputError(place, "no samples between " + short_number(from_s) + " s and " +
+                                short_number(to_s) + " s; the recording lasts " +
+                                short_number(series.duration_s()) + " s");
   return series.slice(first, last - first);
 }
 

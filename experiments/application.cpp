@@ -54,7 +54,7 @@ Table statistics_table(const Series& judged, const std::vector<Track>& tracks,
   Table table{.title = title + ": raw (none) against compensated rate",
               .columns = {{"method", ""}, {"mean", "dps"}, {"std", "dps"}, {"RMSE", "dps"},
                           {"heading end", "deg"}, {"heading range", "deg"}, {"NIS", "1"},
-                          {"breakdown steps", ""}},
+                          {"log score", "nat"}, {"breakdown steps", ""}},
               .rows = {}, .notes = {}};
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const TrackErrors errors = track_errors(judged, tracks[m]);
@@ -65,12 +65,13 @@ Table statistics_table(const Series& judged, const std::vector<Track>& tracks,
     table.rows.push_back({methods[m].id, cell(errors.rate.mean), cell(errors.rate.std),
                           cell(errors.rate.rmse), errors.heading.end_deg,
                           errors.heading.max_deg - errors.heading.min_deg, cell(errors.nis.mean),
-                          breakdowns});
+                          cell(errors.log_score.mean), breakdowns});
   }
   table.notes.push_back(judged.rate_ref_dps.empty()
                             ? "no rate_ref_dps: the gyro counts as static, so all rate is error"
                             : "rate error against rate_ref_dps");
-  table.notes.push_back("a small std alone proves little: a gain near one removes motion as well");
+  table.notes.push_back("a small std alone proves little, a gain near one removes motion as well; the log "
+                        "score, small for who foretells the next sample well, cannot be cheated so");
   return table;
 }
 

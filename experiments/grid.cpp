@@ -40,7 +40,7 @@ std::vector<std::pair<Json, std::string>> expand_grid(const Json& cell, const st
   if (!grid.is_object()) throw InputError(here, "an object {\"path\": [values]} is needed here");
   Json base = cell;
   base.erase("grid");
-  const std::string name = base.value("name", "cell");
+  const std::string name = JsonObject(base, place).text("name", "cell");
 
   std::vector<std::pair<Json, std::string>> cells = {{base, ""}};
   for (const auto& [path, values] : grid.items()) {

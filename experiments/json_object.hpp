@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -50,6 +51,17 @@ class JsonObject {
     if (!value_.at(key).is_string())
       throw InputError(place_of(key), fmt::format("{} is not a text", value_.at(key).dump()));
     return value_.at(key).get<std::string>();
+  }
+
+  /// The text under a key that must be there; a key that looks like it is taken for a misspelling.
+  std::string required_text(const std::string& key) {
+    if (!has(key)) {
+      for (const auto& [other, unused] : value_.items())
+        if (is_misspelling(other, key))
+          throw InputError(place_, unknown_name("key", other, std::array{key}));
+      throw InputError(place_, "\"" + key + "\" is missing");
+    }
+    return text(key, "");
   }
 
   double number(const std::string& key, double fallback, const Range& range,

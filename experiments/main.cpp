@@ -2,6 +2,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "core/error.hpp"
@@ -27,6 +28,15 @@ void catch_interrupts() {
   sigaction(SIGTERM, &orderly, nullptr);
 }
 
+/// A misspelt verb would otherwise be told that an argument was not expected.
+void check_verb(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> verbs;
+  for (const auto* verb : program.get_subcommands({})) verbs.push_back(verb->get_name());
+  if (std::find(verbs.begin(), verbs.end(), argv[1]) == verbs.end())
+    throw gyrostat::InputError("command line", gyrostat::unknown_name("verb", argv[1], verbs));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -49,7 +59,9 @@ int main(int argc, char** argv) {
   cli::add_validate(program, console, exit_code);
 
   try {
+    check_verb(program, argc, argv);
     program.parse(argc, argv);
+    if (!std::cout.flush()) throw std::runtime_error("the output cannot be written");
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& mistake) {

@@ -52,8 +52,10 @@ Json with_tuning(const Match& match, const Json& json, const std::vector<double>
   for (std::size_t c = 0; c < study.cells.size(); ++c) {
     const auto& cell = study.cells[c];
     Series buffer;
-    const auto tuned =
-        tune_methods(cell, calibrate_cell(cell, study.seed, 0, buffer), study.seed);
+    const auto calibration = cell.needs_calibration()
+                                 ? calibrate_cell(cell, study.seed, 0, buffer)
+                                 : Calibration{};
+    const auto tuned = tune_methods(cell, calibration, study.seed);
     auto& methods = fixed["cells"][c]["filters"];
     for (std::size_t m = 0; m < tuned.size(); ++m) {
       if (tuned[m].values.empty()) continue;

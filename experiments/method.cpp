@@ -64,11 +64,17 @@ Method read_method(const Json& value, const std::string& place, ParameterSource 
     return method;
   }
   JsonObject object(value, place);
-  method.filter = object.text("filter", object.text("id", ""));
-  if (method.filter.empty()) throw InputError(place, "\"filter\" is missing");
+  const auto id = object.text("id", "");
+  method.filter = object.has("filter") || id.empty() ? object.required_text("filter") : id;
   Filters::with(object.place_of("filter"), "filter", method.filter, [](auto) {});
-  method.id = object.text("id", method.filter);
+  method.id = plain_name(object.text("id", method.filter), object.place_of("id"));
+  if (method.id.find(',') != std::string::npos)
+    throw InputError(object.place_of("id"), "'" + method.id + "' cannot head a column: no commas");
   method.source = source_of(method.filter, fallback);
+  if (object.has("parameters_from") && fallback == ParameterSource::defaults)
+    throw InputError(object.place_of("parameters_from"),
+                     "'" + object.text("parameters_from", "") +
+                         "' is not to be had here; give the parameters themselves");
   if (object.has("parameters_from"))
     method.source =
         parameter_source_named(object.text("parameters_from", ""), object.place_of("parameters_from"));
@@ -80,6 +86,14 @@ Method read_method(const Json& value, const std::string& place, ParameterSource 
 }
 
 }  // namespace
+
+std::string plain_name(std::string name, const std::string& place) {
+  const auto unfit = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '"'; };
+  if (name.empty()) throw InputError(place, "the name is empty");
+  if (std::any_of(name.begin(), name.end(), unfit))
+    throw InputError(place, Json(name).dump() + " is no name: no quotes or line breaks");
+  return name;
+}
 
 std::vector<Method> read_methods(JsonObject& object, const std::string& key,
                                  ParameterSource default_source) {

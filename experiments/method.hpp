@@ -30,6 +30,10 @@ std::vector<Method> read_methods(JsonObject& object, const std::string& key,
 /// Every filter under its own name, "none" first and "oracle" last.
 std::vector<Method> all_methods(ParameterSource source);
 
+/// A name that can stand in a table, a column head and a file: throws InputError at `place` for an
+/// empty one, and for line breaks, quotes and other control characters.
+std::string plain_name(std::string name, const std::string& place);
+
 /// The source called `name`; throws InputError at `place` otherwise.
 ParameterSource parameter_source_named(const std::string& name, const std::string& place);
 

@@ -29,7 +29,7 @@ CellResult run_cell(const Cell& cell, std::uint64_t seed, const RunOptions& opti
   CellResult result;
   result.trials.resize(cell.trials);
   Series buffer;
-  result.calibration = calibrate_cell(cell, seed, 0, buffer);
+  if (cell.needs_calibration()) result.calibration = calibrate_cell(cell, seed, 0, buffer);
   result.tuned = tune_methods(cell, result.calibration, seed);
   const Cell fixed = with_tuned(cell, result.tuned);
 

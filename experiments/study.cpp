@@ -1,5 +1,6 @@
 #include "experiments/study.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -15,14 +16,14 @@ namespace {
 constexpr Range trial_range{.from = 1, .to = 4294967295.0, .whole = true};
 constexpr Range budget_range{.from = 1, .to = 100000, .whole = true};
 const Json no_keys = Json::object();
+constexpr double most_samples = 1e8;
 constexpr Range seed_range{.from = 0, .to = 9007199254740992.0, .whole = true};
 
 /// A plug-in of `List` chosen by the text under `chooser`, its parameters under the other keys.
 template <class List>
 typename List::Any read_plugin(JsonObject object, const std::string& chooser,
                                const std::string& kind) {
-  const auto id = object.text(chooser, "");
-  if (id.empty()) throw InputError(object.place(), "\"" + chooser + "\" is missing");
+  const auto id = object.required_text(chooser);
   typename List::Any chosen;
   List::with(object.place_of(chooser), kind, id, [&](auto plugin) {
     typename decltype(plugin)::type parameters;
@@ -47,8 +48,7 @@ Compass read_compass(JsonObject object) {
 
 /// Sets random error, thermal drift, rate and temperature from a fit to a recording.
 void read_recorded(JsonObject object, const std::string& folder, Scenario& scenario) {
-  const auto file = object.text("file", "");
-  if (file.empty()) throw InputError(object.place(), "\"file\" is missing");
+  const auto file = object.required_text("file");
   const auto path = (std::filesystem::path(folder) / file).lexically_normal().string();
   const auto axis = object.text("axis", "");
   const double from_s = object.number("from_s", 0.0, ranges::non_negative, "s");
@@ -78,7 +78,7 @@ void read_recorded(JsonObject object, const std::string& folder, Scenario& scena
 /// "pieces": a recording whose part before "from_s" is calibrated on and whose rest is cut into
 /// trials of "duration_s".
 void read_pieces(JsonObject object, const std::string& folder, Cell& cell) {
-  const auto file = object.text("file", "");
+  const auto file = object.required_text("file");
   const auto path = (std::filesystem::path(folder) / file).lexically_normal().string();
   const auto axis = object.text("axis", "");
   const double from_s = object.number("from_s", 300.0, ranges::positive, "s");
@@ -137,9 +137,28 @@ ParameterMap read_assumed(JsonObject object) {
   return factors;
 }
 
+/// Refuses what no machine can hold and what no fit can use, before anything runs.
+void check_size(const Cell& cell, JsonObject& object) {
+  const auto& sampling = cell.scenario.sampling;
+  if (sampling.duration_s * sampling.rate_hz > most_samples)
+    throw InputError(object.place_of("scenario"),
+                     fmt::format("duration_s x rate_hz is {:g} samples; allowed: up to {:g}",
+                                 sampling.duration_s * sampling.rate_hz, most_samples));
+  if (!cell.needs_calibration()) return;
+  const double seconds = cell.calibration.duration_s > 0.0 ? cell.calibration.duration_s
+                                                           : sampling.duration_s;
+  const double samples = cell.recording ? static_cast<double>(cell.calibration_span.size())
+                                        : std::round(seconds * sampling.rate_hz);
+  const double least = cell.calibration.method == FitMethod::likelihood ? 50 : 512;
+  if (samples < least)
+    throw InputError(object.place(),
+                     fmt::format("{} samples to calibrate on; at least {} are needed", samples, least));
+}
+
 Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) {
   Cell cell;
-  cell.name = object.text("name", fmt::format("cell_{}", index + 1));
+  cell.name = plain_name(object.text("name", fmt::format("cell_{}", index + 1)),
+                         object.place_of("name"));
   cell.trials = static_cast<std::uint32_t>(object.number("trials", 1000, trial_range, "trials"));
   if (auto scenario = object.child("scenario")) cell.scenario = read_scenario(*scenario, folder);
   if (auto calibration = object.child("calibration"))
@@ -148,11 +167,22 @@ Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) 
   if (auto assumed = object.child("assumed")) cell.assumed = read_assumed(*assumed);
   const auto source = parameter_source_named(object.text("parameters_from", "calibration"),
                                              object.place_of("parameters_from"));
+  if (source == ParameterSource::defaults)
+    throw InputError(object.place_of("parameters_from"),
+                     "'defaults' is for single filters; allowed: calibration, truth");
   cell.methods = object.has("filters") ? read_methods(object, "filters", source) : all_methods(source);
   if (cell.methods.empty()) throw InputError(object.place_of("filters"), "the list is empty");
   if (auto pieces = object.child("pieces")) read_pieces(*pieces, folder, cell);
   object.finish();
+  check_size(cell, object);
   return cell;
+}
+
+void add_cell(Study& study, Cell cell, const std::string& place) {
+  for (const auto& other : study.cells)
+    if (other.name == cell.name)
+      throw InputError(place, "the name '" + cell.name + "' stands twice");
+  study.cells.push_back(std::move(cell));
 }
 
 }  // namespace
@@ -193,6 +223,12 @@ void Cell::make_trial(std::uint64_t seed, std::uint32_t trial, Series& series) c
   series = recording->slice(trial * samples, samples);
 }
 
+bool Cell::needs_calibration() const {
+  return std::any_of(methods.begin(), methods.end(), [](const Method& method) {
+    return method.source == ParameterSource::calibration && method.filter != "none";
+  });
+}
+
 std::size_t metric_named(const std::string& name, const std::string& place) {
   const auto ids = Metrics::ids();
   const auto found = std::find(ids.begin(), ids.end(), name);
@@ -210,7 +246,7 @@ Study parse_study(const Json& json, const std::string& path) {
   study.seed = static_cast<std::uint64_t>(object.number("seed", 1, seed_range, ""));
   for (const auto& [value, place] : object.list("cells"))
     for (const auto& [cell, cell_place] : expand_grid(*value, place))
-      study.cells.push_back(read_cell({cell, cell_place}, folder, study.cells.size()));
+      add_cell(study, read_cell({cell, cell_place}, folder, study.cells.size()), cell_place);
   if (study.cells.empty()) throw InputError(path, "\"cells\" is missing or empty");
   object.finish();
   return study;

@@ -38,6 +38,8 @@ struct Cell {
   ParameterMap assumed;  ///< factors on what filters other than the oracle are told
   std::vector<Method> methods;
 
+  /// Whether any method starts from fitted parameters.
+  bool needs_calibration() const;
   /// The signal of trial `trial` into `series`.
   void make_trial(std::uint64_t seed, std::uint32_t trial, Series& series) const;
 };

@@ -78,7 +78,7 @@ Record run_trial(const Cell& cell, const Calibration& shared, std::uint64_t seed
   auto& series = workspace.series;
   cell.make_trial(seed, trial, series);
   Calibration own;
-  if (cell.calibration.each_trial) {
+  if (cell.calibration.each_trial && cell.needs_calibration()) {
     own = calibrate_cell(cell, seed, trial, workspace.calibration_series);
     record.calibration_converged = own.random_error.converged;
   }

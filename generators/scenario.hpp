@@ -19,8 +19,8 @@ struct Sampling {
   static constexpr auto fields() {
     using P = Sampling;
     return std::array{
-        Field{"duration_s", &P::duration_s, "s", ranges::positive, "length of the signal"},
-        Field{"rate_hz", &P::rate_hz, "Hz", ranges::positive, "sampling rate"},
+        Field{"duration_s", &P::duration_s, "s", Range{.from = 0, .to = 1e7, .open_from = true}, "length of the signal"},
+        Field{"rate_hz", &P::rate_hz, "Hz", Range{.from = 0, .to = 1e6, .open_from = true}, "sampling rate"},
     };
   }
 

@@ -184,7 +184,7 @@ void check(std::span<const double> z) {
                                       std::to_string(fewest_samples) + " are needed");
   const auto first = std::find_if(z.begin(), z.end(), [](double v) { return !std::isnan(v); });
   if (std::all_of(first, z.end(), [&](double v) { return std::isnan(v) || v == *first; }))
-    throw InputError("ARIMA fit", "the signal never changes from " + std::to_string(*first) + " dps");
+    throw InputError("ARIMA fit", "the signal never changes from " + short_number(*first) + " dps");
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ ThermalFit fit_thermal_drift(const Series& series, double interval_s) {
   fit.points = static_cast<std::size_t>(y.size());
   if (y.size() < 4)
     throw InputError("thermal fit", std::to_string(y.size()) + " whole intervals of " +
-                                        std::to_string(interval_s) + " s; at least 4 are needed");
+                                        short_number(interval_s) + " s; at least 4 are needed");
   fit.temperature_span_C = X.col(0).maxCoeff() - X.col(0).minCoeff();
   const bool assessable = fit.temperature_span_C >= least_temperature_span_C;
   if (!assessable) X.leftCols<2>().setZero();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -23,10 +24,12 @@ namespace {
 
 constexpr int terms = 5;
 constexpr unsigned all_terms = (1U << terms) - 1;
-constexpr double cost_of_a_term = 6.6348966010212145;  // chi-square on 1 degree, 99 %
-constexpr double two_sided = 3.8414588206941254;       // 95 %
-constexpr double one_sided = 2.7055434540954148;       // 90 %
-constexpr double adequacy = 0.999;
+// Quantiles of chi-square on one degree of freedom.
+constexpr double cost_of_a_term = 6.6348966010212145;   // 99 %
+constexpr double two_sided = 3.8414588206941254;        // 95 %
+constexpr double one_sided = 2.7055434540954148;        // 90 %: 5 % on the one side
+constexpr double cost_of_a_point = 10.827566170662733;  // 99.9 %
+constexpr double adequacy = 0.99;
 constexpr double octave = 1.9;
 
 /// Q^2, N^2, B^2, K^2, R^2.
@@ -42,17 +45,25 @@ struct Solution {
   double chi_square = 0.0;
 };
 
-/// argmin |A x - b| over x >= 0 with x_k = 0 for k outside `allowed`: the least of the
-/// unconstrained solutions of all subsets that are feasible.
+unsigned support(const Squares& squares) {
+  unsigned mask = 0;
+  for (int k = 0; k < terms; ++k)
+    if (squares[k] > 0.0) mask |= 1U << k;
+  return mask;
+}
+
+/// argmin |A x - b| over x >= 0 with x_k = 0 for k outside `allowed`: of all subsets, from `guess`
+/// on, the one whose unconstrained solution is feasible and that no other term improves.
 Squares non_negative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
-                                   unsigned allowed) {
-  const Squares scale = a.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+                                   unsigned allowed, unsigned guess) {
+  const Squares scale = a.colwise().norm().cwiseInverse();
   const Eigen::MatrixXd scaled = a * scale.asDiagonal();
   const Matrix<double, terms> normal = scaled.transpose() * scaled;
   const Squares right = scaled.transpose() * b;
   Squares best = Squares::Zero();
   double most = 0.0;
-  for (unsigned subset = 1; subset <= allowed; ++subset) {
+  for (unsigned flips = 0; flips <= all_terms; ++flips) {
+    const unsigned subset = (guess & allowed) ^ flips;
     if ((subset & ~allowed) != 0) continue;
     Matrix<double, terms> part = Matrix<double, terms>::Identity();
     Squares side = Squares::Zero();
@@ -67,6 +78,11 @@ Squares non_negative_least_squares(const Eigen::MatrixXd& a, const Eigen::Vector
     if (!(x.minCoeff() >= 0.0 && gain > most)) continue;
     most = gain;
     best = scale.cwiseProduct(x);
+    const Squares slope = right - normal * x;
+    double steepest = 0.0;
+    for (int k = 0; k < terms; ++k)
+      if ((allowed & ~subset) >> k & 1U) steepest = std::max(steepest, slope[k]);
+    if (steepest <= 1e-12 * b.norm()) break;
   }
   return best;
 }
@@ -83,46 +99,41 @@ class Fit {
       log_variance_[j] = 2.0 * std::log(points_[j].deviation);
     }
     tabulate_gains();
-    Squares squares = start(all_terms, Eigen::VectorXd::Zero(size()));
-    for (int round = 0; round < 4; ++round) {
-      weigh(squares);
-      squares = solve(all_terms).squares;
+    const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(size());
+    for (unsigned allowed = 1; allowed <= all_terms; ++allowed)
+      solutions_.push_back({start(allowed, nothing), 0.0});
+    best_ = solutions_.back();
+    for (int round = 0; round < 3; ++round) {
+      weigh(best_.squares);
+      for (unsigned allowed = 1; allowed <= all_terms; ++allowed)
+        solutions_[allowed - 1] = descend(solutions_[allowed - 1].squares, allowed, nothing);
+      best_ = *std::min_element(
+          solutions_.begin(), solutions_.end(),
+          [](const auto& a, const auto& b) { return a.chi_square < b.chi_square; });
     }
   }
 
   /// Multiplies all variances.
-  void widen(double factor) { whitener_ /= std::sqrt(factor); }
-
-  Eigen::Index size() const { return std::ssize(points_); }
-
-  /// Least chi-square over the allowed terms, on top of a given variance.
-  Solution solve(unsigned allowed) const { return solve(allowed, Eigen::VectorXd::Zero(size())); }
-
-  Solution solve(unsigned allowed, const Eigen::VectorXd& given) const {
-    Solution at{start(allowed, given), 0.0};
-    at.chi_square = chi_square(at.squares, given);
-    for (int iteration = 0; iteration < 100; ++iteration) {
-      const Eigen::VectorXd variance = given + shapes_ * at.squares;
-      const Eigen::MatrixXd slope = variance.cwiseInverse().asDiagonal() * shapes_;
-      const Eigen::VectorXd misfit = target_ - variance.array().log().matrix();
-      const Squares next = non_negative_least_squares(
-          whitener_ * slope, whitener_ * (misfit + slope * at.squares), allowed);
-      double step = 1.0, improved = chi_square(next, given);
-      while (!(improved <= at.chi_square) && step > 1e-6) {
-        step *= 0.5;
-        improved = chi_square(at.squares + step * (next - at.squares), given);
-      }
-      const double gain = at.chi_square - improved;
-      if (!(gain >= 0.0)) break;
-      at = {at.squares + step * (next - at.squares), improved};
-      if (gain <= 1e-9 * (1.0 + improved)) break;
-    }
-    return at;
+  void widen(double factor) {
+    whitener_ /= std::sqrt(factor);
+    for (auto& solution : solutions_) solution.chi_square /= factor;
   }
 
-  /// Least chi-square with term k at `square`.
-  double profile(int k, double square) const {
-    return solve(all_terms & ~(1U << k), square * shapes_.col(k)).chi_square;
+  Eigen::Index size() const { return std::ssize(points_); }
+  double shortest_tau() const { return points_.front().tau_s; }
+
+  /// Least chi-square for each set of terms. Some are local minima of a larger set, so the least
+  /// over all five terms is the least of these.
+  const std::vector<Solution>& solutions() const { return solutions_; }
+  const Solution& best() const { return best_; }
+
+  /// Least chi-square with term k at `square`, sought from the linear fit and from `near`.
+  double profile(int k, double square, Squares near) const {
+    const unsigned others = all_terms & ~(1U << k);
+    const Eigen::VectorXd given = square * shapes_.col(k);
+    near[k] = 0.0;
+    return std::min(descend(start(others, given), others, given).chi_square,
+                    descend(near, others, given).chi_square);
   }
 
   /// The square of term k that alone would reach the fit at one point.
@@ -142,6 +153,29 @@ class Fit {
   }
 
  private:
+  /// Gauss-Newton steps in the logarithm, halved until they improve.
+  Solution descend(const Squares& from, unsigned allowed, const Eigen::VectorXd& given) const {
+    Solution at{from, chi_square(from, given)};
+    for (int iteration = 0; iteration < 100; ++iteration) {
+      const Eigen::VectorXd variance = given + shapes_ * at.squares;
+      const Eigen::MatrixXd slope = variance.cwiseInverse().asDiagonal() * shapes_;
+      const Eigen::VectorXd misfit = target_ - variance.array().log().matrix();
+      const Squares next =
+          non_negative_least_squares(whitener_ * slope, whitener_ * (misfit + slope * at.squares),
+                                     allowed, support(at.squares));
+      double step = 1.0, improved = chi_square(next, given);
+      while (!(improved <= at.chi_square) && step > 1e-6) {
+        step *= 0.5;
+        improved = chi_square(at.squares + step * (next - at.squares), given);
+      }
+      const double gain = at.chi_square - improved;
+      if (!(gain >= 0.0)) break;
+      at = {at.squares + step * (next - at.squares), improved};
+      if (gain <= 1e-9 * (1.0 + improved)) break;
+    }
+    return at;
+  }
+
   /// Linear least squares in the ratio to the observed variances, each by its own weight only.
   Squares start(unsigned allowed, const Eigen::VectorXd& given) const {
     const Eigen::VectorXd inverse = (-log_variance_).array().exp();
@@ -149,7 +183,7 @@ class Fit {
     for (Eigen::Index j = 0; j < size(); ++j) weight[j] = std::sqrt(points_[j].edf);
     const Eigen::VectorXd rest = 1.0 - given.array() * inverse.array();
     return non_negative_least_squares(weight.cwiseProduct(inverse).asDiagonal() * shapes_,
-                                      weight.cwiseProduct(rest), allowed);
+                                      weight.cwiseProduct(rest), allowed, allowed);
   }
 
   double chi_square(const Squares& squares, const Eigen::VectorXd& given) const {
@@ -172,7 +206,7 @@ class Fit {
       const double f = 0.5 * std::exp2(-octaves * place);
       frequency_[i] = f;
       for (Eigen::Index j = 0; j < size(); ++j) {
-        const double m = static_cast<double>(points_[j].cluster);
+        const auto m = static_cast<double>(points_[j].cluster);
         const double sine = std::sin(std::numbers::pi * f * m);
         const double ratio = sine * sine / (m * std::sin(std::numbers::pi * f));
         gains_(i, j) = ratio * ratio;
@@ -206,6 +240,8 @@ class Fit {
   }
 
   std::vector<AllanPoint> points_;
+  std::vector<Solution> solutions_;
+  Solution best_;
   Eigen::Matrix<double, Eigen::Dynamic, terms> shapes_;
   Eigen::VectorXd log_variance_, target_;
   Eigen::MatrixXd whitener_, gains_;
@@ -213,37 +249,42 @@ class Fit {
   double frequency_measure_ = 0.0;
 };
 
-int count_terms(const Solution& solution) {
-  return static_cast<int>((solution.squares.array() > 0.0).count());
+int count_terms(const Solution& solution) { return std::popcount(support(solution.squares)); }
+
+int degrees_of_freedom(const Fit& fit) {
+  return static_cast<int>(fit.size()) - count_terms(fit.best());
+}
+
+bool adequate(const Fit& fit) {
+  const int degrees = degrees_of_freedom(fit);
+  return degrees < 1 ||
+         fit.best().chi_square <= quantile(boost::math::chi_squared(degrees), adequacy);
 }
 
 Solution most_plausible(const Fit& fit) {
-  Solution best;
-  double least = std::numeric_limits<double>::infinity();
-  for (unsigned allowed = 1; allowed <= all_terms; ++allowed) {
-    const auto solution = fit.solve(allowed);
-    const double cost = solution.chi_square + cost_of_a_term * count_terms(solution);
-    if (!(cost < least)) continue;
-    least = cost;
-    best = solution;
-  }
-  return best;
+  const auto cost = [](const Solution& s) {
+    return s.chi_square + cost_of_a_term * count_terms(s);
+  };
+  return *std::min_element(fit.solutions().begin(), fit.solutions().end(),
+                           [&](const auto& a, const auto& b) { return cost(a) < cost(b); });
 }
 
-/// Where the profile of term k passes `level` between `inside` and `outside`.
-double crossing(const Fit& fit, int k, double level, double inside, double outside) {
-  const auto excess = [&](double square) { return fit.profile(k, square) - level; };
+/// Where the profile of term k passes `level` between the solution and `outside`.
+double crossing(const Fit& fit, int k, double level, const Solution& solution, double outside) {
+  const auto excess = [&](double square) {
+    return fit.profile(k, square, solution.squares) - level;
+  };
+  const double inside = solution.squares[k];
   const double at_inside = excess(inside);
   const double at_outside = excess(outside);
-  if (!(at_inside < 0.0)) return inside;
   if (!(at_outside > 0.0)) return outside;
   std::uintmax_t evaluations = 60;
-  const auto close = [](double a, double b) { return std::abs(a - b) <= 1e-5 * std::max(a, b); };
-  const auto [a, b] = inside < outside
-                          ? boost::math::tools::toms748_solve(excess, inside, outside, at_inside,
-                                                              at_outside, close, evaluations)
-                          : boost::math::tools::toms748_solve(excess, outside, inside, at_outside,
-                                                              at_inside, close, evaluations);
+  const auto close = [](double a, double b) { return std::abs(a - b) <= 1e-4 * std::max(a, b); };
+  const auto solve = [&](double a, double b, double at_a, double at_b) {
+    return boost::math::tools::toms748_solve(excess, a, b, at_a, at_b, close, evaluations);
+  };
+  const auto [a, b] = inside < outside ? solve(inside, outside, at_inside, at_outside)
+                                       : solve(outside, inside, at_outside, at_inside);
   return 0.5 * (a + b);
 }
 
@@ -282,27 +323,24 @@ std::vector<std::size_t> octave_clusters(std::size_t samples) {
 }
 
 AllanCoefficients fit_allan_coefficients(std::span<const AllanPoint> points) {
-  const auto all = an_octave_apart(points);
-  AllanCoefficients out;
-  const auto fit_from = [&](std::size_t first) {
-    Fit fit({all.begin() + static_cast<std::ptrdiff_t>(first), all.end()});
-    const auto full = fit.solve(all_terms);
-    out.shortest_tau_s = all[first].tau_s;
-    out.chi_square = full.chi_square;
-    out.degrees_of_freedom = static_cast<int>(fit.size()) - count_terms(full);
-    out.adequate =
-        out.degrees_of_freedom < 1 ||
-        out.chi_square <= quantile(boost::math::chi_squared(out.degrees_of_freedom), adequacy);
-    return fit;
-  };
-  auto fit = fit_from(0);
-  const std::size_t fewest = std::max<std::size_t>(terms, (all.size() + 1) / 2);
-  for (std::size_t first = 1; !out.adequate && first + fewest <= all.size(); ++first)
-    fit = fit_from(first);
-  if (!out.adequate) {
-    fit = fit_from(0);
-    fit.widen(out.chi_square / out.degrees_of_freedom);
+  const auto used = an_octave_apart(points);
+  Fit fit(used);
+  const bool whole = adequate(fit);
+  const double misfit = fit.best().chi_square;
+  const std::size_t fewest = std::max<std::size_t>(terms, (used.size() + 1) / 2);
+  for (std::size_t left_out = 1; !whole && left_out + fewest <= used.size(); ++left_out) {
+    Fit rest({used.begin() + static_cast<std::ptrdiff_t>(left_out), used.end()});
+    const double gain = misfit - rest.best().chi_square;
+    if (!adequate(rest) || gain < cost_of_a_point * static_cast<double>(left_out)) continue;
+    fit = std::move(rest);
+    break;
   }
+  AllanCoefficients out;
+  out.shortest_tau_s = fit.shortest_tau();
+  out.chi_square = fit.best().chi_square;
+  out.degrees_of_freedom = degrees_of_freedom(fit);
+  out.adequate = adequate(fit);
+  if (!out.adequate) fit.widen(out.chi_square / out.degrees_of_freedom);
   const auto shown = most_plausible(fit);
   const Squares errors = fit.standard_errors(shown.squares);
 
@@ -313,13 +351,13 @@ AllanCoefficients fit_allan_coefficients(std::span<const AllanPoint> points) {
     const double square = shown.squares[k];
     const double level = shown.chi_square + (square > 0.0 ? two_sided : one_sided);
     double outside = std::max(square, fit.reach(k, shown.squares));
-    for (int i = 0; i < 500 && fit.profile(k, outside) < level; ++i) outside *= 2.0;
+    for (int i = 0; i < 500 && fit.profile(k, outside, shown.squares) < level; ++i) outside *= 2.0;
     auto& c = *coefficients[k];
-    c.upper = std::sqrt(crossing(fit, k, level, square, outside));
+    c.upper = std::sqrt(crossing(fit, k, level, shown, outside));
     if (!(square > 0.0)) continue;
     c.value = std::sqrt(square);
     c.standard_error = errors[k] / (2.0 * c.value);
-    c.lower = std::sqrt(crossing(fit, k, level, square, 0.0));
+    c.lower = std::sqrt(crossing(fit, k, level, shown, 0.0));
   }
   return out;
 }

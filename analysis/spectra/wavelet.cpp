@@ -33,13 +33,11 @@ constexpr std::array least_asymmetric8 = {
 /// with weights l of the filters. It is an isometry, so that its transpose undoes it.
 struct Stage {
   std::vector<double> wavelet, scaling;
-  std::size_t stride, decimation;
+  std::size_t stride = 1, decimation = 2;
 
   Stage(Wavelet name, Transform transform, std::size_t level)
       : wavelet(wavelet_filter(name)),
-        scaling(scaling_filter(name).begin(), scaling_filter(name).end()),
-        stride(1),
-        decimation(2) {
+        scaling(scaling_filter(name).begin(), scaling_filter(name).end()) {
     if (transform == Transform::Decimated) return;
     stride = std::size_t{1} << (level - 1);
     decimation = 1;

@@ -38,7 +38,10 @@ class Stf {
       factor = fading_.next(innovation * innovation, model_.Q(0, 0), model_.R,
                             state_.covariance(0, 0));
     }
-    state_.covariance = factor * state_.covariance + model_.Q;
+    Gaussian<T, 2> faded = state_;
+    faded.covariance = factor * state_.covariance + model_.Q;
+    if (!is_sound(faded)) faded.covariance = state_.covariance + model_.Q;
+    state_ = faded;
     return update_first(state_, model_.R, z);
   }
 

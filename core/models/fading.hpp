@@ -36,8 +36,10 @@ class FadingFactor {
  public:
   explicit FadingFactor(const FadingParameters<T>& parameters) : parameters_(parameters) {}
 
-  /// The factor for this step. Traces of eps eps^T, H Q H^T, R and H F P F^T H^T, all in dps^2.
+  /// The factor for this step; 1, and nothing learnt, for an innovation that is not finite. Traces of eps eps^T, H Q H^T, R and H F P F^T H^T, all in dps^2.
   T next(const T& innovation, const T& process, const T& measurement, const T& predicted) {
+    using std::isfinite;
+    if (!isfinite(innovation)) return T(1.0);
     const T& rho = parameters_.forgetting;
     spread_ = first_ ? innovation : (rho * spread_ + innovation) / (T(1.0) + rho);
     first_ = false;

@@ -39,19 +39,24 @@ class ThermalCompensator {
   void learn(const BiasEpoch<T>& epoch, Step<T>& step) {
     Rule next = rule_;
     const auto innovation = next.update(epoch);
-    if (!all_finite(next.coefficients())) {
+    if (innovation && !innovation->sound) {
+      step.status = Status::indefinite_covariance;
+      return;
+    }
+    if (!is_sound(next.coefficients()) || (innovation && !is_positive(innovation->covariance(0)))) {
       step.status = Status::not_finite;
       return;
     }
     rule_ = next;
     if (!innovation) return;
-    if (!innovation->sound) {
-      step.status = Status::indefinite_covariance;
-      return;
-    }
     step.status = Status::ok;
     step.innovation_dps = innovation->value(0);
     step.innovation_variance = innovation->covariance(0);
+  }
+
+  static bool is_positive(const T& variance) {
+    using std::isfinite;
+    return isfinite(variance) && variance > T(0.0);
   }
 
   void hold(const BiasEpoch<T>& epoch, Step<T>& step) {
@@ -59,7 +64,7 @@ class ThermalCompensator {
     const auto& [mean, covariance] = rule_.coefficients();
     const T bias = epoch.regressors.dot(mean);
     const T variance = epoch.regressors.dot(covariance * epoch.regressors);
-    if (isfinite(bias) && isfinite(variance)) {
+    if (isfinite(bias) && isfinite(variance) && variance >= T(0.0)) {
       held_.estimate_dps = bias;
       held_.estimate_variance = variance;
     } else {

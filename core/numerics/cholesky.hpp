@@ -4,6 +4,13 @@
 
 namespace gyrostat {
 
+/// Zero, and constant where T carries derivatives.
+template <class T>
+bool vanishes(const T& value) {
+  if constexpr (requires { value.v.isZero(0.0); }) return value.a == 0.0 && value.v.isZero(0.0);
+  else return value == T(0.0);
+}
+
 /// Lower triangular L (N x N) with L L^T = A A^T, by Householder reflections of A's rows
 /// (N x M, M >= N): the QR decomposition of A^T without its Q.
 template <class T, int N, int M>
@@ -11,9 +18,14 @@ Matrix<T, N> lower_root(Matrix<T, N, M> a) {
   using std::sqrt;
   for (int k = 0; k < N; ++k) {
     T tail(0.0);
-    for (int j = k + 1; j < M; ++j) tail += a(k, j) * a(k, j);
-    if (tail == T(0.0)) continue;
-    const T norm = sqrt(tail + a(k, k) * a(k, k));
+    bool reduced = true;  // a zero whose derivative is none still turns the rows below
+    for (int j = k + 1; j < M; ++j) {
+      tail += a(k, j) * a(k, j);
+      reduced = reduced && vanishes(a(k, j));
+    }
+    const T squared = tail + a(k, k) * a(k, k);
+    if (reduced || squared == T(0.0)) continue;
+    const T norm = sqrt(squared);
     const T head = a(k, k) > T(0.0) ? a(k, k) + norm : a(k, k) - norm;
     const T scale = T(2.0) / (tail + head * head);
     for (int i = k + 1; i < N; ++i) {
@@ -36,8 +48,9 @@ template <class T, int N>
 void update_root(Matrix<T, N>& root, Vector<T, N> v) {
   using std::sqrt;
   for (int k = 0; k < N; ++k) {
-    if (v(k) == T(0.0)) continue;
-    const T diagonal = sqrt(root(k, k) * root(k, k) + v(k) * v(k));
+    const T squared = root(k, k) * root(k, k) + v(k) * v(k);
+    if (vanishes(v(k)) || squared == T(0.0)) continue;
+    const T diagonal = sqrt(squared);
     const T c = root(k, k) / diagonal;
     const T s = v(k) / diagonal;
     root(k, k) = diagonal;
@@ -56,7 +69,7 @@ template <class T, int N>
   using std::sqrt;
   Matrix<T, N> down = root;
   for (int k = 0; k < N; ++k) {
-    if (v(k) == T(0.0)) continue;
+    if (vanishes(v(k))) continue;
     const T squared = (down(k, k) - v(k)) * (down(k, k) + v(k));
     if (!(squared > T(0.0))) return false;
     const T diagonal = sqrt(squared);

@@ -13,11 +13,12 @@ struct Gaussian {
   Matrix<T, N> covariance;
 };
 
+/// Finite throughout, and no variance negative.
 template <class T, int N>
-bool all_finite(const Gaussian<T, N>& state) {
+bool is_sound(const Gaussian<T, N>& state) {
   using std::isfinite;
   for (int i = 0; i < N; ++i) {
-    if (!isfinite(state.mean(i))) return false;
+    if (!isfinite(state.mean(i)) || state.covariance(i, i) < T(0.0)) return false;
     for (int j = 0; j < N; ++j)
       if (!isfinite(state.covariance(i, j))) return false;
   }

@@ -15,7 +15,7 @@ Step<T> update_first(Gaussian<T, N>& state, const T& r, const T& z) {
   if (is_missing(z)) return step;
   Gaussian<T, N> next = state;
   const auto innovation = measure_first(next, r, z);
-  if (!innovation.sound || !all_finite(next)) {
+  if (!innovation.sound || !is_sound(next)) {
     step.status = innovation.sound ? Status::not_finite : Status::indefinite_covariance;
     return step;
   }

@@ -18,7 +18,13 @@ int run(const AllanArguments& arguments, Console& console) {
               .columns = {{"tau", "s"}, {"deviation", "dps"}, {"lower 95 %", "dps"},
                           {"upper 95 %", "dps"}, {"degrees of freedom", "1"}},
               .rows = {}, .notes = {}};
-  for (const auto& point : overlapping_allan_deviation(series.gyro_dps, series.rate_hz()))
+  if (series.size() < 4)
+    throw InputError(arguments.recording.file,
+                     fmt::format("{} samples; at least 4 are needed", series.size()));
+  const auto points = about(arguments.recording.file, [&] {
+    return overlapping_allan_deviation(series.gyro_dps, series.rate_hz());
+  });
+  for (const auto& point : points)
     table.rows.push_back({point.tau_s, point.deviation, point.lower, point.upper, point.edf});
   console.out << render(std::span(&table, 1), format);
   return complete;

@@ -3,6 +3,7 @@
 
 #include "core/filters/list.hpp"
 #include "experiments/application.hpp"
+#include "experiments/outcome_file.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/verbs.hpp"
 
@@ -28,10 +29,13 @@ int run(const ApplyArguments& arguments, Console& console) {
     methods = read_application_config(arguments.config);
   }
   const Series series = arguments.recording.read(console.log);
+  if (!arguments.out.empty()) require_writable(arguments.out, arguments.recording.file);
 
   Application application;
   if (source == ParameterSource::calibration) {
-    application = calibrated(series, arguments.calibration_fraction, fit);
+    application = about(arguments.recording.file, [&] {
+      return calibrated(series, arguments.calibration_fraction, fit);
+    });
     console.log << fmt::format("parameters from the first {:.4g} s; judged on the rest\n",
                                application.judged_from_s);
   }
@@ -56,7 +60,7 @@ void add_apply(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--fit", arguments->fit, "likelihood or moments")->capture_default_str();
   verb->add_option("--calibration", arguments->calibration_fraction,
                    "part of the recording that the fit may see, from its start")
-      ->check(CLI::Range(0.01, 0.99))
+      ->check(within(0.01, 0.99))
       ->capture_default_str();
   arguments->format.add_to(verb);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

@@ -11,8 +11,7 @@ struct FitArguments {
   RecordingOption recording;
   FormatOption format;
   std::vector<std::string> methods = {"likelihood", "moments"};
-  double from_s = 0.0;
-  double to_s = 1e12;
+  SpanOption span;
 };
 
 template <class P>
@@ -27,8 +26,8 @@ int run(const FitArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   std::vector<FitMethod> methods;
   for (const auto& name : arguments.methods) methods.push_back(fit_method_named(name, "--method"));
-  const Series series =
-      cut(arguments.recording.read(console.log), arguments.from_s, arguments.to_s, "--from, --to");
+  const Series series = cut(arguments.recording.read(console.log), arguments.span.from_s,
+                            arguments.span.to_s, arguments.recording.file + ": --from, --to");
 
   Table table{.title = fmt::format("{}{}: {} samples, {:.6g} s at {:.6g} Hz", arguments.recording.file,
                                    arguments.recording.axis.empty() ? "" : " axis " + arguments.recording.axis,
@@ -38,7 +37,8 @@ int run(const FitArguments& arguments, Console& console) {
               .rows = {}, .notes = {}};
   bool converged = true;
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    const auto fit = calibrate(series, methods[m]);
+    const auto fit =
+        about(arguments.recording.file, [&] { return calibrate(series, methods[m]); });
     add_rows(table, arguments.methods[m], fit.random_error.parameters,
              fit.random_error.standard_errors);
     table.notes.push_back(arguments.methods[m] + ": " + fit.random_error.message);
@@ -61,8 +61,7 @@ void add_fit(CLI::App& program, Console& console, int& exit_code) {
   auto arguments = std::make_shared<FitArguments>();
   arguments->recording.add_to(verb);
   verb->add_option("--method", arguments->methods, "likelihood, moments or both")->delimiter(',');
-  verb->add_option("--from", arguments->from_s, "start of the span, s from the first sample");
-  verb->add_option("--to", arguments->to_s, "end of the span, s from the first sample");
+  arguments->span.add_to(verb);
   arguments->format.add_to(verb);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }

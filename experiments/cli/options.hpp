@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "core/error.hpp"
 #include "experiments/recording.hpp"
 #include "results/render/render.hpp"
 
@@ -18,6 +19,41 @@ struct FormatOption {
     verb->add_option("--format", name, "text, md, csv, json or latex")->capture_default_str();
   }
   Format get() const { return format_named(name); }
+};
+
+/// Runs `work`, whose complaints then name the file they are about.
+template <class Work>
+auto about(const std::string& file, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& mistake) {
+    throw InputError(file, mistake.what());
+  }
+}
+
+/// A check of an option's value that also refuses nan.
+inline CLI::Validator within(double low, double high) {
+  return {[low, high](const std::string& text) {
+            double value = 0.0;
+            const bool fits =
+                CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+            return fits ? std::string{}
+                        : fmt::format("'{}' is out of range; allowed: [{:g}, {:g}]", text, low, high);
+          },
+          "NUMBER"};
+}
+
+/// A span of the recording, in seconds from its first sample.
+struct SpanOption {
+  double from_s = 0.0;
+  double to_s = 1e12;
+
+  void add_to(CLI::App* verb) {
+    verb->add_option("--from", from_s, "start of the span, s from the first sample")
+        ->check(within(0.0, 1e12));
+    verb->add_option("--to", to_s, "end of the span, s from the first sample")
+        ->check(within(0.0, 1e12));
+  }
 };
 
 /// The recording that a verb works on, with the axis where it has several.

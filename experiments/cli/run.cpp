@@ -41,7 +41,7 @@ int run(const RunArguments& arguments, Console& console) {
                                   .stop = &console.stop,
                                   .progress = [&](std::size_t done) { progress.set(done); }}));
     }
-    tables.push_back(calibration_table(cell, results.back()));
+    if (cell.needs_calibration()) tables.push_back(calibration_table(cell, results.back()));
     if (auto tuning = tuning_table(cell, results.back()); !tuning.rows.empty())
       tables.push_back(std::move(tuning));
     for (auto& table : error_tables(cell, results.back())) tables.push_back(std::move(table));

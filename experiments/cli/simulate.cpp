@@ -1,5 +1,6 @@
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/verbs.hpp"
+#include "experiments/outcome_file.hpp"
 #include "experiments/study.hpp"
 
 namespace gyrostat::cli {
@@ -24,6 +25,7 @@ const Cell& cell_named(const Study& study, const std::string& name) {
 int run(const SimulateArguments& arguments, Console& console) {
   const Study study = read_study(arguments.study);
   const Cell& cell = cell_named(study, arguments.cell);
+  require_writable(arguments.out, arguments.study);
   Series series;
   synthesise(cell.scenario, {study.seed, arguments.trial}, series);
   write_series(arguments.out, series);

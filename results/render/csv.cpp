@@ -17,7 +17,7 @@ std::string quoted(const std::string& s) {
 }  // namespace
 
 std::string csv(const Table& table) {
-  std::string out = "# " + table.title + '\n';
+  std::string out = "# " + one_line(table.title) + '\n';
   for (std::size_t c = 0; c < table.columns.size(); ++c)
     out += (c == 0 ? "" : ",") + quoted(head(table.columns[c]));
   out += '\n';
@@ -25,6 +25,7 @@ std::string csv(const Table& table) {
     for (std::size_t c = 0; c < row.size(); ++c) out += (c == 0 ? "" : ",") + quoted(exact(row[c]));
     out += '\n';
   }
+  for (const auto& note : table.notes) out += "# " + one_line(note) + '\n';
   return out;
 }
 

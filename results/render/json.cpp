@@ -11,7 +11,8 @@ using nlohmann::ordered_json;
 struct ToJson {
   ordered_json operator()(std::monostate) const { return nullptr; }
   ordered_json operator()(double v) const {
-    return std::isfinite(v) ? ordered_json(v) : ordered_json(readable(v));
+    if (std::isnan(v)) return nullptr;
+    return std::isinf(v) ? ordered_json(readable(v)) : ordered_json(v);
   }
   template <class T>
   ordered_json operator()(const T& v) const {
@@ -38,7 +39,7 @@ std::string json(std::span<const Table> tables) {
     out["notes"] = table.notes;
     list.push_back(std::move(out));
   }
-  return list.dump(2) + '\n';
+  return list.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace gyrostat::render_detail

@@ -10,7 +10,7 @@ std::string escaped(std::string_view s) {
   static constexpr std::pair<std::string_view, std::string_view> symbols[] = {
       {"\\", "\\textbackslash{}"}, {"&", "\\&"}, {"%", "\\%"}, {"_", "\\_"}, {"#", "\\#"},
       {"$", "\\$"}, {"{", "\\{"}, {"}", "\\}"}, {"~", "\\textasciitilde{}"},
-      {"^", "\\textasciicircum{}"}, {"°", "\\textdegree{}"}, {"±", "$\\pm$"}, {"²", "$^2$"},
+      {"^", "\\textasciicircum{}"}, {"|", "\\textbar{}"}, {"<", "\\textless{}"}, {">", "\\textgreater{}"}, {"°", "\\textdegree{}"}, {"±", "$\\pm$"}, {"²", "$^2$"},
       {"σ", "$\\sigma$"}, {"χ", "$\\chi$"}, {"φ", "$\\varphi$"}, {"δ", "$\\delta$"},
       {"τ", "$\\tau$"}, {"·", "$\\cdot$"}, {"–", "--"}, {"≥", "$\\ge$"}};
   std::string out;
@@ -39,7 +39,7 @@ std::string joined(const std::vector<std::string>& cells) {
 }  // namespace
 
 std::string latex(const Table& table) {
-  std::string out = "\\begin{table}\n\\caption{" + escaped(table.title) + "}\n\\begin{tabular}{l" +
+  std::string out = "\\begin{table}\n\\caption{" + escaped(one_line(table.title)) + "}\n\\begin{tabular}{l" +
                     std::string(table.columns.size() - 1, 'r') + "}\n\\toprule\n";
   std::vector<std::string> heads;
   for (const auto& column : table.columns) heads.push_back(escaped(head(column)));
@@ -50,7 +50,7 @@ std::string latex(const Table& table) {
     out += joined(cells);
   }
   out += "\\bottomrule\n\\end{tabular}\n";
-  for (const auto& note : table.notes) out += "\\par\\footnotesize " + escaped(note) + "\n";
+  for (const auto& note : table.notes) out += "\\par\\footnotesize " + escaped(one_line(note)) + "\n";
   return out + "\\end{table}\n";
 }
 

@@ -15,7 +15,7 @@ std::string escaped(const std::string& s) {
 }  // namespace
 
 std::string markdown(const Table& table) {
-  std::string out = "**" + escaped(table.title) + "**\n\n|";
+  std::string out = "**" + escaped(one_line(table.title)) + "**\n\n|";
   for (const auto& column : table.columns) out += ' ' + escaped(head(column)) + " |";
   out += "\n|";
   for (std::size_t c = 0; c < table.columns.size(); ++c) out += c == 0 ? " --- |" : " ---: |";
@@ -25,7 +25,7 @@ std::string markdown(const Table& table) {
     for (const auto& cell : row) out += ' ' + escaped(readable(cell)) + " |";
     out += '\n';
   }
-  for (const auto& note : table.notes) out += "\n" + escaped(note) + '\n';
+  for (const auto& note : table.notes) out += "\n" + escaped(one_line(note)) + '\n';
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -50,11 +51,16 @@ std::string render(std::span<const Table> tables, Format format) {
 
 namespace render_detail {
 
+std::string one_line(std::string text) {
+  std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
 std::string readable(const TableCell& cell) {
   struct {
     std::string operator()(std::monostate) const { return "–"; }
-    std::string operator()(const std::string& s) const { return s; }
-    std::string operator()(double v) const { return fmt::format("{:.4g}", v); }
+    std::string operator()(const std::string& s) const { return one_line(s); }
+    std::string operator()(double v) const { return v == v ? fmt::format("{:.4g}", v) : "–"; }
     std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
   } visitor;
   return std::visit(visitor, cell);
@@ -64,7 +70,7 @@ std::string exact(const TableCell& cell) {
   struct {
     std::string operator()(std::monostate) const { return ""; }
     std::string operator()(const std::string& s) const { return s; }
-    std::string operator()(double v) const { return fmt::format("{:.17g}", v); }
+    std::string operator()(double v) const { return v == v ? fmt::format("{:.17g}", v) : ""; }
     std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
   } visitor;
   return std::visit(visitor, cell);

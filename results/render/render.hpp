@@ -25,6 +25,8 @@ std::string csv(const Table& table);
 std::string latex(const Table& table);
 std::string json(std::span<const Table> tables);
 
+/// The text with its line breaks as spaces.
+std::string one_line(std::string text);
 /// A cell for a reader.
 std::string readable(const TableCell& cell);
 /// A cell for a program: numbers that read back as the same bits.

@@ -31,7 +31,7 @@ std::string text(const Table& table) {
   for (const auto& line : lines)
     for (std::size_t c = 0; c < line.size(); ++c) widths[c] = std::max(widths[c], width(line[c]));
 
-  std::string out = table.title + '\n';
+  std::string out = one_line(table.title) + '\n';
   for (const auto& line : lines) {
     std::string row;
     for (std::size_t c = 0; c < line.size(); ++c) {
@@ -41,7 +41,7 @@ std::string text(const Table& table) {
     }
     out += row.substr(0, row.find_last_not_of(' ') + 1) + '\n';
   }
-  for (const auto& note : table.notes) out += "  " + note + '\n';
+  for (const auto& note : table.notes) out += "  " + one_line(note) + '\n';
   return out;
 }
 

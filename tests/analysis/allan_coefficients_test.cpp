@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -121,22 +122,31 @@ TEST(AllanCoefficients, AreReadOffTheirOwnCurve) {
   }
 }
 
-// 12 values at 4.5 standard errors: 1 false failure in 12000 runs. In 1 of 100 records a term that
-// is not there is shown.
+// The mean of the log of a chi-square variable on 10 degrees is digamma(5) + log 2 (Abramowitz &
+// Stegun 6.3.2: digamma(5) = 1.5061176684), below the log of its mean.
+TEST(AllanCoefficients, CorrectTheMeanOfALogarithm) {
+  const auto n = fit_allan_coefficients(exact_points({0, 1e-2, 0, 0, 0}, 12, 10.0))
+                     .angle_random_walk_dps_per_sqrt_hz;
+  EXPECT_NEAR(n.value, 1e-2 * std::exp(0.5 * (std::log(5.0) - 1.5061176684)), 1e-9);
+}
+
+// 30 values at 4.5 standard errors: 1 false failure in 5000 runs. A term that is not there is shown
+// in 1 record of 100; the standard error is then that of its square.
 TEST(AllanCoefficients, AreRecoveredFromNoise) {
+  std::uint32_t trial = 0;
   for (const Truth& truth :
        {Truth{0, 1e-2, 0, 0, 0}, Truth{1e-3, 0, 0, 0, 0}, Truth{0, 1e-2, 0, 5e-2, 0},
-        Truth{5e-4, 1e-2, 0, 5e-2, 0}, Truth{5e-4, 1e-2, 0, 0, 2e-2}, Truth{0, 1e-2, 0, 0, 0}}) {
-    const auto fit = fit_allan_coefficients(simulate(truth, 50'000, 0), rate_hz);
-    EXPECT_TRUE(fit.adequate);
-    const auto coefficients = as_array(fit);
+        Truth{5e-4, 1e-2, 0, 5e-2, 0}, Truth{5e-4, 1e-2, 0, 0, 2e-2}, Truth{0, 1e-2, 0, 0, 2e-2}}) {
+    const auto coefficients =
+        as_array(fit_allan_coefficients(simulate(truth, 50'000, ++trial), rate_hz));
     for (std::size_t k = 0; k < 5; ++k) {
       const auto& c = coefficients[k];
+      EXPECT_GT(c.upper, truth[k]) << k;
       if (truth[k] > 0.0) {
         EXPECT_NEAR(c.value, truth[k], 4.5 * c.standard_error) << k;
-      } else {
-        EXPECT_EQ(c.value, 0.0) << k;
-        EXPECT_GT(c.upper, 0.0) << k;
+        EXPECT_LT(c.standard_error, 0.1 * c.value) << k;
+      } else if (c.value > 0.0) {
+        EXPECT_LT(c.value, 4.5 * 2.0 * c.standard_error) << k;
       }
     }
   }
@@ -222,7 +232,7 @@ TEST(AllanCoefficients, IntervalsOfNAndKCoverTheTruth) {
     EXPECT_GT(counts.covered[k], 0.95 - 4.5 * 0.0126) << k;
     EXPECT_LT(counts.shown[k], 0.01 + 4.5 * 0.006) << k;
   }
-  EXPECT_GT(counts.adequate, 0.99 - 4.5 * 0.006);
+  EXPECT_GT(counts.adequate, 0.97 - 4.5 * 0.01);
 }
 
 // Measured with 400: 0.953 to 0.973, and 0.93 within 1.96 standard errors.
@@ -271,17 +281,34 @@ TEST(AllanCoefficients, ATermThatAnotherCouldReplaceReachesDownToZero) {
   EXPECT_GT(precise.rate_random_walk_dps_sqrt_hz.lower, 0.0);
 }
 
-// A mean of four samples takes three quarters of the variance at tau = 0.01 s, little at 0.3 s.
+// Measured over moving averages of 2 to 8 samples: N comes out 1 to 6 % too low.
 TEST(AllanCoefficients, AFilterInTheGyroIsNoticedAndDoesNotDecideN) {
-  auto rate = simulate({0, 1e-2, 0, 0, 0}, 100'000, 5);
-  for (std::size_t i = 0; i + 3 < rate.size(); ++i)
-    rate[i] = 0.25 * (rate[i] + rate[i + 1] + rate[i + 2] + rate[i + 3]);
+  for (const std::size_t width : {2, 4, 8}) {
+    auto rate = simulate({0, 1e-2, 0, 0, 0}, 100'000, 5);
+    for (std::size_t i = 0; i + width <= rate.size(); ++i)
+      rate[i] = std::accumulate(&rate[i], &rate[i] + width, 0.0) / static_cast<double>(width);
+    const auto fit = fit_allan_coefficients(rate, rate_hz);
+    EXPECT_GT(fit.shortest_tau_s, 0.02);
+    EXPECT_NEAR(fit.angle_random_walk_dps_per_sqrt_hz.value, 1e-2, 0.08 * 1e-2) << width;
+  }
+}
+
+TEST(AllanCoefficients, ABiasOfFirstOrderIsNoticedAndWidensTheErrors) {
+  auto rate = simulate({0, 1e-2, 0, 0, 0}, 100'000, 6);
+  const auto alone = fit_allan_coefficients(rate, rate_hz);
+  EXPECT_TRUE(alone.adequate);
+  EXPECT_EQ(alone.shortest_tau_s, 0.01);
+  double bias = 0.0;
+  for (std::size_t i = 0; const double w : normals(rate.size(), 6, "bias")) {
+    bias = 0.99 * bias + 0.01 * w;
+    rate[i++] += bias;
+  }
   const auto fit = fit_allan_coefficients(rate, rate_hz);
-  const auto& n = fit.angle_random_walk_dps_per_sqrt_hz;
   EXPECT_FALSE(fit.adequate);
-  EXPECT_GT(fit.chi_square, 1000.0);
-  EXPECT_NEAR(n.value, 1e-2, 1e-3);
-  EXPECT_GT(n.standard_error, 2e-4);
+  EXPECT_GT(fit.chi_square, 100.0);
+  EXPECT_GT(fit.angle_random_walk_dps_per_sqrt_hz.standard_error,
+            2.0 * alone.angle_random_walk_dps_per_sqrt_hz.standard_error);
+  EXPECT_NEAR(fit.angle_random_walk_dps_per_sqrt_hz.value, 1e-2, 0.1 * 1e-2);
 }
 
 TEST(AllanCoefficients, FollowTheUnitsOfRateAndTime) {

@@ -86,6 +86,14 @@ TEST(ThermalHysteresis, DependsOnTheOrderOfTemperaturesAndNotOnTime) {
   for (std::size_t k = 0; k < fast.size(); ++k) EXPECT_EQ(fast[k], slow[2 * k]);
 }
 
+TEST(ThermalEffects, OfZeroStrengthAddExactlyNothing) {
+  const auto T = moves({20.0, 40.0, 20.0});
+  for (const double v : drift(ThermalCurvature{.curvature_dps_per_C2 = 0.0, .reference_C = 30.0}, T))
+    EXPECT_EQ(v, 0.0);
+  for (const double v : drift(ThermalHysteresis{.amplitude_dps = 0.0, .width_C = 3.0}, T))
+    EXPECT_EQ(v, 0.0);
+}
+
 std::vector<double> outliers(const Outliers& effect, std::size_t samples, std::uint32_t trial = 0) {
   Series series;
   series.t_s.resize(samples);
@@ -106,6 +114,11 @@ TEST(Outliers, HitTheirShareOfSamplesWithTheirStandardDeviation) {
   }
   EXPECT_NEAR(hits, 5000.0, 5.0 * std::sqrt(n * 0.01 * 0.99));
   EXPECT_NEAR(square / hits, 9.0, 5.0 * 9.0 * std::sqrt(2.0 / hits));
+}
+
+TEST(Outliers, OfZeroProbabilityOrZeroStandardDeviationAddExactlyNothing) {
+  for (const double v : outliers({.probability = 0.0, .std_dps = 3.0}, 1000)) EXPECT_EQ(v, 0.0);
+  for (const double v : outliers({.probability = 1.0, .std_dps = 0.0}, 1000)) EXPECT_EQ(v, 0.0);
 }
 
 TEST(Outliers, OfProbabilityOneAreWhiteNoiseOnEverySample) {

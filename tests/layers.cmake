@@ -1,0 +1,48 @@
+# cmake -DSOURCE_DIR=<project> -P tests/layers.cmake
+#
+# Every #include "room/..." obeys the layering, and every header starts with #pragma once.
+cmake_minimum_required(VERSION 3.25)
+
+set(core_may_include core)
+set(generators_may_include core generators)
+set(analysis_may_include core analysis)
+set(results_may_include core results)
+set(experiments_may_include core generators analysis results experiments)
+set(tests_may_include core generators analysis results experiments tests)
+set(rooms core generators analysis results experiments tests)
+
+set(offences "")
+foreach(room IN LISTS rooms)
+  file(GLOB_RECURSE files RELATIVE ${SOURCE_DIR} ${SOURCE_DIR}/${room}/*.hpp
+       ${SOURCE_DIR}/${room}/*.cpp)
+  list(LENGTH files count)
+  if(count EQUAL 0)
+    message(FATAL_ERROR "no files in ${SOURCE_DIR}/${room}")
+  endif()
+  foreach(file IN LISTS files)
+    file(READ ${SOURCE_DIR}/${file} text)
+    string(REGEX REPLACE "[][;\\]" "," text "${text}")  # what a CMake list would trip over
+    string(REPLACE "\n" ";" lines "${text}")
+    if(file MATCHES "\\.hpp$" AND NOT text MATCHES "^#pragma once\n")
+      list(APPEND offences "${file}:1: a header starts with #pragma once")
+    endif()
+    set(number 0)
+    foreach(line IN LISTS lines)
+      math(EXPR number "${number} + 1")
+      if(NOT line MATCHES "^[ \t]*#[ \t]*include[ \t]+\"([^\"]*)\"")
+        continue()
+      endif()
+      set(target ${CMAKE_MATCH_1})
+      if(NOT target MATCHES "^([a-z_]+)/" OR NOT CMAKE_MATCH_1 IN_LIST rooms)
+        list(APPEND offences "${file}:${number}: ${line} (not under a room)")
+      elseif(NOT CMAKE_MATCH_1 IN_LIST ${room}_may_include)
+        list(APPEND offences "${file}:${number}: ${line} (${room} may not know ${CMAKE_MATCH_1})")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+
+if(offences)
+  list(JOIN offences "\n  " shown)
+  message(FATAL_ERROR "layering:\n  ${shown}")
+endif()
