@@ -4,6 +4,7 @@
 
 #include "core/models/model_nl.hpp"
 #include "core/numerics/cholesky.hpp"
+#include "core/numerics/kalman.hpp"
 #include "core/numerics/unscented.hpp"
 #include "core/step.hpp"
 

@@ -263,7 +263,7 @@ void expect_derivatives(const P& p) {
     const Jet sum = weighted_sum<Plugin::template on, Jet>(jets, samples);
     EXPECT_NEAR(sum.a, at(p), 1e-9 * (1.0 + std::abs(at(p)))) << fields[i].name;
 
-    const double h = 1e-5 * p.*(fields[i].member);
+    const double h = 1e-4 * p.*(fields[i].member);
     auto above = p, below = p;
     above.*(fields[i].member) += h;
     below.*(fields[i].member) -= h;

@@ -135,7 +135,7 @@ TEST(FromRecording, RecoversTheRandomErrorWithinFourStandardErrors) {
   const auto truth = folder.source(0).random_error;
   expect_within_four_standard_errors(fitted[0], "value", truth);
 
-  folder.write("lab/around.json", R"({"cells": [{"trials": 2, "filters": ["none", "oracle"],
+  folder.write("lab/around.json", R"({"cells": [{"trials": 2, "filters": ["none", "kf"],
       "scenario": {"from_recording": {"file": "rec.csv"}, "duration_s": 400}}]})");
   const auto tables = folder.tables({"run", "lab/around.json"});
   for (const auto& field : Arima111<double>::fields()) {
