@@ -29,6 +29,7 @@ inline constexpr Range positive{.from = 0, .open_from = true};
 inline constexpr Range non_negative{.from = 0};
 inline constexpr Range at_least_one{.from = 1};
 inline constexpr Range stationary{.from = -1, .to = 1, .open_from = true, .open_to = true};
+inline constexpr Range temperature_C{.from = -273.15, .to = 1000};
 inline constexpr Range flag{.from = 0, .to = 1, .whole = true};
 inline constexpr Range count{.from = 1, .whole = true};
 inline constexpr Range fraction{.from = 0, .to = 1};

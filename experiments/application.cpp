@@ -120,13 +120,14 @@ void apply_methods(const std::vector<Method>& methods, const Series& series, std
     const double start_C = series.temperature_C.empty() ? no_value : series.temperature_C.front();
     parameters = parameters_from(*application.calibration, start_C);
   }
+  std::vector<std::string> left_out;
   for (const auto& method : methods)
     Filters::with(method.id, "filter", method.filter, [&](auto plugin) {
       using F = typename decltype(plugin)::type;
       const auto missing = missing_channels(F::needs, series);
       if (!missing.empty()) {
-        log << fmt::format("{} left out: the recording has no {}\n", method.id,
-                           fmt::join(missing, ", "));
+        left_out.push_back(fmt::format("{} left out: the recording has no {}", method.id,
+                                       fmt::join(missing, ", ")));
         return;
       }
       typename F::Parameters p;
@@ -135,6 +136,9 @@ void apply_methods(const std::vector<Method>& methods, const Series& series, std
       application.methods.push_back(method);
       run_filter(F(p), series, application.tracks.emplace_back());
     });
+  if (application.methods.empty())
+    throw InputError("no method can run", fmt::format("{}", fmt::join(left_out, "; ")));
+  for (const auto& line : left_out) log << line << '\n';
 }
 
 std::vector<Table> application_tables(const Series& series, const Application& application,

@@ -13,7 +13,7 @@
 namespace gyrostat {
 namespace {
 
-constexpr Range trial_range{.from = 1, .to = 4294967295.0, .whole = true};
+constexpr Range trial_range{.from = 1, .to = 1e8, .whole = true};
 constexpr Range budget_range{.from = 1, .to = 100000, .whole = true};
 const Json no_keys = Json::object();
 constexpr double most_samples = 1e8;

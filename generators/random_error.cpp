@@ -22,10 +22,8 @@ void for_each_deviate(const NormalStream& stream, std::size_t count, const Use& 
 
 void add_random_error(const Arima111<double>& model, const Noise& noise, std::span<double> x) {
   const double phi = model.phi, delta1 = model.delta1_dps, delta2 = model.delta2_dps;
-  // Variance of the stationary first difference, and the part of it that a_0 does not explain.
-  const double variance =
-      (delta1 * delta1 + delta2 * delta2 - 2.0 * phi * delta1 * delta2) / (1.0 - phi * phi);
-  const double unexplained = std::sqrt(std::max(0.0, variance - delta1 * delta1));
+  // What a_0 does not explain of the stationary first difference: all that came before it.
+  const double unexplained = std::abs(phi * delta1 - delta2) / std::sqrt(1.0 - phi * phi);
   double level = 0.0, difference = 0.0, previous = 0.0;
   for_each_deviate(noise.stream("random_error"), x.size(), [&](std::size_t k, double a) {
     difference = k == 0 ? delta1 * a + unexplained * noise.stream("random_error/initial").normal(0)

@@ -59,9 +59,10 @@ std::vector<std::size_t> octave_clusters(std::size_t samples);
 /// fitted and the gains of the windows (Serroukh, Walden & Percival, JASA 2000).
 ///
 /// A term is shown if it belongs to the set of terms with the least chi-square + 6.63 a term (the
-/// 99 % quantile on one degree of freedom). Its interval is where the chi-square, least over all
-/// other terms, rises by 3.84 (2.71 for an upper limit) above its minimum. A ramp is no noise:
-/// where it rules, its error is overestimated.
+/// 99 % quantile on one degree of freedom). Its interval is where chi-square, least over all other
+/// terms, stays within 3.84 (2.71 for an upper limit) of that set's. It therefore covers at least
+/// as often as stated if the true terms are among those shown, and reaches down to 0 where another
+/// term could stand in. A ramp is no noise: where it rules, its error is overestimated.
 ///
 /// The five terms do not describe every gyro. An anti-aliasing filter lowers the points at the
 /// shortest taus, which weigh most: where the terms are not adequate, and leaving out up to half of

@@ -32,9 +32,11 @@ class Stf {
 
   /// z in dps, or NaN for a missing sample, which fades nothing.
   Step<T> update(const T& z) {
+    using std::isfinite;
     T factor(1.0);
     if (!is_missing(z)) {
       const T innovation = z - state_.mean(0);
+      if (!isfinite(innovation * innovation)) return leave_out();
       factor = fading_.next(innovation * innovation, model_.Q(0, 0), model_.R,
                             state_.covariance(0, 0));
     }
@@ -53,6 +55,14 @@ class Stf {
   const Gaussian<T, 2>& state() const { return state_; }
 
  private:
+  /// The step without its measurement, which is too large to fade by.
+  Step<T> leave_out() {
+    state_.covariance += model_.Q;
+    Step<T> step = update_first(state_, model_.R, T(no_value));
+    step.status = Status::not_finite;
+    return step;
+  }
+
   ModelL<T> model_;
   FadingFactor<T> fading_;
   Gaussian<T, 2> state_;

@@ -78,6 +78,11 @@ class NlUnscented {
     return true;
   }
 
+  /// Adds a random step of these standard deviations to phi, delta1 and delta2.
+  void walk_parameters(const Vector<T, 3>& std) {
+    for (int i = 0; i < 3; ++i) update_root<T, n>(root_, std(i) * State::Unit(2 + i));
+  }
+
   /// P <- (P^-1 - 2 diag(mu))^-1. False, with nothing changed, where that does not exist.
   [[nodiscard]] bool risk_update(const State& mu) { return inflate_root<T, n>(root_, mu); }
 

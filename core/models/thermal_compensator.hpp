@@ -64,7 +64,7 @@ class ThermalCompensator {
     const auto& [mean, covariance] = rule_.coefficients();
     const T bias = epoch.regressors.dot(mean);
     const T variance = epoch.regressors.dot(covariance * epoch.regressors);
-    if (isfinite(bias) && isfinite(variance) && variance >= T(0.0)) {
+    if (isfinite(bias) && isfinite(variance) && variance > T(0.0)) {
       held_.estimate_dps = bias;
       held_.estimate_variance = variance;
     } else {

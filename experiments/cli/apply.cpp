@@ -39,7 +39,8 @@ int run(const ApplyArguments& arguments, Console& console) {
     console.log << fmt::format("parameters from the first {:.4g} s; judged on the rest\n",
                                application.judged_from_s);
   }
-  apply_methods(methods, series, console.log, application);
+  about(arguments.recording.file,
+        [&] { apply_methods(methods, series, console.log, application); });
   const auto tables = application_tables(series, application, arguments.recording.file);
   if (!arguments.out.empty()) write_application(arguments.out, series, application);
   console.out << render(tables, format);
@@ -54,13 +55,16 @@ void add_apply(CLI::App& program, Console& console, int& exit_code) {
       "apply", "run every applicable method over a recording: raw against compensated");
   auto arguments = std::make_shared<ApplyArguments>();
   arguments->recording.add_to(verb);
-  verb->add_option("--config", arguments->config,
+  auto* config = verb->add_option("--config", arguments->config,
                    "JSON {\"filters\": [{\"id\", \"filter\", \"parameters\"}]} instead of a fit");
   verb->add_option("--out", arguments->out, "CSV or CSV.gz for the series of every method");
-  verb->add_option("--fit", arguments->fit, "likelihood or moments")->capture_default_str();
+  verb->add_option("--fit", arguments->fit, "likelihood or moments")
+      ->excludes(config)
+      ->capture_default_str();
   verb->add_option("--calibration", arguments->calibration_fraction,
                    "part of the recording that the fit may see, from its start")
       ->check(within(0.01, 0.99))
+      ->excludes(config)
       ->capture_default_str();
   arguments->format.add_to(verb);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

@@ -26,8 +26,7 @@ int run(const FitArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   std::vector<FitMethod> methods;
   for (const auto& name : arguments.methods) methods.push_back(fit_method_named(name, "--method"));
-  const Series series = cut(arguments.recording.read(console.log), arguments.span.from_s,
-                            arguments.span.to_s, arguments.recording.file + ": --from, --to");
+  const Series series = arguments.recording.read(console.log, arguments.span);
 
   Table table{.title = fmt::format("{}{}: {} samples, {:.6g} s at {:.6g} Hz", arguments.recording.file,
                                    arguments.recording.axis.empty() ? "" : " axis " + arguments.recording.axis,

@@ -10,9 +10,11 @@
 namespace gyrostat::cli {
 namespace {
 
+constexpr const char* default_studies = "experiments/studies";
+
 struct ListArguments {
   std::string kind = "all";
-  std::string studies = "experiments/studies";
+  std::string studies = default_studies;
   bool json = false;
 };
 
@@ -52,7 +54,8 @@ Json plugins() {
   return list;
 }
 
-Json studies(const std::string& folder) {
+Json studies(const std::string& folder, bool asked_for) {
+  if (asked_for && !std::filesystem::is_directory(folder)) throw InputError(folder, "no such folder");
   std::vector<std::string> paths;
   if (std::filesystem::is_directory(folder))
     for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -61,7 +64,8 @@ Json studies(const std::string& folder) {
   auto list = Json::array();
   for (const auto& path : paths) {
     const Json study = read_json(path);
-    list.push_back({{"id", path}, {"title", study.value("title", "")}, {"parameters", Json::array()}});
+    const auto title = JsonObject(study, path + ":").text("title", "");
+    list.push_back({{"id", path}, {"title", title}, {"parameters", Json::array()}});
   }
   return list;
 }
@@ -84,7 +88,7 @@ int run(const ListArguments& arguments, Console& console) {
   const std::vector<std::pair<std::string, Json>> kinds = {
       {"filters", plugins<Filters>()},   {"effects", plugins<Effects>()},
       {"temperatures", plugins<Temperatures>()}, {"motions", plugins<Motions>()},
-      {"metrics", plugins<Metrics>()},   {"studies", studies(arguments.studies)}};
+      {"metrics", plugins<Metrics>()},   {"studies", studies(arguments.studies, arguments.studies != default_studies)}};
   std::vector<std::string> names = {"all"};
   Json chosen;
   for (const auto& [name, entries] : kinds) {

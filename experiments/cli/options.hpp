@@ -66,14 +66,16 @@ struct RecordingOption {
     verb->add_option("--axis", axis, "x, y or z where the recording has three axes");
   }
 
-  /// Read, checked to be evenly sampled; says in `log` which columns mean nothing to gyrostat.
-  Series read(std::ostream& log) const {
+  /// The span of it, checked to be evenly sampled; says in `log` which columns mean nothing to
+  /// gyrostat.
+  Series read(std::ostream& log, const SpanOption& span = {}) const {
     auto recording = read_recording(file, axis);
-    require_uniform(recording.series, file);
+    Series series = cut(recording.series, span.from_s, span.to_s, file + ": --from, --to");
+    require_uniform(series, file);
     if (!recording.ignored_columns.empty())
       log << fmt::format("{}: columns not used: {}\n", file,
                          fmt::join(recording.ignored_columns, ", "));
-    return std::move(recording.series);
+    return series;
   }
 };
 

@@ -25,7 +25,7 @@ std::string csv(const Table& table) {
     for (std::size_t c = 0; c < row.size(); ++c) out += (c == 0 ? "" : ",") + quoted(exact(row[c]));
     out += '\n';
   }
-  for (const auto& note : table.notes) out += "# " + one_line(note) + '\n';
+  for (const auto& note : table.notes) out += "# note: " + one_line(note) + '\n';
   return out;
 }
 

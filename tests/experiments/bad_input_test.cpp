@@ -264,6 +264,19 @@ TEST(BadInput, AStudyTooLargeForAnyMachineIsOutOfRange) {
   expect_refused_with("/cells/0/scenario/rate_hz", 1e300, {"cells[0].scenario", "rate_hz"});
 }
 
+TEST(BadInput, MoreTrialsThanMemoryHoldsAreOutOfRange) {
+  const TestFolder folder;
+  Json study = sound_study();
+  study["cells"][0]["trials"] = 4e9;
+  folder.write("study.json", study.dump());
+  expect_refused(folder, {"validate", "study.json"}, {"cells[0].trials", "[1, "});
+}
+
+TEST(BadInput, AScenarioWhoseSignalNoRecordingMayHoldIsOutOfRange) {
+  expect_refused_with("/cells/0/scenario/temperature", {{"profile", "cycle"}, {"low_C", -300}},
+                      {"cells[0].scenario.temperature.low_C", "-300 °C", "-273.15"});
+}
+
 TEST(BadInput, AScenarioTooShortToCalibrateOnIsRefusedBeforeTheRun) {
   const TestFolder folder;
   Json study = sound_study();
@@ -383,6 +396,29 @@ TEST(BadInput, AConfigCannotAskForParametersThatThereAreNot) {
     expect_config_refused(
         R"({"filters": [{"filter": "kf", "parameters_from": ")" + source + "\"}]}",
         {"filters[0].parameters_from", source});
+}
+
+TEST(BadInput, AConfigOfWhichNothingCanRunOnTheRecordingIsRefused) {
+  expect_config_refused(R"({"filters": ["thermal_kf", "oracle"]})",
+                        {"rec.csv", "thermal_kf", "temperature_C"});
+}
+
+TEST(BadInput, OptionsOfAFitHaveNoPlaceBesideAConfig) {
+  const TestFolder folder;
+  folder.write("rec.csv", sound_recording());
+  folder.write("config.json", R"({"filters": ["kf"]})");
+  for (const Words& option : {Words{"--calibration", "0.5"}, Words{"--fit", "moments"}})
+    expect_refused(folder, {"apply", "rec.csv", "--config", "config.json", option[0], option[1]},
+                   {option[0], "--config"});
+}
+
+TEST(BadInput, ABrokenStudyInTheListedFolderIsNamed) {
+  for (const char* text : {"{", "[1]", R"({"title": 5})"}) {
+    const TestFolder folder;
+    folder.write("studies/broken.json", text);
+    expect_refused(folder, {"list", "studies", "--studies", "studies"}, {"studies/broken.json"});
+  }
+  expect_refused(TestFolder(), {"list", "studies", "--studies", "absent"}, {"absent"});
 }
 
 TEST(BadInput, ANameOnTheCommandLineIsToldTheNearest) {

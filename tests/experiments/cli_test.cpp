@@ -56,23 +56,25 @@ Row lines_of(const std::string& text) {
   return lines;
 }
 
-/// The rows of a CSV as RFC 4180 has them.
+/// The rows of a CSV as RFC 4180 has them; a comment (# ...) is a row of one cell.
 std::vector<Row> csv_rows(const std::string& text) {
   std::vector<Row> rows;
   Row row = {""};
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    if (c == '"' && quoted && i + 1 < text.size() && text[i + 1] == '"')
-      row.back() += text[++i];
-    else if (c == '"')
-      quoted = !quoted;
-    else if (c == ',' && !quoted)
-      row.emplace_back();
-    else if (c == '\n' && !quoted)
+    const bool comment = row.size() == 1 && row[0].starts_with('#');
+    if (c == '\n' && !quoted) {
       rows.push_back(std::exchange(row, {""}));
-    else
+    } else if (comment || (c != '"' && (c != ',' || quoted))) {
       row.back() += c;
+    } else if (c == ',') {
+      row.emplace_back();
+    } else if (quoted && i + 1 < text.size() && text[i + 1] == '"') {
+      row.back() += text[++i];
+    } else {
+      quoted = !quoted;
+    }
   }
   return rows;
 }
@@ -113,6 +115,17 @@ TEST(Simulate, IsReadByFitApplyAndAllan) {
   EXPECT_THAT(run_well(folder, {"fit", "rec.csv.gz"}).out, HasSubstr("a_dps_per_C"));
   EXPECT_THAT(run_well(folder, {"apply", "rec.csv.gz"}).out, HasSubstr("thermal_stf"));
   EXPECT_THAT(run_well(folder, {"allan", "rec.csv.gz"}).out, HasSubstr("Allan deviation"));
+}
+
+TEST(Fit, TakesAnEvenSpanOfAnUnevenRecording) {
+  const TestFolder folder;
+  std::string csv = "t_s,gyro_dps\n";
+  for (int i = 0; i < 1200; ++i)
+    csv += fmt::format("{:.2f},{:.6f}\n", i / 100.0 + (i < 600 ? 0 : 300), 0.1 * std::sin(i * i));
+  folder.write("bursts.csv", csv);
+  EXPECT_EQ(run_program(folder, {"fit", "bursts.csv"}).exit_code, 2);
+  run_well(folder, {"fit", "bursts.csv", "--to", "5.99"});
+  run_well(folder, {"fit", "bursts.csv", "--from", "300"});
 }
 
 // ---------------------------------------------------------------- apply
@@ -329,10 +342,11 @@ TEST(Format, JsonIsParsedAndEveryRowHasItsColumns) {
 TEST(Format, CsvHasAsManyCellsInEveryRowOfATable) {
   std::size_t tables = 0, columns = 0;
   for (const auto& row : csv_rows(tables_as("csv"))) {
+    if (row[0].starts_with("# note: ")) continue;
     if (row[0].starts_with("#")) {
-      ++tables;
       columns = 0;
     } else if (row != Row{""}) {
+      tables += columns == 0;
       if (columns == 0) columns = row.size();
       EXPECT_EQ(row.size(), columns) << fmt::format("{}", fmt::join(row, "|"));
     }

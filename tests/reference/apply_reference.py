@@ -60,24 +60,31 @@ class FadingFactor:
 # Random-error filters on linear models (METHODS.md section 2, model L and its
 # three-state extension that carries a_k).
 
-def run_linear(gyro, x, P, F, Q, r, fading=None):
-    """Kalman filter with H = [1, 0, ...]; P- = factor F P F' + Q."""
+def run_linear(gyro, x, P, F, Q, r, fading=None, mu=None):
+    """Kalman filter with H = [1, 0, ...]; P- = factor F P F' + Q, then (P-^-1 - 2 diag(mu))^-1."""
     H = np.eye(1, len(x))
     R = np.array([[r]])
+    mu = np.zeros(len(x)) if mu is None else mu
     rows = []
     for z in gyro:
         x = F @ x
         FPF = symmetric(F @ P @ F.T)
-        if math.isnan(z):
-            P = FPF + Q
-            rows.append((x[0], NAN, NAN, NO_MEASUREMENT))
-            continue
         innovation = np.array([z - x[0]])
+        missing = math.isnan(z)
         factor = 1.0
-        if fading is not None:
+        if fading is not None and not missing:
             factor = fading.at_measurement(innovation, H @ FPF @ H.T, H @ Q @ H.T, R)
-        x, P, S = condition(x, factor * FPF + Q, innovation, H, R)
-        rows.append((x[0], innovation[0], S[0, 0], OK))
+        P = factor * FPF + Q
+        inflated = risk_update(P, mu)
+        broken = inflated is None
+        if not broken:
+            P = inflated
+        S = np.array([[NAN]])
+        status = NO_MEASUREMENT
+        if not missing:
+            x, P, S = condition(x, P, innovation, H, R)
+            status = OK
+        rows.append((x[0], innovation[0], S[0, 0], RISK_BREAKDOWN if broken else status))
     return rows
 
 
@@ -87,18 +94,22 @@ def initial_pair(p):
     return mean, variance
 
 
-def run_kf(data, p, fading=None):
+def run_kf(data, p, fading=None, mu=None):
     """Model L: F = [[1+phi, -phi], [1, 0]], G = [[delta1, -delta2], [0, 0]]."""
     phi = p["phi"]
     F = np.array([[1.0 + phi, -phi], [1.0, 0.0]])
     G = np.array([[p["delta1_dps"], -p["delta2_dps"]], [0.0, 0.0]])
     mean, variance = initial_pair(p)
     return run_linear(data["gyro_dps"], np.array(mean), np.diag(variance), F, G @ G.T,
-                      p["measurement_noise_std_dps"] ** 2, fading)
+                      p["measurement_noise_std_dps"] ** 2, fading, mu)
 
 
 def run_stf(data, p):
     return run_kf(data, p, FadingFactor(p))
+
+
+def run_rskf(data, p):
+    return run_kf(data, p, mu=np.array([p["mu_x"], p["mu_x_previous"]]))
 
 
 def run_kf_ma(data, p):
@@ -115,6 +126,7 @@ def run_kf_ma(data, p):
 # SR-RSUKF), state [x_k, x_{k-1}, phi, delta1, delta2, a_k, a_{k-1}].
 
 X, X_PREVIOUS, PHI, DELTA1, DELTA2, A, A_PREVIOUS = range(7)
+WALK_NAMES = ("walk_phi_std", "walk_delta1_std_dps", "walk_delta2_std_dps")
 MU_NAMES = ("mu_x", "mu_x_previous", "mu_phi", "mu_delta1", "mu_delta2", "mu_a", "mu_a_previous")
 
 
@@ -198,14 +210,17 @@ def reset_noise(mean, P):
     return mean, reset
 
 
-def run_unscented(data, p, mu):
+def run_unscented(data, p, mu, walk_std=(0.0, 0.0, 0.0)):
     r = p["measurement_noise_std_dps"] ** 2
     pair, pair_variance = initial_pair(p)
     parameter_std = [p["initial_phi_std"], p["initial_delta1_std_dps"], p["initial_delta2_std_dps"]]
     mean = np.array(pair + [p["phi"], p["delta1_dps"], p["delta2_dps"], 0.0, 0.0])
     P = np.diag(pair_variance + [s ** 2 for s in parameter_std] + [1.0, 1.0])
+    walk = np.zeros((7, 7))
+    walk[PHI:A, PHI:A] = np.diag(np.square(walk_std))
     rows = []
     for z in data["gyro_dps"]:
+        P = P + walk
         mean, P = unscented_time_update(mean, P, p["alpha"], p["beta"], p["kappa"])
         inflated = risk_update(P, mu)
         broken = inflated is None
@@ -229,6 +244,14 @@ def run_sr_ukf(data, p):
 
 def run_sr_rsukf(data, p):
     return run_unscented(data, p, np.array([p[name] for name in MU_NAMES]))
+
+
+def run_sr_rsukf_scalar(data, p):
+    return run_unscented(data, p, np.full(7, p["mu_scalar"]))
+
+
+def run_sr_ukf_walk(data, p):
+    return run_unscented(data, p, np.zeros(7), [p[name] for name in WALK_NAMES])
 
 
 # Thermal-drift filters on X = [a, b, c] (METHODS.md section 3). Each keeps the
@@ -299,6 +322,49 @@ class ThermalKalman(ThermalRegression):
         return innovation[0], S[0, 0]
 
 
+class ThermalSharedNoise(ThermalRegression):
+    """thermal_stf_ma: M_k = h X - n_k + n_{k-1} + w_k, each M once, X a random walk.
+
+    The state is [X, n_{k-1}]; the new n_k is noise of this measurement and state of the next, so
+    its posterior comes from the correlation of process and measurement noise. Where the factor
+    exceeds 1 the variance of h X alone is raised by it.
+    """
+
+    def __init__(self, p):
+        super().__init__(p)
+        self.Q = np.diag([p["process_a_std_dps_per_C"] ** 2, p["process_b_std_dps_s_per_C"] ** 2,
+                          p["process_c_std_dps"] ** 2])
+        self.q = (p["compass_noise_std_deg"] / p["update_interval_s"]) ** 2
+        self.w = max(self.r - 2.0 * self.q, 0.01 * self.r)
+        self.fading = FadingFactor(p)
+        self.forget_noise()
+
+    def forget_noise(self):
+        """n of a compass reading that nothing was measured with."""
+        self.n, self.Pn, self.Pxn = 0.0, self.q, np.zeros(3)
+
+    def update(self, epochs):
+        M, h = epochs[-1]
+        if M is None:
+            self.P = self.P + self.Q
+            self.forget_noise()
+            return None
+        innovation = M - h @ self.X - self.n
+        hPh = h @ self.P @ h
+        process, noise = h @ self.Q @ h + 2.0 * h @ self.Pxn, self.Pn + self.q + self.w
+        factor = self.fading.at_measurement(np.array([innovation]), np.array([[hPh]]),
+                                            np.array([[process]]), np.array([[noise]]))
+        Ph = self.P @ h
+        P = self.P + self.Q + (factor - 1.0) * np.outer(Ph, Ph) / hPh
+        S = factor * hPh + process + noise
+        K = (P @ h + self.Pxn) / S
+        self.X = self.X + K * innovation
+        self.P = symmetric(P - S * np.outer(K, K))
+        self.n, self.Pn = -self.q / S * innovation, self.q - self.q ** 2 / S
+        self.Pxn = K * self.q
+        return innovation, S
+
+
 def run_thermal(data, p, estimator):
     """Epochs, the measurement M_k = B_{k-1} - wrap180(change of A_c - A_g) / Dt, held bias B."""
     t, gyro, temperature = data["t_s"], data["gyro_dps"], data["temperature_C"]
@@ -331,12 +397,16 @@ FILTERS = {
     "kf": run_kf,
     "stf": run_stf,
     "kf_ma": run_kf_ma,
+    "rskf": run_rskf,
     "sr_ukf": run_sr_ukf,
     "sr_rsukf": run_sr_rsukf,
+    "sr_rsukf_scalar": run_sr_rsukf_scalar,
+    "sr_ukf_walk": run_sr_ukf_walk,
     "thermal_mlr": lambda data, p: run_thermal(data, p, ThermalRegression(p)),
     "thermal_kf": lambda data, p: run_thermal(data, p, ThermalKalman(p)),
     "thermal_lsm": lambda data, p: run_thermal(data, p, ThermalLeastSquares(p)),
     "thermal_stf": lambda data, p: run_thermal(data, p, ThermalKalman(p, FadingFactor(p))),
+    "thermal_stf_ma": lambda data, p: run_thermal(data, p, ThermalSharedNoise(p)),
     "none": run_none,
 }
 

@@ -1,5 +1,7 @@
 #include "generators/environment/magnetic/compass.hpp"
 
+#include <string>
+
 #include "generators/random_error.hpp"
 
 namespace gyrostat {
@@ -12,8 +14,9 @@ void Compass::observe(Series& series, const Noise& noise) const {
     heading[i] = heading[i - 1] + series.rate_ref_dps[i] * (series.t_s[i] - series.t_s[i - 1]);
   add_white_noise(noise_std_deg, noise.stream("compass"), heading);
 
-  const auto stream = noise.stream("compass/disturbance");
-  for (const auto& d : disturbances) {
+  for (std::size_t n = 0; n < disturbances.size(); ++n) {
+    const auto& d = disturbances[n];
+    const auto stream = noise.stream("compass/disturbance/" + std::to_string(n));
     for (std::size_t i = 0; i < heading.size(); ++i) {
       const double into = series.t_s[i] - d.start_s;
       if (into < 0.0 || into >= d.duration_s) continue;

@@ -47,7 +47,7 @@ struct Compass {
   }
 
   /// Fills heading_deg and mag_valid from t_s and rate_ref_dps. Streams "compass" and
-  /// "compass/disturbance".
+  /// "compass/disturbance/0", "…/1", ….
   void observe(Series& series, const Noise& noise) const;
 };
 

@@ -18,8 +18,8 @@ struct Cycle {
   static constexpr auto fields() {
     using P = Cycle;
     return std::array{
-        Field{"low_C", &P::low_C, "°C", ranges::any, "lowest temperature"},
-        Field{"high_C", &P::high_C, "°C", ranges::any, "highest temperature"},
+        Field{"low_C", &P::low_C, "°C", ranges::temperature_C, "lowest temperature"},
+        Field{"high_C", &P::high_C, "°C", ranges::temperature_C, "highest temperature"},
         Field{"period_s", &P::period_s, "s", ranges::positive, "period of the cycle"},
     };
   }

@@ -18,8 +18,8 @@ struct QuietRoom {
   static constexpr auto fields() {
     using P = QuietRoom;
     return std::array{
-        Field{"start_C", &P::start_C, "°C", ranges::any, "temperature at the start"},
-        Field{"end_C", &P::end_C, "°C", ranges::any, "temperature that is tended to"},
+        Field{"start_C", &P::start_C, "°C", ranges::temperature_C, "temperature at the start"},
+        Field{"end_C", &P::end_C, "°C", ranges::temperature_C, "temperature that is tended to"},
         Field{"time_constant_s", &P::time_constant_s, "s", ranges::positive,
               "time constant of the warm-up"},
     };
