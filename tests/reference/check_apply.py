@@ -94,6 +94,8 @@ def check_config(binary, directory, input_path, config_path):
 
 
 def main(binary, directory):
+    for stale in glob.glob(os.path.join(directory, "config_*.json")):
+        os.remove(stale)
     make_inputs.main(directory)
     input_path = os.path.join(directory, "input.csv")
     config_paths = sorted(glob.glob(os.path.join(directory, "config_*.json")))
