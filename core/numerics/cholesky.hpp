@@ -12,34 +12,38 @@ bool vanishes(const T& value) {
 }
 
 /// Lower triangular L (N x N) with L L^T = A A^T, by Householder reflections of A's rows
-/// (N x M, M >= N): the QR decomposition of A^T without its Q.
+/// (N x M, M >= N): the QR decomposition of A^T without its Q. A row without a remainder gets a
+/// zero diagonal and leaves its column of A to the next, so that L stays downdatable where A A^T
+/// is singular.
 template <class T, int N, int M>
 Matrix<T, N> lower_root(Matrix<T, N, M> a) {
   using std::sqrt;
-  for (int k = 0; k < N; ++k) {
+  Matrix<T, N> root = Matrix<T, N>::Zero();
+  for (int k = 0, pivot = 0; k < N; ++k) {
     T tail(0.0);
     bool reduced = true;  // a zero whose derivative is none still turns the rows below
-    for (int j = k + 1; j < M; ++j) {
+    for (int j = pivot + 1; j < M; ++j) {
       tail += a(k, j) * a(k, j);
       reduced = reduced && vanishes(a(k, j));
     }
-    const T squared = tail + a(k, k) * a(k, k);
-    if (reduced || squared == T(0.0)) continue;
-    const T norm = sqrt(squared);
-    const T head = a(k, k) > T(0.0) ? a(k, k) + norm : a(k, k) - norm;
-    const T scale = T(2.0) / (tail + head * head);
-    for (int i = k + 1; i < N; ++i) {
-      T dot = a(i, k) * head;
-      for (int j = k + 1; j < M; ++j) dot += a(i, j) * a(k, j);
-      dot *= scale;
-      a(i, k) -= dot * head;
-      for (int j = k + 1; j < M; ++j) a(i, j) -= dot * a(k, j);
+    const T squared = tail + a(k, pivot) * a(k, pivot);
+    if (squared == T(0.0)) continue;
+    if (!reduced) {
+      const T norm = sqrt(squared);
+      const T head = a(k, pivot) > T(0.0) ? a(k, pivot) + norm : a(k, pivot) - norm;
+      const T scale = T(2.0) / (tail + head * head);
+      for (int i = k + 1; i < N; ++i) {
+        T dot = a(i, pivot) * head;
+        for (int j = pivot + 1; j < M; ++j) dot += a(i, j) * a(k, j);
+        dot *= scale;
+        a(i, pivot) -= dot * head;
+        for (int j = pivot + 1; j < M; ++j) a(i, j) -= dot * a(k, j);
+      }
+      a(k, pivot) = a(k, pivot) > T(0.0) ? -norm : norm;
     }
-    a(k, k) = a(k, k) > T(0.0) ? -norm : norm;
+    for (int i = k; i < N; ++i) root(i, k) = a(i, pivot);
+    ++pivot;
   }
-  Matrix<T, N> root = Matrix<T, N>::Zero();
-  for (int j = 0; j < N; ++j)
-    for (int i = j; i < N; ++i) root(i, j) = a(i, j);
   return root;
 }
 

@@ -87,6 +87,18 @@ TEST_F(Numerics, LowerRootStandsZeroRowsAndScalesFarApart) {
   }
 }
 
+/// A known state is a zero row; every direction short of the others' spread stays downdatable.
+TEST_F(Numerics, LowerRootWithAKnownStateStaysDowndatable) {
+  for (int k = 0; k < repetitions; ++k) {
+    auto a = random<n, 2 * n>();
+    a.row(k % n).setZero();
+    Square root = lower_root<double, n, 2 * n>(a);
+    const Column v = 0.999 * a * random<2 * n, 1>().normalized();
+    ASSERT_TRUE((downdate_root<double, n>(root, v)));
+    expect_close(square(root), a * a.transpose() - v * v.transpose());
+  }
+}
+
 TEST_F(Numerics, LowerRootOfALowerRootIsItself) {
   const Square root = random_root();
   expect_close(lower_root<double, n, n>(root), root, 0.0);
