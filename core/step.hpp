@@ -80,4 +80,8 @@ concept Filter = std::copyable<F> && requires(F filter, Sample<typename F::Scala
   { filter.step(sample) } -> std::same_as<Step<typename F::Scalar>>;
 };
 
+/// Whether a filter's estimates are Monte Carlo draws: it says so by a static `draws_noise`.
+template <class F>
+inline constexpr bool draws_noise = requires { F::draws_noise; };
+
 }  // namespace gyrostat

@@ -51,6 +51,8 @@ Calibration calibrate(const Series& series, FitMethod method) {
     calibration.start_temperature_C = series.temperature_C.front();
     calibration.bias_measurement_std_dps =
         bias_measurement_std(series, calibration.thermal->parameters, aiding_interval_s);
+    calibration.compass_noise_std_deg =
+        compass_noise_std(series, calibration.thermal->parameters, aiding_interval_s);
   }
   const auto rest = without_drift(series, calibration.thermal);
   calibration.random_error = method == FitMethod::likelihood ? fit_arima_likelihood(rest)
@@ -80,6 +82,8 @@ ParameterMap parameters_from(const Calibration& calibration, double start_temper
   values["initial_phi_std"] = std::clamp(finite_or(error.phi, 0.3), 0.01, 0.3);
   values["initial_delta1_std_dps"] = std::min(finite_or(error.delta1_dps, delta1), delta1);
   values["initial_delta2_std_dps"] = std::min(finite_or(error.delta2_dps, delta1), delta1);
+  values["initial_measurement_noise_std_std_dps"] =
+      std::min(finite_or(error.measurement_noise_std_dps, noise), noise);
 
   if (!calibration.thermal) return values;
   values.merge(parameter_values(calibration.thermal->parameters));
@@ -96,12 +100,15 @@ ParameterMap parameters_from(const Calibration& calibration, double start_temper
       std::max({thermal_error.c_dps, calibration.level_std_dps, 0.1 * std::abs(drift.c_dps), 1e-4});
   if (std::isfinite(calibration.bias_measurement_std_dps))
     values["bias_measurement_std_dps"] = std::max(calibration.bias_measurement_std_dps, 1e-6);
+  if (std::isfinite(calibration.compass_noise_std_deg))
+    values["compass_noise_std_deg"] = calibration.compass_noise_std_deg;
   return values;
 }
 
 ParameterMap true_parameters(const Scenario& scenario) {
   ParameterMap values = parameter_values(scenario.random_error);
   values.merge(parameter_values(scenario.thermal_drift));
+  values["compass_noise_std_deg"] = scenario.compass.noise_std_deg;
   values["initial_x_dps"] = values["initial_x_previous_dps"] = 0.0;
   // x_{-1} = 0, and x_{-2} lies one stationary difference away from it.
   const auto& [phi, delta1, delta2, noise] = scenario.random_error;

@@ -118,8 +118,11 @@ ParameterSource parameter_source_named(const std::string& name, const std::strin
 
 std::vector<Method> all_methods(ParameterSource source) {
   std::vector<Method> methods;
-  for (const auto& id : Filters::ids())
-    methods.push_back({id, id, source_of(id, source), {}, {}});
+  Filters::for_each([&](auto plugin) {
+    const std::string id(plugin.id);
+    if (!draws_noise<typename decltype(plugin)::type>)
+      methods.push_back({id, id, source_of(id, source), {}, {}});
+  });
   // What every other row is read against stands at the top and at the bottom.
   std::stable_partition(methods.begin(), methods.end(), [](const auto& m) { return m.id == "none"; });
   std::stable_partition(methods.begin(), methods.end(), [](const auto& m) { return m.id != "oracle"; });

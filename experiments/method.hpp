@@ -27,7 +27,8 @@ struct Method {
 std::vector<Method> read_methods(JsonObject& object, const std::string& key,
                                  ParameterSource default_source);
 
-/// Every filter under its own name, "none" first and "oracle" last.
+/// Every filter under its own name, "none" first and "oracle" last; those by simulation, which are
+/// slow, only run where they are named.
 std::vector<Method> all_methods(ParameterSource source);
 
 /// A name that can stand in a table, a column head and a file: throws InputError at `place` for an

@@ -149,6 +149,25 @@ ThermalFit fit_thermal_drift(const Series& series, double interval_s) {
   return fit;
 }
 
+double compass_noise_std(const Series& series, const ThermalDrift<double>& drift,
+                         double interval_s) {
+  std::vector<double> residual;
+  CompassAiding<double> aiding(interval_s);
+  for (std::size_t i = 0; i < series.size(); ++i)
+    if (const auto epoch = aiding.observe(sample_at(series, i), 0.0))
+      residual.push_back(epoch->bias_dps - epoch->regressors.dot(drift.coefficients()));
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t k = 3; k < residual.size(); ++k) {
+    const double product = (residual[k] - residual[k - 1]) * (residual[k - 2] - residual[k - 3]);
+    if (std::isnan(product)) continue;
+    sum += product;
+    ++count;
+  }
+  if (count == 0) return no_value;
+  return interval_s * std::sqrt(std::max(0.0, sum / static_cast<double>(count)));
+}
+
 double bias_measurement_std(const Series& series, const ThermalDrift<double>& drift,
                             double interval_s) {
   if (series.heading_deg.empty()) return no_value;

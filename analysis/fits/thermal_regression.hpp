@@ -30,4 +30,11 @@ ThermalFit fit_thermal_drift(const Series& series, double interval_s = 10.0);
 double bias_measurement_std(const Series& series, const ThermalDrift<double>& drift,
                             double interval_s = 10.0);
 
+/// Standard deviation, deg, of one compass reading, from what neighbouring bias measurements share:
+/// with M = drift - n_k + n_{k-1} + w_k (n the reading's noise over the interval, w white), the
+/// differences of M have the autocovariance n^2 at lag 2, to which neither w nor a bias that wanders
+/// adds. 0 where that covariance is negative, NaN where there are no four measurements in a row.
+double compass_noise_std(const Series& series, const ThermalDrift<double>& drift,
+                         double interval_s = 10.0);
+
 }  // namespace gyrostat

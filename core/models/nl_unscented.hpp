@@ -83,6 +83,13 @@ class NlUnscented {
     for (int i = 0; i < 3; ++i) update_root<T, n>(root_, std(i) * State::Unit(2 + i));
   }
 
+  /// Takes these for delta1, delta2 and sqrt(R).
+  void set_noise(const T& delta1, const T& delta2, const T& measurement_noise_std) {
+    mean_(3) = delta1;
+    mean_(4) = delta2;
+    noise_std_ = measurement_noise_std;
+  }
+
   /// P <- (P^-1 - 2 diag(mu))^-1. False, with nothing changed, where that does not exist.
   [[nodiscard]] bool risk_update(const State& mu) { return inflate_root<T, n>(root_, mu); }
 

@@ -70,6 +70,33 @@ TEST(ThermalRegression, DoesNotJudgeATemperatureThatStandsStill) {
   EXPECT_THAT(fit.message, testing::HasSubstr("not assessable"));
 }
 
+/// Root of a mean over trials of a product of near-Gaussian differences; 3 % is five of its standard
+/// errors. A gyro that wanders and a drift that is not linear do not add to it.
+TEST(CompassNoise, IsRecoveredFromASensorThatWanders) {
+  Scenario scenario = warm_up(2e-4);
+  scenario.effects = {effects::ThermalCurvature{.curvature_dps_per_C2 = 5e-5}};
+  for (const double noise : {0.05, 0.2}) {
+    scenario.compass.noise_std_deg = noise;
+    double squares = 0.0;
+    constexpr int trials = 200;
+    for (int trial = 0; trial < trials; ++trial) {
+      Series series;
+      synthesise(scenario, {1, static_cast<std::uint32_t>(trial)}, series);
+      const auto fit = fit_thermal_drift(series);
+      const double found = compass_noise_std(series, fit.parameters);
+      squares += found * found / trials;
+    }
+    EXPECT_NEAR(std::sqrt(squares) / noise, 1.0, 0.03) << noise;
+  }
+}
+
+TEST(CompassNoise, OfNoCompassIsNoValue) {
+  Series series;
+  synthesise(warm_up(0.0), {1, 0}, series);
+  series.heading_deg.clear();
+  EXPECT_TRUE(std::isnan(compass_noise_std(series, {})));
+}
+
 TEST(ThermalRegression, NeedsFourIntervals) {
   Scenario scenario = warm_up(0.0);
   scenario.sampling.duration_s = 35.0;

@@ -198,12 +198,14 @@ TYPED_TEST(FilterContract, TheFutureDoesNotReachThePast) {
 }
 
 TYPED_TEST(FilterContract, EstimatesOfNothingAreZero) {
+  if (draws_noise<typename TestFixture::F>) GTEST_SKIP() << "its estimate is a draw";
   typename TestFixture::F filter{typename TestFixture::P{}};
   for (int i = 0; i < 1000; ++i)
     ASSERT_EQ(filter.step({0.2 * i, 0.0, 25.0, 0.0, 0.0, 0.0}).estimate_dps, 0.0);
 }
 
 TYPED_TEST(FilterContract, TheMirroredSignalGivesTheMirroredEstimate) {
+  if (draws_noise<typename TestFixture::F>) GTEST_SKIP() << "its estimate is a draw";
   typename TestFixture::F filter{typename TestFixture::P{}}, mirror{typename TestFixture::P{}};
   for (auto sample : tame(2000)) {
     const double estimate = filter.step(sample).estimate_dps;
@@ -276,12 +278,14 @@ void expect_derivatives(const P& p) {
 }
 
 TYPED_TEST(FilterContract, DerivativesOnJetsAreCentralDifferences) {
+  if (draws_noise<typename TestFixture::F>) GTEST_SKIP() << "its estimate is a draw";
   expect_derivatives<TypeParam>(interior<typename TestFixture::P>());
 }
 
 /// As a calibration starts every filter: x_k and x_{k-1} alike, so that some correlations are zero
 /// there while their derivatives are not.
 TYPED_TEST(FilterContract, DerivativesOnJetsHoldWhereTheInitialStatesAreAlike) {
+  if (draws_noise<typename TestFixture::F>) GTEST_SKIP() << "its estimate is a draw";
   auto p = interior<typename TestFixture::P>();
   for (const auto& field : p.fields())
     if (field.name == "initial_x_dps" || field.name == "initial_x_previous_dps")

@@ -85,6 +85,10 @@ THERMAL_2 = dict(update_interval_s=7.1, a_dps_per_C=-0.0005, b_dps_s_per_C=0.0, 
                  initial_c_std_dps=0.02, bias_measurement_std_dps=0.03)
 WALK_2 = dict(process_a_std_dps_per_C=2e-4, process_b_std_dps_s_per_C=1e-2, process_c_std_dps=1e-3)
 
+PARAMETER_WALK = dict(walk_phi_std=0.005, walk_delta1_std_dps=1e-4, walk_delta2_std_dps=5e-5)
+PARAMETER_WALK_2 = dict(walk_phi_std=0.01, walk_delta1_std_dps=5e-5, walk_delta2_std_dps=2e-4)
+COMPASS = dict(compass_noise_std_deg=0.1)
+
 SMALL_ALPHA = dict(alpha=0.01)
 KNOWN_PARAMETERS = dict(initial_phi_std=0.0, initial_delta1_std_dps=0.0, initial_delta2_std_dps=0.0)
 NO_RISK = {name: 0.0 for name in RISK}
@@ -147,7 +151,25 @@ def make_configs():
               name="rsukf_breakdown_delta1"),
         entry("thermal_kf", THERMAL, WALK, dict(update_interval_s=4.3), name="thermal_kf_often"),
     ]
-    return {"plausible": plausible, "varied": varied, "small_alpha": small_alpha}
+    beyond = [
+        entry("rskf", LINEAR, dict(mu_x=60.0, mu_x_previous=20.0)),
+        # Breaks down when consecutive measurements are missing.
+        entry("rskf", LINEAR_2, dict(mu_x=300.0, mu_x_previous=0.0), name="rskf_breakdown"),
+        entry("sr_rsukf_scalar", UNSCENTED, dict(mu_scalar=0.03)),
+        # Breaks down at every step: the noise states have variance 1.
+        entry("sr_rsukf_scalar", UNSCENTED_2, dict(mu_scalar=0.5), name="scalar_breakdown"),
+        entry("sr_ukf_walk", UNSCENTED, PARAMETER_WALK),
+        entry("sr_ukf_walk", UNSCENTED_2, SMALL_ALPHA, KNOWN_PARAMETERS, PARAMETER_WALK_2,
+              name="walk_from_known"),
+        entry("thermal_stf_ma", THERMAL, WALK, FADING, COMPASS),
+        entry("thermal_stf_ma", THERMAL_2, WALK_2, FIXED_2, COMPASS, name="stf_ma_fixed"),
+        # The compass claims more noise than M has.
+        entry("thermal_stf_ma", THERMAL_2, WALK_2, ADAPTIVE_2, dict(compass_noise_std_deg=0.3),
+              name="stf_ma_loud"),
+        entry("thermal_stf_ma", THERMAL, WALK, FADING, dict(compass_noise_std_deg=0.0),
+              name="stf_ma_quiet"),
+    ]
+    return {"plausible": plausible, "varied": varied, "small_alpha": small_alpha, "beyond": beyond}
 
 
 def main(directory):
