@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "analysis/statistics/paired.hpp"
+#include "analysis/statistics/summary.hpp"
 
 namespace gyrostat {
 namespace {
@@ -28,14 +29,24 @@ std::vector<double> values_for(const Claim& claim, const CellResult& result, std
   return values;
 }
 
-Finding judge_one(const Claim& claim, const Cell& cell, const CellResult& result,
-                  std::size_t family) {
-  const auto values = values_for(claim, result, method_index(cell, claim.method));
-  const auto against = claim.than.empty()
+/// A cell with what came out of it.
+struct Done {
+  const Cell* cell;
+  CellResult result;
+};
+
+Finding judge_one(const Claim& claim, const Done& done, const Done& other, std::size_t family) {
+  const Cell& cell = *done.cell;
+  const auto values = values_for(claim, done.result, method_index(cell, claim.method));
+  const auto& rival = claim.than.empty() ? claim.method : claim.than;
+  const auto against = claim.than.empty() && claim.than_cell.empty()
                            ? std::vector<double>(values.size(), claim.value)
-                           : values_for(claim, result, method_index(cell, claim.than));
+                           : values_for(claim, other.result, method_index(*other.cell, rival));
   const auto d = paired_difference(values, against, family);
+  const auto own = summarise(values);
   Finding finding{.cell = cell.name,
+                  .mean = own.mean,
+                  .mean_half_width = own.half_width_95,
                   .quantity = d.mean,
                   .half_width = d.half_width,
                   .trials_needed = d.trials_needed,
@@ -57,8 +68,23 @@ std::string statement(const Claim& claim) {
   const auto metric = Metrics::ids()[claim.metric];
   const auto subject = fmt::format("{}{}{} of {}", claim.absolute ? "|" : "", metric,
                                    claim.absolute ? "|" : "", claim.method);
-  const auto object = claim.than.empty() ? fmt::format("{:g}", claim.value) : "that of " + claim.than;
+  const auto place = claim.than_cell.empty() ? "" : " in " + claim.than_cell;
+  const auto object = !claim.than.empty() ? "that of " + claim.than + place
+                      : place.empty()     ? fmt::format("{:g}", claim.value)
+                                          : "its own" + place;
   return fmt::format("{} {} {}", subject, claim.above ? "above" : "below", object);
+}
+
+/// The difference with its interval, or the least and the greatest of several.
+std::string differences_of(const std::vector<const Finding*>& findings) {
+  if (findings.empty()) return "";
+  const auto text = [](const Finding& f) {
+    return fmt::format("{:.3g} ± {:.2g}", f.quantity, f.half_width);
+  };
+  const auto [low, high] = std::minmax_element(
+      findings.begin(), findings.end(),
+      [](const Finding* a, const Finding* b) { return a->quantity < b->quantity; });
+  return *low == *high ? text(**low) : text(**low) + " … " + text(**high);
 }
 
 std::string summary_of(const std::vector<const Finding*>& findings) {
@@ -93,6 +119,7 @@ Ledger read_ledger(const std::string& path) {
     claim.study = (folder / entry.text("study", "")).lexically_normal().string();
     claim.method = entry.text("method", "");
     claim.than = entry.text("than", "");
+    claim.than_cell = entry.text("than_cell", "");
     claim.value = entry.number("value", 0.0, ranges::any, "");
     claim.metric = metric_named(entry.text("metric", ""), entry.place_of("metric"));
     claim.absolute = entry.number("absolute", 0, ranges::flag, "") != 0.0;
@@ -108,11 +135,19 @@ Ledger read_ledger(const std::string& path) {
     for (const auto& name : claim.cells)
       if (std::find(names.begin(), names.end(), name) == names.end())
         throw InputError(place, unknown_name("cell", name, names));
-    for (const auto& cell : study.cells)
-      for (const auto& id : {claim.method, claim.than})
-        if (concerns(claim, claim.study, cell) && !id.empty() &&
-            method_index(cell, id) == cell.methods.size())
-          throw InputError(place, fmt::format("cell {} has no method '{}'", cell.name, id));
+    if (!claim.than_cell.empty() &&
+        std::find(names.begin(), names.end(), claim.than_cell) == names.end())
+      throw InputError(entry.place_of("than_cell"), unknown_name("cell", claim.than_cell, names));
+    const auto require = [&](const Cell& cell, const std::string& id) {
+      if (method_index(cell, id) == cell.methods.size())
+        throw InputError(place, fmt::format("cell {} has no method '{}'", cell.name, id));
+    };
+    const auto& rival = claim.than.empty() ? claim.method : claim.than;
+    for (const auto& cell : study.cells) {
+      if (concerns(claim, claim.study, cell)) require(cell, claim.method);
+      if (claim.than_cell.empty() ? concerns(claim, claim.study, cell) : cell.name == claim.than_cell)
+        require(cell, rival);
+    }
     if (std::find(ledger.studies.begin(), ledger.studies.end(), claim.study) == ledger.studies.end())
       ledger.studies.push_back(claim.study);
     ledger.claims.push_back(claim);
@@ -130,13 +165,21 @@ std::vector<Finding> judge(const Ledger& ledger,
     std::vector<std::size_t> family(ledger.claims.size(), 0);
     for (std::size_t c = 0; c < ledger.claims.size(); ++c)
       for (const auto& cell : study.cells) family[c] += concerns(ledger.claims[c], path, cell);
-    for (const auto& cell : study.cells) {
-      const auto wanted = [&](const Claim& claim) { return concerns(claim, path, cell); };
-      if (std::none_of(ledger.claims.begin(), ledger.claims.end(), wanted)) continue;
-      const CellResult result = run(study, cell);
-      for (std::size_t c = 0; c < ledger.claims.size(); ++c) {
-        if (!wanted(ledger.claims[c])) continue;
-        findings.push_back(judge_one(ledger.claims[c], cell, result, family[c]));
+    std::vector<Done> done;
+    for (const auto& cell : study.cells)
+      if (std::any_of(ledger.claims.begin(), ledger.claims.end(), [&](const Claim& claim) {
+            return concerns(claim, path, cell) ||
+                   (claim.study == path && claim.than_cell == cell.name);
+          }))
+        done.push_back({&cell, run(study, cell)});
+    for (std::size_t c = 0; c < ledger.claims.size(); ++c) {
+      const Claim& claim = ledger.claims[c];
+      for (const auto& own : done) {
+        if (!concerns(claim, path, *own.cell)) continue;
+        const auto other = std::find_if(done.begin(), done.end(), [&](const Done& d) {
+          return d.cell->name == claim.than_cell;
+        });
+        findings.push_back(judge_one(claim, own, other == done.end() ? own : *other, family[c]));
         findings.back().claim = c;
       }
     }
@@ -148,28 +191,31 @@ std::vector<Finding> judge(const Ledger& ledger,
 
 std::vector<Table> ledger_tables(const Ledger& ledger, const std::vector<Finding>& findings) {
   Table claims{.title = ledger.title,
-               .columns = {{"claim", ""}, {"source", ""}, {"measured", ""}, {"verdict", ""}},
+               .columns = {{"claim", ""}, {"source", ""}, {"measured", ""}, {"difference", ""},
+                           {"verdict", ""}},
                .rows = {}, .notes = {}};
   Table detail{.title = ledger.title + ": findings",
-               .columns = {{"claim", ""}, {"cell", ""}, {"difference", ""},
-                           {"± 95 % simultaneous", ""}, {"trials", ""}, {"verdict", ""},
-                           {"trials to tell", ""}},
+               .columns = {{"claim", ""}, {"cell", ""}, {"mean", ""}, {"± 95 %", ""},
+                           {"difference", ""}, {"± 95 % simultaneous", ""}, {"trials", ""},
+                           {"verdict", ""}, {"trials to tell", ""}},
                .rows = {}, .notes = {}};
   for (std::size_t c = 0; c < ledger.claims.size(); ++c) {
     std::vector<const Finding*> own;
     for (const auto& f : findings) {
       if (f.claim != c) continue;
       own.push_back(&f);
-      detail.rows.push_back({ledger.claims[c].text, f.cell, cell(f.quantity), cell(f.half_width),
+      detail.rows.push_back({ledger.claims[c].text, f.cell, cell(f.mean), cell(f.mean_half_width),
+                             cell(f.quantity), cell(f.half_width),
                              static_cast<std::int64_t>(f.trials), std::string(name_of(f.verdict)),
                              f.verdict == Verdict::not_separable ? cell(f.trials_needed)
                                                                  : TableCell()});
     }
     claims.rows.push_back({ledger.claims[c].text, ledger.claims[c].source,
-                           statement(ledger.claims[c]), summary_of(own)});
+                           statement(ledger.claims[c]), differences_of(own), summary_of(own)});
   }
-  detail.notes.push_back("difference: the measured quantity minus what it is claimed to lie below or "
-                         "above, in the metric's unit; mean over trials");
+  detail.notes.push_back("mean: of the claim's metric over trials, in its unit; difference: that minus "
+                         "what it is claimed to lie below or above, paired by trial, with an interval "
+                         "simultaneous over the claim's cells (Bonferroni)");
   return {claims, detail};
 }
 

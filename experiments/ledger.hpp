@@ -17,7 +17,8 @@ struct Claim {
   std::string study;       ///< index of the study by its path
   std::vector<std::string> cells;  ///< names; empty: every cell
   std::string method;
-  std::string than;        ///< empty: compare with `value`
+  std::string than;        ///< empty: compare with `value`, or with `method` in than_cell
+  std::string than_cell;   ///< another cell of the study, whose trials are paired by their number
   double value = 0.0;
   std::size_t metric = 0;
   bool absolute = false;   ///< of the metric's absolute value
@@ -32,10 +33,12 @@ struct Ledger {
 
 enum class Verdict { holds, does_not_hold, not_separable };
 
-/// A claim in one cell: the difference (or the value) with its 95 % interval.
+/// A claim in one cell: the metric's mean, and the difference to what it is compared with.
 struct Finding {
   std::size_t claim = 0;
   std::string cell;
+  double mean = no_value;
+  double mean_half_width = no_value;
   double quantity = no_value;
   double half_width = no_value;
   double trials_needed = no_value;

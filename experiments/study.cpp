@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "analysis/metrics/list.hpp"
+#include "analysis/spectra/shrinkage.hpp"
 #include "core/filters/list.hpp"
 #include "core/track.hpp"
 #include "experiments/grid.hpp"
@@ -120,6 +121,7 @@ TuningPlan read_tuning(JsonObject object) {
   plan.metric = metric_named(object.text("metric", "bias_rmse"), object.place_of("metric"));
   plan.trials = static_cast<std::uint32_t>(object.number("trials", 20, budget_range, "trials"));
   plan.evaluations = static_cast<int>(object.number("evaluations", 60, budget_range, "evaluations"));
+  plan.undisturbed = object.number("undisturbed", 0, ranges::flag, "1") != 0.0;
   object.finish();
   return plan;
 }
@@ -165,6 +167,7 @@ Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) 
     cell.calibration = read_calibration(*calibration);
   cell.tuning = read_tuning(object.child("tuning").value_or(JsonObject(no_keys, object.place())));
   if (auto assumed = object.child("assumed")) cell.assumed = read_assumed(*assumed);
+  cell.denoise = object.number("denoise", 0, ranges::flag, "1") != 0.0;
   const auto source = parameter_source_named(object.text("parameters_from", "calibration"),
                                              object.place_of("parameters_from"));
   if (source == ParameterSource::defaults)
@@ -221,6 +224,18 @@ void Cell::make_trial(std::uint64_t seed, std::uint32_t trial, Series& series) c
   if (!recording) return synthesise(scenario, {seed, trial}, series);
   const std::size_t samples = scenario.sampling.samples();
   series = recording->slice(trial * samples, samples);
+}
+
+const Series& Cell::judged(const Series& series, Series& buffer) const {
+  if (!denoise) return series;
+  buffer = series;
+  const bool moves = !series.rate_ref_dps.empty();
+  for (std::size_t i = 0; moves && i < series.size(); ++i)
+    buffer.gyro_dps[i] -= series.rate_ref_dps[i];
+  buffer.gyro_dps = shrink_rate(buffer.gyro_dps).rate;
+  for (std::size_t i = 0; moves && i < series.size(); ++i)
+    buffer.gyro_dps[i] += series.rate_ref_dps[i];
+  return buffer;
 }
 
 bool Cell::needs_calibration() const {

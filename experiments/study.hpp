@@ -24,6 +24,7 @@ struct TuningPlan {
   std::size_t metric = 0;  ///< index into Metrics, the mean of which is made small
   std::uint32_t trials = 20;
   int evaluations = 60;
+  bool undisturbed = false;  ///< on signals without the scenario's magnetic disturbances
 };
 
 /// One scenario, or one recording in pieces, with the filters that are tried on it.
@@ -36,12 +37,15 @@ struct Cell {
   CalibrationPlan calibration;
   TuningPlan tuning;
   ParameterMap assumed;  ///< factors on what filters other than the oracle are told
+  bool denoise = false;  ///< the rate is denoised by wavelet shrinkage before its error is judged [B]
   std::vector<Method> methods;
 
   /// Whether any method starts from fitted parameters.
   bool needs_calibration() const;
   /// The signal of trial `trial` into `series`.
   void make_trial(std::uint64_t seed, std::uint32_t trial, Series& series) const;
+  /// What the methods' output is judged against: the series, with its rate denoised where asked for.
+  const Series& judged(const Series& series, Series& buffer) const;
 };
 
 struct Study {

@@ -25,9 +25,8 @@ std::uint32_t Outcome::breakdowns() const {
   return sum;
 }
 
-Outcome run_method(const Method& method, const ParameterMap& parameters, const Series& series,
-                   Track& track) {
-  Outcome outcome;
+void track_method(const Method& method, const ParameterMap& parameters, const Series& series,
+                  Track& track) {
   Filters::with(method.id, "filter", method.filter, [&](auto plugin) {
     using F = typename decltype(plugin)::type;
     typename F::Parameters p;
@@ -35,7 +34,13 @@ Outcome run_method(const Method& method, const ParameterMap& parameters, const S
     set_parameters(p, method.overrides);
     run_filter(F(p), series, track);
   });
-  const TrackErrors errors = track_errors(series, track);
+}
+
+Outcome run_method(const Method& method, const ParameterMap& parameters, const Series& series,
+                   const Series& judged, Track& track) {
+  Outcome outcome;
+  track_method(method, parameters, series, track);
+  const TrackErrors errors = track_errors(judged, track);
   std::size_t m = 0;
   Metrics::for_each([&](auto plugin) {
     outcome.metrics[m++] = typename decltype(plugin)::type{}(errors);
@@ -84,13 +89,15 @@ Record run_trial(const Cell& cell, const Calibration& shared, std::uint64_t seed
   }
   const Calibration& calibration = cell.calibration.each_trial ? own : shared;
 
+  const Series& judged = cell.judged(series, workspace.denoised);
   workspace.seconds.resize(cell.methods.size());
   workspace.steps.resize(cell.methods.size());
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
     const auto& method = cell.methods[m];
     const auto start = std::chrono::steady_clock::now();
-    record.outcomes.push_back(run_method(
-        method, told_parameters(cell, method, calibration, series), series, workspace.track));
+    record.outcomes.push_back(run_method(method,
+                                         told_parameters(cell, method, calibration, series), series,
+                                         judged, workspace.track));
     workspace.seconds[m] +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     workspace.steps[m] += static_cast<double>(series.size());

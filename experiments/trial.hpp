@@ -32,15 +32,20 @@ struct Record {
 /// Buffers that a thread reuses from trial to trial, and the time that each method took there.
 struct Workspace {
   Series series;
+  Series denoised;
   Series calibration_series;
   Track track;
   std::vector<double> seconds;  ///< one a method
   std::vector<double> steps;
 };
 
-/// Runs the method on a simulated series.
+/// Runs the method over the series into `track`.
+void track_method(const Method& method, const ParameterMap& parameters, const Series& series,
+                  Track& track);
+
+/// The same, and what its metrics against `judged` are: the series itself, or the series denoised.
 Outcome run_method(const Method& method, const ParameterMap& parameters, const Series& series,
-                   Track& track);
+                   const Series& judged, Track& track);
 
 /// Noise of signals that the trials of a study never see: for calibration and tuning.
 Noise calibration_noise(std::uint64_t seed, std::uint32_t trial);

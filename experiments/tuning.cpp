@@ -10,23 +10,32 @@
 namespace gyrostat {
 namespace {
 
+struct Signal {
+  Series series, denoised;
+};
+
 /// Signals under the calibration's seed, beyond the trials that calibrations use.
-std::vector<Series> tuning_signals(const Cell& cell, std::uint64_t seed) {
-  std::vector<Series> signals(cell.tuning.trials);
+std::vector<Signal> tuning_signals(const Cell& cell, std::uint64_t seed) {
+  std::vector<Signal> signals(cell.tuning.trials);
+  Scenario scenario = cell.scenario;
+  if (cell.tuning.undisturbed) scenario.compass.disturbances.clear();
   tbb::parallel_for(std::size_t{0}, signals.size(), [&](std::size_t i) {
-    synthesise(cell.scenario, calibration_noise(seed, cell.trials + static_cast<std::uint32_t>(i)),
-               signals[i]);
+    synthesise(scenario, calibration_noise(seed, cell.trials + static_cast<std::uint32_t>(i)),
+               signals[i].series);
+    (void)cell.judged(signals[i].series, signals[i].denoised);
   });
   return signals;
 }
 
 double mean_metric(const Cell& cell, const Method& method, const Calibration& calibration,
-                   const std::vector<Series>& signals) {
+                   const std::vector<Signal>& signals) {
   std::vector<double> values(signals.size());
   tbb::parallel_for(std::size_t{0}, signals.size(), [&](std::size_t i) {
     thread_local Track track;
-    const auto parameters = told_parameters(cell, method, calibration, signals[i]);
-    values[i] = run_method(method, parameters, signals[i], track).metrics[cell.tuning.metric];
+    const auto& [series, denoised] = signals[i];
+    const auto parameters = told_parameters(cell, method, calibration, series);
+    values[i] = run_method(method, parameters, series, cell.denoise ? denoised : series, track)
+                    .metrics[cell.tuning.metric];
   });
   double sum = 0.0;
   for (const double value : values) sum += value;

@@ -22,7 +22,8 @@ int run(const RunArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   Study study = read_study(arguments.study);
   if (arguments.trials > 0)
-    for (auto& cell : study.cells) cell.trials = arguments.trials;
+    for (auto& cell : study.cells)
+      cell.trials = cell.recording ? std::min(cell.trials, arguments.trials) : arguments.trials;
 
   const std::filesystem::path folder =
       arguments.out.empty() ? std::filesystem::path("runs") /

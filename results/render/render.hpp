@@ -18,6 +18,10 @@ std::vector<std::string> format_names();
 /// Tables as text. Readers get four significant digits, programs (csv, json) all seventeen.
 std::string render(std::span<const Table> tables, Format format);
 
+/// The tables that `render` made JSON of; InputError at `place` for anything else. An infinite
+/// number comes back as the text "inf".
+std::vector<Table> parse_tables(const std::string& json, const std::string& place);
+
 namespace render_detail {
 std::string text(const Table& table);
 std::string markdown(const Table& table);

@@ -1,0 +1,195 @@
+#include "results/render/figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace gyrostat {
+namespace {
+
+/// Okabe and Ito's colours, told apart by every eye.
+constexpr std::array colours = {"#888888", "#D55E00", "#0072B2", "#009E73",
+                                "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
+constexpr double width = 760.0, margin_left = 70.0, margin_right = 130.0, margin_top = 40.0;
+constexpr double margin_bottom = 48.0;
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') out += "&amp;";
+    else if (c == '<') out += "&lt;";
+    else if (c == '>') out += "&gt;";
+    else out += c;
+  }
+  return out;
+}
+
+std::string text_at(double x, double y, const std::string& text, const char* anchor = "start",
+                    const char* more = "") {
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor,
+                     more, escaped(text));
+}
+
+std::string head(double height, const std::string& title) {
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+             "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" font-size=\"12\">\n"
+             "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
+             width, height) +
+         text_at(margin_left, 22.0, title, "start", " font-size=\"14\"");
+}
+
+/// One axis: numbers to pixels.
+struct Axis {
+  double from = std::numeric_limits<double>::infinity();
+  double to = -std::numeric_limits<double>::infinity();
+  bool logarithmic = false;
+  double start = 0.0, length = 1.0;  ///< pixels
+
+  double scaled(double v) const { return logarithmic ? std::log10(v) : v; }
+  bool shows(double v) const { return std::isfinite(v) && (!logarithmic || v > 0.0); }
+  void include(double v) {
+    if (!shows(v)) return;
+    from = std::min(from, scaled(v));
+    to = std::max(to, scaled(v));
+  }
+  void widen() {
+    if (!(from <= to)) from = 0.0, to = 1.0;
+    const double rim = from == to ? 0.5 : 0.03 * (to - from);
+    from -= rim;
+    to += rim;
+  }
+  double at(double v) const { return start + length * (scaled(v) - from) / (to - from); }
+
+  std::vector<double> ticks() const {
+    std::vector<double> all;
+    if (logarithmic) {
+      for (double e = std::ceil(from); e <= to; e += 1.0) all.push_back(std::pow(10.0, e));
+      return all;
+    }
+    const double raw = (to - from) / 5.0, decade = std::pow(10.0, std::floor(std::log10(raw)));
+    const double part = raw / decade;
+    const double step = decade * (part < 1.5 ? 1.0 : part < 3.5 ? 2.0 : part < 7.5 ? 5.0 : 10.0);
+    for (double k = std::ceil(from / step); k * step <= to; k += 1.0) all.push_back(k * step + 0.0);
+    return all;
+  }
+};
+
+std::string grid(const Axis& x, const Axis& y, const LineChart& chart, bool with_x) {
+  std::string out;
+  const double bottom = y.start, top = y.start + y.length, right = x.start + x.length;
+  const char* line = "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#dddddd\"/>\n";
+  for (const double v : x.ticks()) {
+    out += fmt::format(fmt::runtime(line), x.at(v), bottom, x.at(v), top);
+    if (with_x) out += text_at(x.at(v), bottom + 16.0, fmt::format("{:g}", v), "middle");
+  }
+  for (const double v : y.ticks()) {
+    out += fmt::format(fmt::runtime(line), x.start, y.at(v), right, y.at(v));
+    out += text_at(x.start - 6.0, y.at(v) + 4.0, fmt::format("{:g}", v), "end");
+  }
+  out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "
+                     "stroke=\"#555555\"/>\n", x.start, top, x.length, -y.length);
+  if (with_x) out += text_at(x.start + 0.5 * x.length, bottom + 36.0, chart.x_label, "middle");
+  return out;
+}
+
+std::string points(const Axis& x, const Axis& y, const std::vector<double>& xs,
+                   const std::vector<double>& ys, bool backwards = false) {
+  std::string out;
+  for (std::size_t k = 0; k < xs.size(); ++k) {
+    const std::size_t i = backwards ? xs.size() - 1 - k : k;
+    if (!x.shows(xs[i]) || !y.shows(ys[i])) continue;
+    out += fmt::format("{}{:.1f},{:.1f}", out.empty() ? "" : " ", x.at(xs[i]), y.at(ys[i]));
+  }
+  return out;
+}
+
+std::string drawn(const LineChart::Line& line, const char* colour, const Axis& x, const Axis& y) {
+  std::string out;
+  if (!line.low.empty())
+    out += fmt::format("<polygon points=\"{} {}\" fill=\"{}\" fill-opacity=\"0.2\"/>\n",
+                       points(x, y, line.x, line.low), points(x, y, line.x, line.high, true), colour);
+  return out + fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.4\"/>\n",
+                           points(x, y, line.x, line.y), colour);
+}
+
+/// White for a ratio of 1, yellow to red for larger, on a logarithmic scale that ends at 10.
+std::string shade(double ratio) {
+  if (!std::isfinite(ratio)) return "#ffffff";
+  const double t = std::clamp(std::log10(std::max(ratio, 1.0)), 0.0, 1.0);
+  const auto mix = [t](double a, double b, double c) {
+    const double v = t < 0.5 ? a + 2.0 * t * (b - a) : b + (2.0 * t - 1.0) * (c - b);
+    return static_cast<int>(std::lround(v));
+  };
+  return fmt::format("#{:02x}{:02x}{:02x}", mix(255, 253, 215), mix(255, 174, 48), mix(255, 97, 39));
+}
+
+}  // namespace
+
+std::string svg(const LineChart& chart) {
+  const std::size_t panels = chart.panels ? std::max<std::size_t>(chart.lines.size(), 1) : 1;
+  const double panel = chart.panels ? 110.0 : 360.0, gap = 8.0;
+  const double height = margin_top + panels * panel + (panels - 1) * gap + margin_bottom;
+  Axis x{.logarithmic = chart.logarithmic, .start = margin_left,
+         .length = width - margin_left - margin_right};
+  Axis y{.logarithmic = chart.logarithmic};
+  for (const auto& line : chart.lines) {
+    for (const double v : line.x) x.include(v);
+    for (const auto* values : {&line.y, &line.low, &line.high})
+      for (const double v : *values) y.include(v);
+  }
+  x.widen();
+  y.widen();
+  std::string out = head(height, chart.title);
+  for (std::size_t p = 0; p < panels; ++p) {
+    y.start = margin_top + (p + 1) * panel + p * gap;
+    y.length = -panel;
+    out += grid(x, y, chart, p + 1 == panels);
+    for (std::size_t l = 0; l < chart.lines.size(); ++l) {
+      if (chart.panels && l != p) continue;
+      const char* colour = colours[l % colours.size()];
+      out += drawn(chart.lines[l], colour, x, y);
+      const double row = chart.panels ? margin_top + p * (panel + gap) + 16.0 : margin_top + 16.0 + 18.0 * l;
+      out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"12\" height=\"4\" fill=\"{}\"/>\n",
+                         width - margin_right + 10.0, row - 6.0, colour);
+      out += text_at(width - margin_right + 28.0, row, chart.lines[l].name);
+    }
+  }
+  out += fmt::format("<text transform=\"translate(14,{:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+                     margin_top + 0.5 * (height - margin_top - margin_bottom), escaped(chart.y_label));
+  return out + "</svg>\n";
+}
+
+std::string svg(const HeatMap& map) {
+  const double left = 250.0, row_height = 18.0;
+  const double column = (width - left - 10.0) / static_cast<double>(std::max<std::size_t>(map.columns.size(), 1));
+  const double height = margin_top + 22.0 + row_height * map.rows.size() + 30.0;
+  std::string out = head(height, map.title);
+  for (std::size_t c = 0; c < map.columns.size(); ++c)
+    out += text_at(left + (c + 0.5) * column, margin_top + 14.0, map.columns[c], "middle", " font-size=\"11\"");
+  for (std::size_t r = 0; r < map.rows.size(); ++r) {
+    const double y = margin_top + 22.0 + r * row_height;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < map.columns.size(); ++c)
+      if (map.ranked[c] && map.values[r][c] < least) least = map.values[r][c];
+    out += text_at(left - 8.0, y + 13.0, map.rows[r], "end", " font-size=\"11\"");
+    for (std::size_t c = 0; c < map.columns.size(); ++c) {
+      const double v = map.values[r][c];
+      out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" "
+                         "stroke=\"white\"/>\n", left + c * column, y, column, row_height,
+                         map.ranked[c] ? shade(v / least) : "#eeeeee");
+      out += text_at(left + (c + 0.5) * column, y + 13.0,
+                     std::isfinite(v) ? fmt::format("{:.3g}", v) : "–", "middle",
+                     map.ranked[c] && v == least ? " font-size=\"10\" font-weight=\"bold\"" : " font-size=\"10\"");
+    }
+  }
+  out += text_at(left, height - 10.0,
+                 "bold: lowest of its row; colour: ratio to it, 1 (white) to 10 and above (red)", "start",
+                 " font-size=\"11\"");
+  return out + "</svg>\n";
+}
+
+}  // namespace gyrostat
