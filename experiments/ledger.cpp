@@ -29,19 +29,30 @@ std::vector<double> values_for(const Claim& claim, const CellResult& result, std
   return values;
 }
 
+/// The cell with those of its methods that a claim of the study names: the others change nothing.
+Cell with_named_methods(const Ledger& ledger, const std::string& study, const Cell& cell) {
+  Cell wanted = cell;
+  std::erase_if(wanted.methods, [&](const Method& method) {
+    return std::none_of(ledger.claims.begin(), ledger.claims.end(), [&](const Claim& claim) {
+      return claim.study == study && (claim.method == method.id || claim.than == method.id);
+    });
+  });
+  return wanted;
+}
+
 /// A cell with what came out of it.
 struct Done {
-  const Cell* cell;
+  Cell cell;
   CellResult result;
 };
 
 Finding judge_one(const Claim& claim, const Done& done, const Done& other, std::size_t family) {
-  const Cell& cell = *done.cell;
+  const Cell& cell = done.cell;
   const auto values = values_for(claim, done.result, method_index(cell, claim.method));
   const auto& rival = claim.than.empty() ? claim.method : claim.than;
   const auto against = claim.than.empty() && claim.than_cell.empty()
                            ? std::vector<double>(values.size(), claim.value)
-                           : values_for(claim, other.result, method_index(*other.cell, rival));
+                           : values_for(claim, other.result, method_index(other.cell, rival));
   const auto d = paired_difference(values, against, family);
   const auto own = summarise(values);
   Finding finding{.cell = cell.name,
@@ -166,18 +177,21 @@ std::vector<Finding> judge(const Ledger& ledger,
     for (std::size_t c = 0; c < ledger.claims.size(); ++c)
       for (const auto& cell : study.cells) family[c] += concerns(ledger.claims[c], path, cell);
     std::vector<Done> done;
-    for (const auto& cell : study.cells)
-      if (std::any_of(ledger.claims.begin(), ledger.claims.end(), [&](const Claim& claim) {
-            return concerns(claim, path, cell) ||
-                   (claim.study == path && claim.than_cell == cell.name);
-          }))
-        done.push_back({&cell, run(study, cell)});
+    for (const auto& cell : study.cells) {
+      const auto wanted = [&](const Claim& claim) {
+        return concerns(claim, path, cell) || (claim.study == path && claim.than_cell == cell.name);
+      };
+      if (std::none_of(ledger.claims.begin(), ledger.claims.end(), wanted)) continue;
+      auto reduced = with_named_methods(ledger, path, cell);
+      auto result = run(study, reduced);
+      done.push_back({std::move(reduced), std::move(result)});
+    }
     for (std::size_t c = 0; c < ledger.claims.size(); ++c) {
       const Claim& claim = ledger.claims[c];
       for (const auto& own : done) {
-        if (!concerns(claim, path, *own.cell)) continue;
+        if (!concerns(claim, path, own.cell)) continue;
         const auto other = std::find_if(done.begin(), done.end(), [&](const Done& d) {
-          return d.cell->name == claim.than_cell;
+          return d.cell.name == claim.than_cell;
         });
         findings.push_back(judge_one(claim, own, other == done.end() ? own : *other, family[c]));
         findings.back().claim = c;

@@ -164,14 +164,15 @@ std::string svg(const LineChart& chart) {
 }
 
 std::string svg(const HeatMap& map) {
-  const double left = 250.0, row_height = 18.0;
-  const double column = (width - left - 10.0) / static_cast<double>(std::max<std::size_t>(map.columns.size(), 1));
-  const double height = margin_top + 22.0 + row_height * map.rows.size() + 30.0;
+  const double left = 250.0, row_height = 18.0, heads = 70.0;
+  const double column = (width - left - 40.0) / static_cast<double>(std::max<std::size_t>(map.columns.size(), 1));
+  const double height = margin_top + heads + row_height * map.rows.size() + 30.0;
   std::string out = head(height, map.title);
   for (std::size_t c = 0; c < map.columns.size(); ++c)
-    out += text_at(left + (c + 0.5) * column, margin_top + 14.0, map.columns[c], "middle", " font-size=\"11\"");
+    out += fmt::format("<text transform=\"translate({:.1f},{:.1f}) rotate(-40)\" font-size=\"11\">{}</text>\n",
+                       left + (c + 0.5) * column, margin_top + heads - 6.0, escaped(map.columns[c]));
   for (std::size_t r = 0; r < map.rows.size(); ++r) {
-    const double y = margin_top + 22.0 + r * row_height;
+    const double y = margin_top + heads + r * row_height;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < map.columns.size(); ++c)
       if (map.ranked[c] && map.values[r][c] < least) least = map.values[r][c];

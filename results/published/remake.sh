@@ -1,0 +1,10 @@
+#!/bin/sh
+# Remakes every published page to the same bytes; needs a release build, and ../shared/recordings for
+# the pages on the real MTi-G. About twenty minutes of two cores.
+set -eu
+cd "$(dirname "$0")/../.."
+for page in results/published/*/page.json; do
+  page=$(dirname "$page")
+  [ "$page" = results/published/index ] || build/release/gyrostat publish "$page" "$@"
+done
+build/release/gyrostat publish results/published/index
