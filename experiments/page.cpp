@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 
 #include "results/render/render.hpp"
 
@@ -162,16 +161,19 @@ std::vector<NamedTable> page_tables(const Page& page, const RunCell& run, const 
 }
 
 std::string page_text(const Page& page, const std::vector<NamedTable>& tables) {
-  static const std::regex mark(R"(\{\{([^{}]*)\}\})");
   Filler fill(page, tables);
+  const std::string& text = page.text;
   std::string out;
-  auto rest = page.text.cbegin();
-  for (std::sregex_iterator at(page.text.begin(), page.text.end(), mark), end; at != end; ++at) {
-    out.append(rest, (*at)[0].first);
-    out += fill((*at)[1].str());
-    rest = (*at)[0].second;
+  std::size_t done = 0;
+  for (std::size_t open; (open = text.find("{{", done)) != std::string::npos;) {
+    const auto close = text.find("}}", open);
+    if (close == std::string::npos)
+      throw InputError((fs::path(page.folder) / "page.md").string(), "a {{ is never closed");
+    out.append(text, done, open - done);
+    out += fill(text.substr(open + 2, close - open - 2));
+    done = close + 2;
   }
-  return out.append(rest, page.text.cend());
+  return out.append(text, done);
 }
 
 std::vector<std::pair<std::string, std::string>> page_files(const std::vector<NamedTable>& tables) {

@@ -130,7 +130,8 @@ std::string shade(double ratio) {
 }  // namespace
 
 std::string svg(const LineChart& chart) {
-  const std::size_t panels = chart.panels ? std::max<std::size_t>(chart.lines.size(), 1) : 1;
+  const int lines = static_cast<int>(chart.lines.size());
+  const int panels = chart.panels ? std::max(lines, 1) : 1;
   const double panel = chart.panels ? 110.0 : 360.0, gap = 8.0;
   const double height = margin_top + panels * panel + (panels - 1) * gap + margin_bottom;
   Axis x{.logarithmic = chart.logarithmic, .start = margin_left,
@@ -144,18 +145,19 @@ std::string svg(const LineChart& chart) {
   x.widen();
   y.widen();
   std::string out = head(height, chart.title);
-  for (std::size_t p = 0; p < panels; ++p) {
+  for (int p = 0; p < panels; ++p) {
     y.start = margin_top + (p + 1) * panel + p * gap;
     y.length = -panel;
     out += grid(x, y, chart, p + 1 == panels);
-    for (std::size_t l = 0; l < chart.lines.size(); ++l) {
+    for (int l = 0; l < lines; ++l) {
       if (chart.panels && l != p) continue;
-      const char* colour = colours[l % colours.size()];
-      out += drawn(chart.lines[l], colour, x, y);
+      const auto& line = chart.lines[static_cast<std::size_t>(l)];
+      const char* colour = colours[static_cast<std::size_t>(l) % colours.size()];
+      out += drawn(line, colour, x, y);
       const double row = chart.panels ? margin_top + p * (panel + gap) + 16.0 : margin_top + 16.0 + 18.0 * l;
       out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"12\" height=\"4\" fill=\"{}\"/>\n",
                          width - margin_right + 10.0, row - 6.0, colour);
-      out += text_at(width - margin_right + 28.0, row, chart.lines[l].name);
+      out += text_at(width - margin_right + 28.0, row, line.name);
     }
   }
   out += fmt::format("<text transform=\"translate(14,{:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
@@ -166,13 +168,16 @@ std::string svg(const LineChart& chart) {
 std::string svg(const HeatMap& map) {
   const double left = 250.0, row_height = 18.0, heads = 70.0;
   const double column = (width - left - 40.0) / static_cast<double>(std::max<std::size_t>(map.columns.size(), 1));
-  const double height = margin_top + heads + row_height * map.rows.size() + 30.0;
+  const double height = margin_top + heads + row_height * static_cast<double>(map.rows.size()) + 30.0;
   std::string out = head(height, map.title);
+  const auto across = [&](std::size_t c, double part) {
+    return left + (static_cast<double>(c) + part) * column;
+  };
   for (std::size_t c = 0; c < map.columns.size(); ++c)
     out += fmt::format("<text transform=\"translate({:.1f},{:.1f}) rotate(-40)\" font-size=\"11\">{}</text>\n",
-                       left + (c + 0.5) * column, margin_top + heads - 6.0, escaped(map.columns[c]));
+                       across(c, 0.5), margin_top + heads - 6.0, escaped(map.columns[c]));
   for (std::size_t r = 0; r < map.rows.size(); ++r) {
-    const double y = margin_top + heads + r * row_height;
+    const double y = margin_top + heads + static_cast<double>(r) * row_height;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < map.columns.size(); ++c)
       if (map.ranked[c] && map.values[r][c] < least) least = map.values[r][c];
@@ -180,9 +185,9 @@ std::string svg(const HeatMap& map) {
     for (std::size_t c = 0; c < map.columns.size(); ++c) {
       const double v = map.values[r][c];
       out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" "
-                         "stroke=\"white\"/>\n", left + c * column, y, column, row_height,
+                         "stroke=\"white\"/>\n", across(c, 0.0), y, column, row_height,
                          map.ranked[c] ? shade(v / least) : "#eeeeee");
-      out += text_at(left + (c + 0.5) * column, y + 13.0,
+      out += text_at(across(c, 0.5), y + 13.0,
                      std::isfinite(v) ? fmt::format("{:.3g}", v) : "–", "middle",
                      map.ranked[c] && v == least ? " font-size=\"10\" font-weight=\"bold\"" : " font-size=\"10\"");
     }

@@ -248,7 +248,7 @@ TEST_F(Publish, NamesEveryMistakeInOneLine) {
   folder.write("page/page.json", page_of(R"({"name": "errors", "kind": "means"})"));
   for (const char* mark : {"{{errors | quiet / oracl | bias_rmse}}", "{{errors | quiet / kf | bias}}",
                            "{{errors | quiet}}", "{{error | quiet / kf | bias_rmse}}",
-                           "{{nowhere: errors | quiet / kf | bias_rmse}}"}) {
+                           "{{nowhere: errors | quiet / kf | bias_rmse}}", "{{table errors"}) {
     folder.write("page/page.md", mark);
     const auto ended = publish();
     EXPECT_EQ(ended.exit_code, 2) << mark << ended.err;
