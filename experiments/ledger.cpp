@@ -63,6 +63,7 @@ Finding judge_one(const Claim& claim, const Done& done, const Done& other, std::
                   .trials_needed = d.trials_needed,
                   .trials = d.count};
   const double towards = claim.above ? d.mean : -d.mean;
+  if (d.mean == 0.0 && d.half_width == 0.0) finding.verdict = Verdict::equal;
   if (d.separable) finding.verdict = towards > 0.0 ? Verdict::holds : Verdict::does_not_hold;
   return finding;
 }
@@ -71,6 +72,7 @@ const char* name_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::holds: return "holds";
     case Verdict::does_not_hold: return "does not hold";
+    case Verdict::equal: return "equal";
     default: return "not separable";
   }
 }
@@ -99,18 +101,19 @@ std::string differences_of(const std::vector<const Finding*>& findings) {
 }
 
 std::string summary_of(const std::vector<const Finding*>& findings) {
-  std::vector<std::string> where;
-  std::size_t fails = 0;
-  for (const auto* f : findings) {
-    if (f->verdict == Verdict::holds) where.push_back(f->cell);
-    fails += f->verdict == Verdict::does_not_hold;
-  }
   if (findings.empty()) return "not run";
-  if (where.size() == findings.size()) return "holds";
-  if (where.empty())
-    return fails == findings.size() ? "does not hold"
-           : fails == 0             ? "not separable"
-                                    : "does not hold, or not separable";
+  std::vector<std::string> where, elsewhere;
+  for (const auto* f : findings) (f->verdict == Verdict::holds ? where : elsewhere).push_back(f->cell);
+  const auto all = [&](Verdict verdict) {
+    return std::all_of(findings.begin(), findings.end(),
+                       [&](const Finding* f) { return f->verdict == verdict; });
+  };
+  for (const auto verdict : {Verdict::holds, Verdict::does_not_hold, Verdict::not_separable, Verdict::equal})
+    if (all(verdict)) return name_of(verdict);
+  if (where.empty()) return "does not hold, or not separable";
+  if (elsewhere.size() < where.size())
+    return fmt::format("holds in {} of {}, not in {}", where.size(), findings.size(),
+                       fmt::join(elsewhere, ", "));
   return fmt::format("holds only in {}", fmt::join(where, ", "));
 }
 

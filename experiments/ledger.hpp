@@ -31,7 +31,7 @@ struct Ledger {
   std::vector<Claim> claims;
 };
 
-enum class Verdict { holds, does_not_hold, not_separable };
+enum class Verdict { holds, does_not_hold, not_separable, equal };  ///< equal: in every trial
 
 /// A claim in one cell: the metric's mean, and the difference to what it is compared with.
 struct Finding {

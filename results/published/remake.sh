@@ -1,6 +1,6 @@
 #!/bin/sh
 # Remakes every published page to the same bytes; needs a release build, and ../shared/recordings for
-# the pages on the real MTi-G. About twenty minutes of two cores.
+# the pages on the real MTi-G. About fifteen minutes of processor time.
 set -eu
 cd "$(dirname "$0")/../.."
 for page in results/published/*/page.json; do

@@ -10,6 +10,7 @@
 
 #include "core/filters/kf.hpp"
 #include "core/filters/sr_ukf.hpp"
+#include "tests/core/arima_signal.hpp"
 
 namespace gyrostat {
 namespace {
@@ -45,11 +46,6 @@ std::vector<double> signal(std::size_t samples, double phi, double delta1,
     z[k] = x + 0.01 * v.normal(k);
   }
   return z;
-}
-
-template <class F>
-Step<double> step(F& filter, double z) {
-  return filter.step({.gyro_dps = z});
 }
 
 TEST(SystematicResampling, GivesEveryIndexItsShareOfPlacesToWithinOne) {

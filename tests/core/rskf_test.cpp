@@ -12,6 +12,7 @@
 #include "core/filters/kf.hpp"
 #include "core/filters/sr_rsukf.hpp"
 #include "core/random.hpp"
+#include "tests/core/arima_signal.hpp"
 
 namespace gyrostat {
 namespace {
@@ -35,20 +36,7 @@ Parameters parameters(double mu_x, double mu_x_previous) {
 }
 
 std::vector<double> signal(std::size_t samples) {
-  const NormalStream a(5, 0, "a"), v(5, 0, "v");
-  std::vector<double> z(samples);
-  double x = 0.0, difference = 0.0;
-  for (std::size_t k = 0; k < samples; ++k) {
-    difference = 0.4 * difference + 0.02 * a.normal(k + 1) - 0.01 * a.normal(k);
-    x += difference;
-    z[k] = x + 0.02 * v.normal(k);
-  }
-  return z;
-}
-
-template <class F>
-Step<double> step(F& filter, double z) {
-  return filter.step({.gyro_dps = z});
+  return arima_signal({0.4, 0.02, 0.01, 0.02}, samples, 5);
 }
 
 TEST(InflateCovariance, IsTheInverseOfTheInformationLessTwiceTheRisk) {

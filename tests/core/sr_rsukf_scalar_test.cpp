@@ -10,6 +10,7 @@
 #include "core/filters/sr_rsukf.hpp"
 #include "core/filters/sr_ukf.hpp"
 #include "core/random.hpp"
+#include "tests/core/arima_signal.hpp"
 
 namespace gyrostat {
 namespace {
@@ -62,20 +63,7 @@ SrRsukf<double> matrix(const NlParameters<double>& p, const Vector<double, 7>& m
 }
 
 std::vector<double> signal(std::size_t samples) {
-  const NormalStream a(3, 0, "a"), v(3, 0, "v");
-  std::vector<double> z(samples);
-  double x = 0.0, difference = 0.0;
-  for (std::size_t k = 0; k < samples; ++k) {
-    difference = 0.6 * difference + 0.02 * a.normal(k + 1) - 0.01 * a.normal(k);
-    x += difference;
-    z[k] = x + 0.02 * v.normal(k);
-  }
-  return z;
-}
-
-template <class F>
-Step<double> step(F& filter, double z) {
-  return filter.step({.gyro_dps = z});
+  return arima_signal({0.6, 0.02, 0.01, 0.02}, samples, 3);
 }
 
 template <class A, class B>

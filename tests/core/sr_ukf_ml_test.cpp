@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/filters/sr_ukf.hpp"
-#include "core/random.hpp"
+#include "tests/core/arima_signal.hpp"
 
 namespace gyrostat {
 namespace {
@@ -18,16 +18,9 @@ using Parameters = filters::SrUkfMlParameters<double>;
 constexpr Arima111<double> truth{0.8, 0.02, 0.004, 0.03};
 
 std::vector<double> signal(std::size_t samples, std::uint32_t trial, double delta2 = truth.delta2_dps) {
-  const NormalStream a(9, trial, "a"), v(9, trial, "v");
-  std::vector<double> z(samples);
-  double x = 0.0, difference = 0.0;
-  for (std::size_t k = 0; k < samples; ++k) {
-    difference = truth.phi * difference + truth.delta1_dps * a.normal(k) -
-                 (k > 0 ? delta2 * a.normal(k - 1) : 0.0);
-    x += difference;
-    z[k] = x + truth.measurement_noise_std_dps * v.normal(k);
-  }
-  return z;
+  auto model = truth;
+  model.delta2_dps = delta2;
+  return arima_signal(model, samples, 9, trial);
 }
 
 Parameters told(double factor, double doubt) {

@@ -9,6 +9,7 @@
 
 #include "core/filters/sr_ukf.hpp"
 #include "core/random.hpp"
+#include "tests/core/arima_signal.hpp"
 
 namespace gyrostat {
 namespace {
@@ -42,11 +43,6 @@ std::vector<double> changing(std::size_t samples, std::uint32_t trial) {
     z[k] = x + 0.005 * v.normal(k);
   }
   return z;
-}
-
-template <class F>
-Step<double> step(F& filter, double z) {
-  return filter.step({.gyro_dps = z});
 }
 
 double variance(const NlUnscented<double>& state, int i) {

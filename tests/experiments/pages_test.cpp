@@ -43,7 +43,7 @@ TEST(Ledger, DecidesWhatIsKnown) {
   EXPECT_EQ(verdict(R"("method": "oracle", "than": "none", "metric": "bias_rmse")"), "holds");
   EXPECT_EQ(verdict(R"("method": "none", "than": "oracle", "metric": "bias_rmse")"), "does not hold");
   EXPECT_EQ(verdict(R"("method": "none", "than": "oracle", "metric": "bias_rmse", "above": 1)"), "holds");
-  EXPECT_EQ(verdict(R"("method": "kf", "than": "again", "metric": "bias_rmse")"), "not separable");
+  EXPECT_EQ(verdict(R"("method": "kf", "than": "again", "metric": "bias_rmse")"), "equal");
   EXPECT_EQ(verdict(R"("method": "none", "metric": "rate_std", "value": 1)"), "holds");
   EXPECT_EQ(verdict(R"("method": "oracle", "metric": "rate_std", "value": 0.05)"), "holds only in quiet");
 }
@@ -52,7 +52,7 @@ TEST(Ledger, ComparesCellsByTheirTrials) {
   EXPECT_EQ(verdict(R"("method": "kf", "metric": "bias_rmse", "cells": ["quiet"], "than_cell": "loud")"),
             "holds");
   EXPECT_EQ(verdict(R"("method": "none", "metric": "bias_rmse", "cells": ["quiet"], "than_cell": "loud")"),
-            "not separable");  // the random error is the same, draw by draw
+            "equal");  // the random error is the same, draw by draw
 }
 
 void expect_one_line(const Ended& ended, const std::string& naming) {
@@ -274,7 +274,7 @@ TEST(Denoising, MakesTheJudgedRateQuieterAndLeavesTheEstimateAlone) {
   const auto out = run_program(folder, {"ledger", "ledger.json", "--format", "csv"}).out;
   EXPECT_THAT(out, HasSubstr("below 0.03,"));
   EXPECT_THAT(out.substr(0, out.find("findings")), Not(HasSubstr("does not hold")));
-  EXPECT_THAT(out, HasSubstr("its own in raw,0 ± 0,not separable"));
+  EXPECT_THAT(out, HasSubstr("its own in raw,0 ± 0,equal"));
 }
 
 }  // namespace
