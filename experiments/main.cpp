@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
   cli::add_allan(program, console, exit_code);
   cli::add_match(program, console, exit_code);
   cli::add_ledger(program, console, exit_code);
+  cli::add_diagnose(program, console, exit_code);
   cli::add_list(program, console, exit_code);
   cli::add_validate(program, console, exit_code);
 

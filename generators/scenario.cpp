@@ -14,7 +14,8 @@ void apply_stage(Stage stage, const Scenario& scenario, const Noise& noise, Seri
                any);
 }
 
-void linear_drift(const ThermalDrift<double>& drift, Series& series) {
+/// T' is the change over `lag` samples.
+void linear_drift(const ThermalDrift<double>& drift, std::size_t lag, Series& series) {
   const auto& T = series.temperature_C;
   if (T.empty()) {
     series.thermal_bias_dps.assign(series.size(), drift.c_dps);
@@ -22,18 +23,19 @@ void linear_drift(const ThermalDrift<double>& drift, Series& series) {
   }
   series.thermal_bias_dps.resize(series.size());
   for (std::size_t i = 0; i < series.size(); ++i) {
-    const std::size_t from = i == 0 ? 0 : i - 1;
     const std::size_t to = i == 0 ? std::min<std::size_t>(1, series.size() - 1) : i;
+    const std::size_t from = to > lag ? to - lag : 0;
     const double slope = from == to ? 0.0 : (T[to] - T[from]) / (series.t_s[to] - series.t_s[from]);
     series.thermal_bias_dps[i] =
         drift.a_dps_per_C * T[i] + drift.b_dps_s_per_C * slope + drift.c_dps;
   }
 }
 
-/// From the environment to the recording: all that the sensor and the compass add.
-void add_errors(const Scenario& scenario, const Noise& noise, Series& series) {
+/// From the environment to the recorded rate.
+void sense(const Scenario& scenario, const Noise& noise, std::size_t slope_lag,
+                Series& series) {
   const std::size_t samples = series.size();
-  linear_drift(scenario.thermal_drift, series);
+  linear_drift(scenario.thermal_drift, slope_lag, series);
   apply_stage(Stage::sensing, scenario, noise, series);
 
   series.random_error_dps.assign(samples, 0.0);
@@ -48,9 +50,19 @@ void add_errors(const Scenario& scenario, const Noise& noise, Series& series) {
   apply_stage(Stage::electronics, scenario, noise, series);
   apply_stage(Stage::conversion, scenario, noise, series);
   apply_stage(Stage::transport, scenario, noise, series);
+}
 
+/// From the true rate to the recorded heading.
+void observe(const Scenario& scenario, const Noise& noise, Series& series) {
   scenario.compass.observe(series, noise);
   apply_stage(Stage::compass, scenario, noise, series);
+}
+
+void take_conditions(const Series& conditions, Series& series) {
+  series.clear();
+  series.t_s = conditions.t_s;
+  series.rate_ref_dps = conditions.rate_ref_dps;
+  series.rate_ref_dps.resize(series.size(), 0.0);
 }
 
 }  // namespace
@@ -75,20 +87,34 @@ void synthesise(const Scenario& scenario, const Noise& noise, Series& series) {
   over_time(scenario.motion, series.rate_ref_dps);
   apply_stage(Stage::environment, scenario, noise, series);
 
-  add_errors(scenario, noise, series);
+  sense(scenario, noise, 1, series);
+  observe(scenario, noise, series);
+}
+
+void synthesise_rate_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
+                           Series& series) {
+  take_conditions(conditions, series);
+  series.temperature_C = conditions.temperature_C;
+  series.acc_x_mps2 = conditions.acc_x_mps2;
+  series.acc_y_mps2 = conditions.acc_y_mps2;
+  series.acc_z_mps2 = conditions.acc_z_mps2;
+  // A recorded temperature has steps, whose slope from sample to sample means nothing.
+  constexpr double slope_interval_s = 10.0;
+  const auto lag = std::llround(slope_interval_s * series.rate_hz());
+  sense(scenario, noise, static_cast<std::size_t>(std::max(1LL, lag)), series);
+}
+
+void synthesise_heading_under(const Scenario& scenario, const Series& conditions,
+                              const Noise& noise, Series& series) {
+  take_conditions(conditions, series);
+  observe(scenario, noise, series);
+  if (!conditions.mag_valid.empty()) series.mag_valid = conditions.mag_valid;
 }
 
 void synthesise_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
                       Series& series) {
-  series.clear();
-  series.t_s = conditions.t_s;
-  series.temperature_C = conditions.temperature_C;
-  series.rate_ref_dps = conditions.rate_ref_dps;
-  series.rate_ref_dps.resize(series.size(), 0.0);
-  series.acc_x_mps2 = conditions.acc_x_mps2;
-  series.acc_y_mps2 = conditions.acc_y_mps2;
-  series.acc_z_mps2 = conditions.acc_z_mps2;
-  add_errors(scenario, noise, series);
+  synthesise_rate_under(scenario, conditions, noise, series);
+  observe(scenario, noise, series);
   if (!conditions.mag_valid.empty()) series.mag_valid = conditions.mag_valid;
 }
 

@@ -45,8 +45,14 @@ void synthesise(const Scenario& scenario, const Noise& noise, Series& series);
 
 /// The same errors under the conditions of a recording: its times, temperature, reference rate (0
 /// where absent), acceleration and compass flags take the place of the scenario's own sampling,
-/// profiles and disturbance flags.
+/// profiles and disturbance flags. T' is taken over ten seconds, [B eq. 5].
 void synthesise_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
                       Series& series);
+
+/// Its gyro alone, and its heading alone: the same bits.
+void synthesise_rate_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
+                           Series& series);
+void synthesise_heading_under(const Scenario& scenario, const Series& conditions,
+                              const Noise& noise, Series& series);
 
 }  // namespace gyrostat

@@ -1,0 +1,51 @@
+#include "experiments/diagnosis/diagnosis_json.hpp"
+
+#include "experiments/parameter_map.hpp"
+
+namespace gyrostat::gap {
+
+Json parameters_json(const Effects::Any& effect) {
+  Json json = Json::object();
+  std::visit([&](const auto& any) {
+    for (const auto& field : any.fields()) json[std::string(field.name)] = any.*(field.member);
+  }, effect);
+  return json;
+}
+
+Json to_json(const Diagnosis& d) {
+  Json json;
+  json["recording"] = {{"samples", d.samples}, {"duration_s", d.duration_s}, {"rate_hz", d.rate_hz},
+                       {"channels", d.channels}};
+  Json parameters = Json::object();
+  for (const auto& [name, value] : parameter_values(d.baseline.random_error)) parameters[name] = value;
+  for (const auto& [name, value] : parameter_values(d.baseline.thermal_drift)) parameters[name] = value;
+  parameters["compass_noise_std_deg"] = d.baseline.compass.noise_std_deg;
+  json["baseline"] = {{"effects", Json::array({"white_noise", "arima111", "thermal_drift", "compass_noise"})},
+                      {"parameters", parameters}};
+  json["where"] = Json::array();
+  for (const auto& w : d.where)
+    json["where"].push_back({{"lens", w.lens}, {"channel", w.channel}, {"coordinate", w.coordinate},
+                             {"from", w.from}, {"to", w.to}, {"observed", w.observed},
+                             {"simulated", w.simulated}, {"unit", w.unit}, {"p_adjusted", w.p_adjusted}});
+  json["gap"] = {{"before", d.gap_before}, {"after", d.gap_after}, {"closed", d.closed},
+                 {"closed_interval", Json::array({d.closed_low, d.closed_high})},
+                 {"p_before", d.p_before}, {"p_after", d.p_after}};
+  json["causes"] = Json::array();
+  for (const auto& c : d.causes)
+    json["causes"].push_back({{"effect", c.effect}, {"probability", c.probability},
+                              {"gap_after", c.gap_after}, {"closed", c.closed},
+                              {"log_score", c.log_score}, {"recovered", c.recovered},
+                              {"parameters", parameters_json(c.scenario.effects.back())}});
+  json["verdict"] = d.verdict;
+  json["verdict_set"] = d.verdict_set;
+  json["steps"] = Json::array();
+  for (const auto& s : d.steps) json["steps"].push_back({{"added", s.added}, {"gap", s.gap}});
+  json["not_assessable"] = Json::array();
+  for (const auto& n : d.not_assessable)
+    json["not_assessable"].push_back({{"effect", n.effect}, {"why", n.why}});
+  json["transfer"] = Json::array();
+  json["next_experiment"] = Json::object();
+  return json;
+}
+
+}  // namespace gyrostat::gap
