@@ -43,4 +43,10 @@ struct Scenario {
 /// altered by each effect at its stage. T' of the linear drift is the derivative between samples.
 void synthesise(const Scenario& scenario, const Noise& noise, Series& series);
 
+/// The same errors under the conditions of a recording: its times, temperature, reference rate (0
+/// where absent), acceleration and compass flags take the place of the scenario's own sampling,
+/// profiles and disturbance flags.
+void synthesise_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
+                      Series& series);
+
 }  // namespace gyrostat

@@ -26,6 +26,8 @@ struct Outliers {
     };
   }
 
+  static constexpr Outliers absent() { return {.probability = 0.0}; }
+
   void apply(Series& series, const Noise& noise) const {
     const auto chance = noise.stream("outliers/chance");
     const auto size = noise.stream("outliers/size");

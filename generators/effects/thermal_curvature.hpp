@@ -24,7 +24,10 @@ struct ThermalCurvature {
     };
   }
 
+  static constexpr ThermalCurvature absent() { return {.curvature_dps_per_C2 = 0.0}; }
+
   void apply(Series& series, const Noise& /*noise*/) const {
+    if (series.temperature_C.empty()) return;
     for (std::size_t i = 0; i < series.size(); ++i) {
       const double difference = series.temperature_C[i] - reference_C;
       series.thermal_bias_dps[i] += curvature_dps_per_C2 * difference * difference;

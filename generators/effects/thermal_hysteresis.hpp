@@ -30,7 +30,10 @@ struct ThermalHysteresis {
     };
   }
 
+  static constexpr ThermalHysteresis absent() { return {.amplitude_dps = 0.0}; }
+
   void apply(Series& series, const Noise& /*noise*/) const {
+    if (series.temperature_C.empty()) return;
     double play_C = series.temperature_C.empty() ? 0.0 : series.temperature_C.front();
     for (std::size_t i = 0; i < series.size(); ++i) {
       const double T = series.temperature_C[i];

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "core/fields.hpp"
+#include "core/random.hpp"
+#include "core/series.hpp"
+#include "generators/stage.hpp"
+
+namespace gyrostat::effects {
+
+/// The bias follows the specific force (IEEE Std 952 and 1431, acceleration-sensitive drift rate).
+struct GSensitivity {
+  double x_dps_per_mps2 = 0.005;
+  double y_dps_per_mps2 = 0.0;
+  double z_dps_per_mps2 = 0.0;
+
+  static constexpr std::string_view title = "the bias depends on acceleration";
+  static constexpr Stage stage = Stage::electronics;
+
+  static constexpr auto fields() {
+    using P = GSensitivity;
+    return std::array{
+        Field{"x_dps_per_mps2", &P::x_dps_per_mps2, "dps/(m/s²)", ranges::any,
+              "sensitivity along x"},
+        Field{"y_dps_per_mps2", &P::y_dps_per_mps2, "dps/(m/s²)", ranges::any,
+              "sensitivity along y"},
+        Field{"z_dps_per_mps2", &P::z_dps_per_mps2, "dps/(m/s²)", ranges::any,
+              "sensitivity along z"},
+    };
+  }
+
+  static constexpr GSensitivity absent() { return {.x_dps_per_mps2 = 0.0}; }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    const auto add = [&](double sensitivity, const std::vector<double>& acceleration) {
+      for (std::size_t i = 0; i < acceleration.size(); ++i)
+        series.gyro_dps[i] += sensitivity * acceleration[i];
+    };
+    add(x_dps_per_mps2, series.acc_x_mps2);
+    add(y_dps_per_mps2, series.acc_y_mps2);
+    add(z_dps_per_mps2, series.acc_z_mps2);
+  }
+};
+
+}  // namespace gyrostat::effects

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "core/types.hpp"
+#include "core/fields.hpp"
+#include "core/random.hpp"
+#include "core/series.hpp"
+#include "generators/stage.hpp"
+
+namespace gyrostat::effects {
+
+/// A magnet that turns with the vehicle: one period a turn in the heading error.
+struct HardIron {
+  double amplitude_deg = 3.0;
+  double phase_deg = 0.0;
+
+  static constexpr std::string_view title = "heading error of one period a turn";
+  static constexpr Stage stage = Stage::compass;
+
+  static constexpr auto fields() {
+    using P = HardIron;
+    return std::array{
+        Field{"amplitude_deg", &P::amplitude_deg, "deg", ranges::non_negative,
+              "largest heading error"},
+        Field{"phase_deg", &P::phase_deg, "deg", ranges::any,
+              "heading at which the error is zero and falling, times -1"},
+    };
+  }
+
+  static constexpr HardIron absent() { return {.amplitude_deg = 0.0}; }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    constexpr double rad = std::numbers::pi / 180.0;
+    if (amplitude_deg == 0.0) return;
+    for (double& heading : series.heading_deg)
+      heading = wrap_degrees(heading + amplitude_deg * std::sin((heading + phase_deg) * rad));
+  }
+};
+
+}  // namespace gyrostat::effects

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+
+#include "core/fields.hpp"
+#include "core/random.hpp"
+#include "core/series.hpp"
+#include "generators/stage.hpp"
+
+namespace gyrostat::effects {
+
+/// The white noise grows with temperature: its standard deviation is multiplied by
+/// 1 + relative (T - reference), not below 0.
+struct NoiseTemperature {
+  double relative_per_C = 0.02;
+  double reference_C = 25.0;
+
+  static constexpr std::string_view title = "the noise depends on temperature";
+  static constexpr Stage stage = Stage::noise;
+
+  static constexpr auto fields() {
+    using P = NoiseTemperature;
+    return std::array{
+        Field{"relative_per_C", &P::relative_per_C, "1/°C", ranges::any,
+              "relative change of the standard deviation per degree"},
+        Field{"reference_C", &P::reference_C, "°C", ranges::any,
+              "temperature at which the noise is as stated"},
+    };
+  }
+
+  static constexpr NoiseTemperature absent() { return {.relative_per_C = 0.0}; }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    if (series.temperature_C.empty() || relative_per_C == 0.0) return;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      const double quiet =
+          series.rate_ref_dps[i] + series.thermal_bias_dps[i] + series.random_error_dps[i];
+      const double gain =
+          std::max(0.0, 1.0 + relative_per_C * (series.temperature_C[i] - reference_C));
+      series.gyro_dps[i] = quiet + gain * (series.gyro_dps[i] - quiet);
+    }
+  }
+};
+
+}  // namespace gyrostat::effects
