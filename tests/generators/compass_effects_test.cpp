@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -130,8 +131,8 @@ TEST(MagneticBursts, StandForTheirShareOfTheTimeWithTheirStandardDeviation) {
   }
 }
 
-/// Within a burst the offset is constant, and nothing flags it.
-TEST(MagneticBursts, AreConstantAndUnflagged) {
+/// Within a burst the offset is constant, from burst to burst another, and nothing flags it.
+TEST(MagneticBursts, AreConstantEachDifferentAndUnflagged) {
   auto series = silent(even_times(36000, 10.0));
   series.mag_valid.assign(series.size(), 1.0);
   effects::MagneticBursts{.bursts_per_hour = 60.0, .mean_duration_s = 20.0}.apply(series, {1, 0});
@@ -140,6 +141,8 @@ TEST(MagneticBursts, AreConstantAndUnflagged) {
     changes += series.heading_deg[i] != series.heading_deg[i - 1];
   EXPECT_GT(changes, 0.0);
   EXPECT_LT(changes, 200.0);  // two a burst, of which there are 45 in the mean
+  const std::set<double> offsets(series.heading_deg.begin(), series.heading_deg.end());
+  EXPECT_GE(static_cast<double>(offsets.size()), 0.5 * changes);  // one a burst, and 0
   EXPECT_TRUE(std::all_of(series.mag_valid.begin(), series.mag_valid.end(),
                           [](double valid) { return valid == 1.0; }));
 }
