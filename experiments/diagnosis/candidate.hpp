@@ -17,10 +17,17 @@ struct Evidence {
   double seconds_of_train() const;
 };
 
-/// An effect with first parameters, and the random error that is left beside it.
+/// Random error and thermal drift of a recording: the baseline's, or what is left of them beside an
+/// effect.
+struct Rest {
+  Arima111<double> random_error;
+  ThermalDrift<double> thermal_drift;
+};
+
+/// An effect with first parameters, and what is left beside it.
 struct Start {
   Effects::Any effect;
-  Arima111<double> random_error;
+  Rest rest;
 };
 
 /// Why the recording cannot show the effect, with how much more it would need; empty where it can.

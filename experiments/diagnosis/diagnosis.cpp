@@ -57,6 +57,7 @@ class Work {
   }
   void describe(const Series& recording);
   void localise();
+  std::vector<Where> departures_of(const Ensemble& ensemble) const;
   std::vector<Contender> contend(const Scenario& base, const std::vector<std::string>& taken);
   Contender judged(const std::string& effect, const Scenario& scenario, std::size_t replicas);
   void attribute();
@@ -88,6 +89,24 @@ void Work::describe(const Series& recording) {
       result_.not_assessable.push_back({std::string(Effects::id_of(effect)), std::move(why)});
 }
 
+std::vector<Where> Work::departures_of(const Ensemble& ensemble) const {
+  std::vector<Where> found;
+  const auto& instrument = simulator_.instrument(Part::train);
+  for (const auto& departure : ensemble.departures(observed_[0], 0.05)) {
+    const auto lens = std::find_if(instrument.lenses().begin(), instrument.lenses().end(),
+                                   [&](const LensView& l) {
+                                     return departure.reading >= l.first &&
+                                            departure.reading < l.first + l.count;
+                                   });
+    const auto& at = instrument.at()[static_cast<std::size_t>(departure.reading)];
+    found.push_back({std::string(lens->id), std::string(lens->channel),
+                             std::string(lens->coordinate), std::string(lens->unit), at.from, at.to,
+                             observed_[0][departure.reading], ensemble.mean()[departure.reading],
+                             departure.p_adjusted});
+  }
+  return found;
+}
+
 void Work::localise() {
   tell("fitting the baseline", 0.02);
   const auto fit = fit_baseline(simulator_, evidence_.scene, evidence_.recording);
@@ -108,19 +127,7 @@ void Work::localise() {
   baseline_score_ = scoring_->of(baseline_replicas_[0]);
 
   result_.p_before = train_->p_value(observed_[0]);
-  const auto& instrument = simulator_.instrument(Part::train);
-  for (const auto& departure : train_->departures(observed_[0], 0.05)) {
-    const auto lens = std::find_if(instrument.lenses().begin(), instrument.lenses().end(),
-                                   [&](const LensView& l) {
-                                     return departure.reading >= l.first &&
-                                            departure.reading < l.first + l.count;
-                                   });
-    const auto& at = instrument.at()[static_cast<std::size_t>(departure.reading)];
-    result_.where.push_back({std::string(lens->id), std::string(lens->channel),
-                             std::string(lens->coordinate), std::string(lens->unit), at.from, at.to,
-                             observed_[0][departure.reading], train_->mean()[departure.reading],
-                             departure.p_adjusted});
-  }
+  result_.where = departures_of(*train_);
   took("localisation");
 }
 
@@ -153,7 +160,10 @@ std::vector<Contender> Work::contend(const Scenario& base, const std::vector<std
     std::vector<Contender> tried;
     for (const auto& start : first[k]) {
       Scenario scenario = base;
-      if (taken.empty()) scenario.random_error = start.random_error;
+      if (taken.empty()) {
+        scenario.random_error = start.rest.random_error;
+        scenario.thermal_drift = start.rest.thermal_drift;
+      }
       scenario.effects.push_back(start.effect);
       tried.push_back(judged(std::string(Effects::id_of(assessable[k])), scenario, screening_replicas));
     }
@@ -263,8 +273,9 @@ void Work::measure_shrinkage() {
   for (auto& cause : result_.causes) cause.closed = closed(cause.gap_after);
   if (added_.empty()) return;
   const auto& last = added_.back();
-  result_.p_after =
-      Ensemble(simulator_.instrument(Part::train), last.replicas[0], {}).p_value(observed_[0]);
+  const Ensemble enriched(simulator_.instrument(Part::train), last.replicas[0], {});
+  result_.p_after = enriched.p_value(observed_[0]);
+  result_.where_after = departures_of(enriched);
   result_.closed = closed(result_.gap_after);
   const auto interval = bootstrap_closed(instrument, *held_out_, Ensemble(instrument, last.replicas[1], {}),
                                          observed_[1], options_.seed);

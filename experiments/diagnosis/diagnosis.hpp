@@ -57,7 +57,7 @@ struct Diagnosis {
   std::vector<std::string> channels;
   Scenario baseline;
   Scenario enriched;             ///< with every effect that was added; the baseline where none was
-  std::vector<Where> where;
+  std::vector<Where> where, where_after;  ///< on the train part, before and after the effects
   double gap_before = 0.0, gap_after = 0.0, closed = 0.0, closed_low = 0.0, closed_high = 0.0;
   double p_before = 1.0, p_after = 1.0;  ///< of the train part
   std::vector<Cause> causes;             ///< most probable first

@@ -12,6 +12,19 @@ Json parameters_json(const Effects::Any& effect) {
   return json;
 }
 
+namespace {
+
+Json departures_json(const std::vector<Where>& departures) {
+  Json list = Json::array();
+  for (const auto& w : departures)
+    list.push_back({{"lens", w.lens}, {"channel", w.channel}, {"coordinate", w.coordinate},
+                    {"from", w.from}, {"to", w.to}, {"observed", w.observed},
+                    {"simulated", w.simulated}, {"unit", w.unit}, {"p_adjusted", w.p_adjusted}});
+  return list;
+}
+
+}  // namespace
+
 Json to_json(const Diagnosis& d) {
   Json json;
   json["recording"] = {{"samples", d.samples}, {"duration_s", d.duration_s}, {"rate_hz", d.rate_hz},
@@ -22,11 +35,8 @@ Json to_json(const Diagnosis& d) {
   parameters["compass_noise_std_deg"] = d.baseline.compass.noise_std_deg;
   json["baseline"] = {{"effects", Json::array({"white_noise", "arima111", "thermal_drift", "compass_noise"})},
                       {"parameters", parameters}};
-  json["where"] = Json::array();
-  for (const auto& w : d.where)
-    json["where"].push_back({{"lens", w.lens}, {"channel", w.channel}, {"coordinate", w.coordinate},
-                             {"from", w.from}, {"to", w.to}, {"observed", w.observed},
-                             {"simulated", w.simulated}, {"unit", w.unit}, {"p_adjusted", w.p_adjusted}});
+  json["where"] = departures_json(d.where);
+  json["where_after"] = departures_json(d.where_after);
   json["gap"] = {{"before", d.gap_before}, {"after", d.gap_after}, {"closed", d.closed},
                  {"closed_interval", Json::array({d.closed_low, d.closed_high})},
                  {"p_before", d.p_before}, {"p_after", d.p_after}};

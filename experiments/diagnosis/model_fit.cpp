@@ -168,27 +168,32 @@ Scenario refine(const Simulator& simulator, Scenario scenario, const Eigen::Vect
   return scenario;
 }
 
+Rest fit_rest(const Conditions& conditions, const Scene& scene) {
+  const auto& chosen = conditions.train_points();
+  const auto slow = conditions.slow_means(scene.rate_error_dps);
+  Eigen::VectorXd train(static_cast<Eigen::Index>(chosen.size()));
+  for (std::size_t k = 0; k < chosen.size(); ++k) train[static_cast<Eigen::Index>(k)] = slow[chosen[k]];
+  const Eigen::VectorXd drift = conditions.drift_fit() * train;
+  Rest rest{.random_error = fit_allan_components(scene.octaves[0], scene.slow_octaves[0],
+                                                 conditions.cluster(), conditions.interval_s(),
+                                                 SlowComponent::none)
+                                .random_error,
+            .thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = drift[0]}};
+  if (drift.size() == 3)
+    rest.thermal_drift = {.a_dps_per_C = drift[1], .b_dps_s_per_C = drift[2],
+                          .c_dps = drift[0] - drift[1] * conditions.slow_temperature_C().front()};
+  return rest;
+}
+
 BaselineFit fit_baseline(const Simulator& simulator, const Scene& scene, const Series& recording) {
   const auto& conditions = simulator.conditions();
   BaselineFit fit;
   auto& s = fit.scenario;
   s.sampling.duration_s = conditions.interval_s() * static_cast<double>(conditions.size());
   s.sampling.rate_hz = conditions.rate_hz();
-  s.random_error = fit_allan_components(scene.octaves[0], scene.slow_octaves[0], conditions.cluster(),
-                                        conditions.interval_s(), SlowComponent::none)
-                       .random_error;
-
-  const auto& chosen = conditions.train_points();
-  const auto slow = conditions.slow_means(scene.rate_error_dps);
-  Eigen::VectorXd train(static_cast<Eigen::Index>(chosen.size()));
-  for (std::size_t k = 0; k < chosen.size(); ++k) train[static_cast<Eigen::Index>(k)] = slow[chosen[k]];
-  const Eigen::VectorXd drift = conditions.drift_fit() * train;
-  s.thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = drift[0]};
-  if (drift.size() == 3) {
-    s.thermal_drift.a_dps_per_C = drift[1];
-    s.thermal_drift.b_dps_s_per_C = drift[2];
-    s.thermal_drift.c_dps = drift[0] - drift[1] * conditions.slow_temperature_C().front();
-  }
+  const auto rest = fit_rest(conditions, scene);
+  s.random_error = rest.random_error;
+  s.thermal_drift = rest.thermal_drift;
   s.compass.noise_std_deg = 0.0;
   if (conditions.has_heading()) {
     s.compass.noise_std_deg = compass_noise(conditions, scene);

@@ -14,6 +14,9 @@ struct BaselineFit {
   Eigen::MatrixXd train_jacobian, held_out_jacobian;
 };
 
+/// Random error by its Allan variances, and a T + b T' + c by least squares, from the train part.
+Rest fit_rest(const Conditions& conditions, const Scene& scene);
+
 /// White noise + ARIMA(1,1,1) + a T + b T' + c and white compass noise: Allan variances first, then
 /// the simulated readings themselves.
 BaselineFit fit_baseline(const Simulator& simulator, const Scene& scene, const Series& recording);

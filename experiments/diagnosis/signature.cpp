@@ -4,7 +4,7 @@
 
 #include <Eigen/QR>
 
-#include "analysis/gap/allan_components.hpp"
+#include "experiments/diagnosis/model_fit.hpp"
 
 namespace gyrostat::gap {
 namespace {
@@ -76,7 +76,7 @@ Scenario quiet_scenario(const Evidence& evidence) {
 
 }  // namespace
 
-Arima111<double> random_error_without(const Evidence& evidence, const Effects::Any& effect) {
+Rest rest_without(const Evidence& evidence, const Effects::Any& effect) {
   const auto& conditions = evidence.simulator.conditions();
   Scenario quiet = quiet_scenario(evidence);
   Series without, with;
@@ -88,9 +88,7 @@ Arima111<double> random_error_without(const Evidence& evidence, const Effects::A
     rest.gyro_dps[i] -= with.gyro_dps[i] - without.gyro_dps[i];
   rest.heading_deg.clear();
   const Scene scene(conditions, rest);
-  return fit_allan_components(scene.octaves[0], scene.slow_octaves[0], conditions.cluster(),
-                              conditions.interval_s(), SlowComponent::none)
-      .random_error;
+  return fit_rest(conditions, scene);
 }
 
 Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
@@ -141,7 +139,7 @@ double best_of(double low, double high, const std::function<double(double)>& cos
   double b = std::log(low) + step * std::min(best + 1, points - 1);
   double c = b - golden * (b - a), d = a + golden * (b - a);
   double at_c = cost(std::exp(c)), at_d = cost(std::exp(d));
-  for (int k = 0; k < 8; ++k) {
+  for (int k = 0; k < 14; ++k) {
     if (at_c < at_d) {
       b = d, d = c, at_d = at_c, c = b - golden * (b - a), at_c = cost(std::exp(c));
     } else {

@@ -25,8 +25,8 @@ struct Match {
 };
 Match match(const Eigen::MatrixXd& columns, const Eigen::VectorXd& trace);
 
-/// The random error of the recording's rate once the effect's signature is taken out of it.
-Arima111<double> random_error_without(const Evidence& evidence, const Effects::Any& effect);
+/// What is left of the recording's rate once the effect's signature is taken out of it.
+Rest rest_without(const Evidence& evidence, const Effects::Any& effect);
 
 /// The value in [low, high] (logarithmic) with the least `cost`, by a grid and a golden section.
 double best_of(double low, double high, const std::function<double(double)>& cost);

@@ -40,6 +40,7 @@ class Simulator {
 
  private:
   Readings replica_readings(const Scenario& scenario, std::uint32_t number) const;
+  static Scenario simulable(Scenario scenario);
   void to_resolution(Series& series) const;
 
   Conditions conditions_;

@@ -29,21 +29,22 @@ std::vector<double> train_steps(const Evidence& e) {
   return steps;
 }
 
-Arima111<double> with_white(Arima111<double> random_error, double white_std_dps) {
-  random_error.measurement_noise_std_dps = white_std_dps;
-  return random_error;
+Rest with_white(const Evidence& e, double white_std_dps) {
+  Rest rest{e.baseline.random_error, e.baseline.thermal_drift};
+  rest.random_error.measurement_noise_std_dps = white_std_dps;
+  return rest;
 }
 
 /// The effect beside the random error that the baseline has.
 template <class E>
 std::vector<Start> with_noise_of(const Evidence& e, const E& effect) {
-  return {Start{effect, e.baseline.random_error}};
+  return {Start{effect, {e.baseline.random_error, e.baseline.thermal_drift}}};
 }
 
 /// A deterministic effect beside the random error of the recording without it.
 template <class E>
 std::vector<Start> cleaned(const Evidence& e, const E& effect) {
-  return {Start{effect, random_error_without(e, effect)}};
+  return {Start{effect, rest_without(e, effect)}};
 }
 
 template <class E>
@@ -65,7 +66,7 @@ std::vector<Start> start(Quantization, const Evidence& e) {
                          ? quantile(gaps, 0.2)
                          : e.white_std_dps;
   const double rest = e.white_std_dps * e.white_std_dps - lsb * lsb / 12.0;
-  return {{Quantization{lsb}, with_white(e.baseline.random_error,
+  return {{Quantization{lsb}, with_white(e,
                                         std::sqrt(std::max(rest, 0.01 * lsb * lsb)))}};
 }
 
@@ -88,7 +89,7 @@ std::vector<Start> start(Outliers, const Evidence& e) {
     const double seen = std::erfc(limit * deviation / (std * std::numbers::sqrt2));
     found.push_back({Outliers{std::clamp(0.5 * count / static_cast<double>(sizes.size()) /
                                              std::max(seen, 0.05), 1e-6, 0.5), std},
-                     with_white(e.baseline.random_error, white)});
+                     with_white(e, white)});
   }
   return found;
 }
@@ -105,7 +106,7 @@ std::vector<Start> start(NoiseBandwidth, const Evidence& e) {
   const double pole = std::clamp(1.0 + 2.0 * lagged / square, 0.01, 0.98);
   for (const double a : {pole, 0.5 * pole})
     found.push_back({NoiseBandwidth{-std::log(a) * rate_hz / (2.0 * std::numbers::pi)},
-                     with_white(e.baseline.random_error,
+                     with_white(e,
                                 std::sqrt(0.5 * square / static_cast<double>(steps.size()) *
                                           (1.0 + a)) / (1.0 - a))});
   return found;
@@ -129,7 +130,7 @@ std::vector<Start> start(NoiseTemperature, const Evidence& e) {
         }
       }
   return {{NoiseTemperature{tt > 0.0 ? 0.5 * tv / tt / (sum / count) : 0.0, mean_T / count},
-           with_white(e.baseline.random_error, std::sqrt(sum / count))}};
+           with_white(e, std::sqrt(sum / count))}};
 }
 
 AllanComponents slow_fit(const Evidence& e, SlowComponent component) {
@@ -140,19 +141,19 @@ AllanComponents slow_fit(const Evidence& e, SlowComponent component) {
 
 std::vector<Start> start(BiasInstability, const Evidence& e) {
   const auto fit = slow_fit(e, SlowComponent::flicker);
-  return {{BiasInstability{fit.slow_std_dps}, fit.random_error}};
+  return {{BiasInstability{fit.slow_std_dps}, {fit.random_error, e.baseline.thermal_drift}}};
 }
 
 std::vector<Start> start(GaussMarkov, const Evidence& e) {
   const auto fit = slow_fit(e, SlowComponent::gauss_markov);
   return {{GaussMarkov{fit.slow_std_dps, fit.correlation_time_s},
-           fit.random_error}};
+           {fit.random_error, e.baseline.thermal_drift}}};
 }
 
 std::vector<Start> start(Telegraph, const Evidence& e) {
   const auto fit = slow_fit(e, SlowComponent::gauss_markov);
   return {{Telegraph{fit.slow_std_dps, 2.0 * fit.correlation_time_s},
-           fit.random_error}};
+           {fit.random_error, e.baseline.thermal_drift}}};
 }
 
 std::vector<Start> start(BiasSteps, const Evidence& e) {
@@ -163,7 +164,7 @@ std::vector<Start> start(BiasSteps, const Evidence& e) {
   arima.delta2_dps *= 0.1;
   std::vector<Start> found;
   for (const double steps : {3.0, 12.0, 50.0})
-    found.push_back({BiasSteps{steps, std::sqrt(an_hour / steps)}, arima});
+    found.push_back({BiasSteps{steps, std::sqrt(an_hour / steps)}, {arima, e.baseline.thermal_drift}});
   return found;
 }
 
@@ -252,7 +253,7 @@ std::vector<Start> start(Sinusoidal, const Evidence& e) {
     const double x = std::numbers::pi * best * interval_s;
     const double lost = slow && x > 0.0 ? std::sin(x) / x : 1.0;
     const Sinusoidal sine{std::abs(line) / lost, best, wrap_degrees(phase)};
-    found.push_back({sine, random_error_without(e, sine)});
+    found.push_back({sine, rest_without(e, sine)});
   }
   return found;
 }
@@ -264,7 +265,7 @@ std::vector<Start> start(Vibration, const Evidence& e) {
   if (peak.frequency_hz <= 0.0 || peak.power <= 0.0) return with_noise_of(e, Vibration{0.5 * white, 5.0, 1.0});
   for (const double width : {0.4, 1.0})
     found.push_back({Vibration{std::sqrt(1.3 * peak.power), peak.frequency_hz, width * peak.width_hz},
-                     with_white(e.baseline.random_error,
+                     with_white(e,
                                 std::sqrt(std::max(0.1 * white * white, white * white - peak.power)))});
   return found;
 }
@@ -446,7 +447,14 @@ double Evidence::seconds_of_train() const {
 }
 
 std::vector<Start> starts(const Effects::Any& effect, const Evidence& evidence) {
-  return std::visit([&](const auto& any) { return start(any, evidence); }, effect);
+  return std::visit([&](const auto& any) {
+    auto found = start(any, evidence);
+    if (!is_deterministic(effect) || found.empty()) return found;
+    // The effect inflated the random error that its signature was weighed by: once more without.
+    Evidence cleaner = evidence;
+    cleaner.baseline.random_error = found.front().rest.random_error;
+    return start(any, cleaner);
+  }, effect);
 }
 
 bool is_deterministic(const Effects::Any& effect) {

@@ -1,21 +1,24 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
 
-/// Rates about zero are not sensed (IEEE Std 528, dead band): within the half width the rate is 0,
+/// Rates about zero are not sensed (IEEE Std 528, dead band): up to the half width the rate is 0,
 /// beyond it the rate itself.
 struct DeadZone {
   double half_width_dps = 0.5;
 
   static constexpr std::string_view title = "small rates are not sensed";
   static constexpr Stage stage = Stage::electronics;
+  static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps};
 
   static constexpr auto fields() {
     using P = DeadZone;
@@ -28,8 +31,8 @@ struct DeadZone {
   static constexpr DeadZone absent() { return {.half_width_dps = 0.0}; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
-    for (std::size_t i = 0; i < series.size(); ++i)
-      if (std::abs(series.rate_ref_dps[i]) < half_width_dps)
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i)
+      if (std::abs(series.rate_ref_dps[i]) <= half_width_dps)
         series.gyro_dps[i] -= series.rate_ref_dps[i];
   }
 };

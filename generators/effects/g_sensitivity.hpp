@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
@@ -15,6 +18,8 @@ struct GSensitivity {
 
   static constexpr std::string_view title = "the bias depends on acceleration";
   static constexpr Stage stage = Stage::electronics;
+  static constexpr std::array needs = {&Series::gyro_dps, &Series::acc_x_mps2, &Series::acc_y_mps2,
+                                       &Series::acc_z_mps2};
 
   static constexpr auto fields() {
     using P = GSensitivity;
@@ -31,13 +36,10 @@ struct GSensitivity {
   static constexpr GSensitivity absent() { return {.x_dps_per_mps2 = 0.0}; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
-    const auto add = [&](double sensitivity, const std::vector<double>& acceleration) {
-      for (std::size_t i = 0; i < acceleration.size(); ++i)
-        series.gyro_dps[i] += sensitivity * acceleration[i];
-    };
-    add(x_dps_per_mps2, series.acc_x_mps2);
-    add(y_dps_per_mps2, series.acc_y_mps2);
-    add(z_dps_per_mps2, series.acc_z_mps2);
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i)
+      series.gyro_dps[i] += x_dps_per_mps2 * series.acc_x_mps2[i] +
+                            y_dps_per_mps2 * series.acc_y_mps2[i] +
+                            z_dps_per_mps2 * series.acc_z_mps2[i];
   }
 };
 

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
@@ -20,6 +19,7 @@ struct GaussMarkov {
 
   static constexpr std::string_view title = "exponentially correlated noise";
   static constexpr Stage stage = Stage::electronics;
+  static constexpr std::array needs = {&Series::gyro_dps};
 
   static constexpr auto fields() {
     using P = GaussMarkov;
@@ -34,29 +34,13 @@ struct GaussMarkov {
   static constexpr GaussMarkov absent() { return {.std_dps = 0.0}; }
 
   void apply(Series& series, const Noise& noise) const {
-    if (std_dps > 0.0) add_to(series, noise.stream("gauss_markov"));
-  }
-
-  void add_to(Series& series, const NormalStream& stream) const {
-    std::array<double, 256> drawn;
-    double state = 0.0, interval_s = -1.0, decay = 0.0, drive = 0.0;
-    for (std::size_t i = 0; i < series.size(); ++i) {
-      if (i % drawn.size() == 0)
-        stream.fill(i, std::span(drawn).first(std::min(drawn.size(), series.size() - i)));
-      const double a = drawn[i % drawn.size()];
-      if (i == 0) {
-        state = std_dps * a;
-      } else {
-        // Intervals that differ by rounding alone share their exponential.
-        const double next_s = series.t_s[i] - series.t_s[i - 1];
-        if (std::abs(next_s - interval_s) > 1e-6 * next_s) {
-          interval_s = next_s;
-          decay = std::exp(-interval_s / correlation_time_s);
-          drive = std_dps * std::sqrt(-std::expm1(-2.0 * interval_s / correlation_time_s));
-        }
-        state = decay * state + drive * a;
-      }
-      series.gyro_dps[i] += state;
+    Deviates white(noise.stream("gauss_markov"));
+    Decay decay(correlation_time_s);
+    double state = 0.0;
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
+      const double a = decay(series.t_s, i);
+      state = a * state + std::sqrt((1.0 - a) * (1.0 + a)) * white.next();
+      series.gyro_dps[i] += std_dps * state;
     }
   }
 };

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
-#include "core/types.hpp"
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
@@ -19,12 +20,13 @@ struct MagneticBursts {
 
   static constexpr std::string_view title = "unflagged magnetic disturbances";
   static constexpr Stage stage = Stage::compass;
+  static constexpr std::array needs = {&Series::heading_deg};
 
   static constexpr auto fields() {
     using P = MagneticBursts;
     return std::array{
-        Field{"bursts_per_hour", &P::bursts_per_hour, "1/h", ranges::non_negative,
-              "mean number of disturbances an hour"},
+        Field{"bursts_per_hour", &P::bursts_per_hour, "1/h", Range{.from = 0, .to = 1e6},
+              "mean number of disturbances in an hour without one"},
         Field{"mean_duration_s", &P::mean_duration_s, "s", ranges::positive,
               "mean length of a disturbance"},
         Field{"std_deg", &P::std_deg, "deg", ranges::non_negative,
@@ -35,21 +37,20 @@ struct MagneticBursts {
   static constexpr MagneticBursts absent() { return {.std_deg = 0.0}; }
 
   void apply(Series& series, const Noise& noise) const {
-    if (bursts_per_hour == 0.0 || std_deg == 0.0 || series.heading_deg.empty()) return;
     const auto chance = noise.stream("magnetic_bursts/time");
     const auto size = noise.stream("magnetic_bursts/size");
     std::uint64_t draw = 0, burst = 0;
     const auto exponential = [&](double mean) { return -std::log(chance.uniform(draw++)) * mean; };
-    double start_s = series.t_s.front() + exponential(3600.0 / bursts_per_hour);
-    double end_s = start_s + exponential(mean_duration_s);
-    for (std::size_t i = 0; i < series.size(); ++i) {
-      while (series.t_s[i] >= end_s) {
+    double start_s = exponential(3600.0 / bursts_per_hour);
+    double end_s = start_s + exponential(mean_duration_s), offset_deg = std_deg * size.normal(0);
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
+      const double t_s = series.t_s[i] - series.t_s[0];
+      while (t_s >= end_s) {
         start_s = end_s + exponential(3600.0 / bursts_per_hour);
         end_s = start_s + exponential(mean_duration_s);
-        ++burst;
+        offset_deg = std_deg * size.normal(++burst);
       }
-      if (series.t_s[i] >= start_s)
-        series.heading_deg[i] = wrap_degrees(series.heading_deg[i] + std_deg * size.normal(burst));
+      if (t_s >= start_s) series.heading_deg[i] += offset_deg;
     }
   }
 };

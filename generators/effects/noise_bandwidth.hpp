@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
@@ -17,6 +20,8 @@ struct NoiseBandwidth {
 
   static constexpr std::string_view title = "an output filter colours the white noise";
   static constexpr Stage stage = Stage::noise;
+  static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps,
+                                       &Series::thermal_bias_dps, &Series::random_error_dps};
 
   static constexpr auto fields() {
     using P = NoiseBandwidth;
@@ -29,17 +34,17 @@ struct NoiseBandwidth {
   static constexpr NoiseBandwidth absent() { return {.cutoff_hz = 1e9}; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
-    if (series.size() < 2) return;
-    const double pole =
-        std::exp(-2.0 * std::numbers::pi * cutoff_hz / series.rate_hz());
+    Decay decay(0.5 / (std::numbers::pi * cutoff_hz));
     double filtered = 0.0;
-    for (std::size_t i = 0; i < series.size(); ++i) {
-      const double quiet =
-          series.rate_ref_dps[i] + series.thermal_bias_dps[i] + series.random_error_dps[i];
-      const double white = series.gyro_dps[i] - quiet;
+    const std::size_t samples = samples_with(series, needs);
+    for (std::size_t i = 0; i < samples; ++i) {
+      const double white = series.gyro_dps[i] - series.rate_ref_dps[i] -
+                           series.thermal_bias_dps[i] - series.random_error_dps[i];
+      const std::size_t to = std::max<std::size_t>(i, 1);
+      const double pole = samples > 1 ? decay.over(series.t_s[to] - series.t_s[to - 1]) : 0.0;
       filtered = i == 0 ? white * std::sqrt((1.0 - pole) / (1.0 + pole))
                         : pole * filtered + (1.0 - pole) * white;
-      series.gyro_dps[i] = quiet + filtered;
+      series.gyro_dps[i] += filtered - white;
     }
   }
 };

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
@@ -17,6 +19,9 @@ struct NoiseTemperature {
 
   static constexpr std::string_view title = "the noise depends on temperature";
   static constexpr Stage stage = Stage::noise;
+  static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps,
+                                       &Series::thermal_bias_dps, &Series::random_error_dps,
+                                       &Series::temperature_C};
 
   static constexpr auto fields() {
     using P = NoiseTemperature;
@@ -31,13 +36,12 @@ struct NoiseTemperature {
   static constexpr NoiseTemperature absent() { return {.relative_per_C = 0.0}; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
-    if (series.temperature_C.empty() || relative_per_C == 0.0) return;
-    for (std::size_t i = 0; i < series.size(); ++i) {
-      const double quiet =
-          series.rate_ref_dps[i] + series.thermal_bias_dps[i] + series.random_error_dps[i];
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
+      const double white = series.gyro_dps[i] - series.rate_ref_dps[i] -
+                           series.thermal_bias_dps[i] - series.random_error_dps[i];
       const double gain =
           std::max(0.0, 1.0 + relative_per_C * (series.temperature_C[i] - reference_C));
-      series.gyro_dps[i] = quiet + gain * (series.gyro_dps[i] - quiet);
+      series.gyro_dps[i] += (gain - 1.0) * white;
     }
   }
 };

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
@@ -16,6 +18,7 @@ struct Quantization {
 
   static constexpr std::string_view title = "values lie on a grid";
   static constexpr Stage stage = Stage::conversion;
+  static constexpr std::array needs = {&Series::gyro_dps};
 
   static constexpr auto fields() {
     using P = Quantization;

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
@@ -13,6 +16,7 @@ struct RateRamp {
 
   static constexpr std::string_view title = "the bias drifts evenly with time";
   static constexpr Stage stage = Stage::electronics;
+  static constexpr std::array needs = {&Series::gyro_dps};
 
   static constexpr auto fields() {
     using P = RateRamp;
@@ -25,7 +29,7 @@ struct RateRamp {
   static constexpr RateRamp absent() { return {.slope_dps_per_s = 0.0}; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
-    for (std::size_t i = 0; i < series.size(); ++i)
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i)
       series.gyro_dps[i] += slope_dps_per_s * (series.t_s[i] - series.t_s.front());
   }
 };

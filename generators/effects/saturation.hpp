@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
@@ -13,6 +16,7 @@ struct Saturation {
 
   static constexpr std::string_view title = "the output is clipped";
   static constexpr Stage stage = Stage::conversion;
+  static constexpr std::array needs = {&Series::gyro_dps};
 
   static constexpr auto fields() {
     using P = Saturation;

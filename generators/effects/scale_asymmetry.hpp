@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
@@ -15,6 +17,7 @@ struct ScaleAsymmetry {
 
   static constexpr std::string_view title = "the two directions are scaled differently";
   static constexpr Stage stage = Stage::electronics;
+  static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps};
 
   static constexpr auto fields() {
     using P = ScaleAsymmetry;
@@ -27,7 +30,7 @@ struct ScaleAsymmetry {
   static constexpr ScaleAsymmetry absent() { return {.error = 0.0}; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
-    for (std::size_t i = 0; i < series.size(); ++i)
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i)
       series.gyro_dps[i] += error * std::abs(series.rate_ref_dps[i]);
   }
 };

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
@@ -18,6 +20,7 @@ struct Sinusoidal {
 
   static constexpr std::string_view title = "a sine of fixed frequency";
   static constexpr Stage stage = Stage::electronics;
+  static constexpr std::array needs = {&Series::gyro_dps};
 
   static constexpr auto fields() {
     using P = Sinusoidal;
@@ -36,7 +39,7 @@ struct Sinusoidal {
   void apply(Series& series, const Noise& /*noise*/) const {
     if (amplitude_dps == 0.0) return;
     constexpr double rad = std::numbers::pi / 180.0;
-    for (std::size_t i = 0; i < series.size(); ++i)
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i)
       series.gyro_dps[i] += amplitude_dps * std::sin(2.0 * std::numbers::pi * frequency_hz *
                                                          (series.t_s[i] - series.t_s.front()) +
                                                      phase_deg * rad);

@@ -1,23 +1,26 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
-#include "core/types.hpp"
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
 
-/// Iron that bends the field and turns with the vehicle: two periods a turn in the heading error.
+/// Iron that bends the field and turns with the vehicle: heading += amplitude sin(2 heading + phase),
+/// two periods a turn (compass deviation, coefficients D and E).
 struct SoftIron {
   double amplitude_deg = 2.0;
   double phase_deg = 0.0;
 
   static constexpr std::string_view title = "heading error of two periods a turn";
   static constexpr Stage stage = Stage::compass;
+  static constexpr std::array needs = {&Series::heading_deg};
 
   static constexpr auto fields() {
     using P = SoftIron;
@@ -33,9 +36,8 @@ struct SoftIron {
 
   void apply(Series& series, const Noise& /*noise*/) const {
     constexpr double rad = std::numbers::pi / 180.0;
-    if (amplitude_deg == 0.0) return;
     for (double& heading : series.heading_deg)
-      heading = wrap_degrees(heading + amplitude_deg * std::sin((2.0 * heading + phase_deg) * rad));
+      heading += amplitude_deg * std::sin((2.0 * heading + phase_deg) * rad);
   }
 };
 

@@ -1,23 +1,26 @@
 #pragma once
 
-#include <cmath>
+#include <array>
 
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
 
 /// The bias follows a temperature that trails the measured one: B += sensitivity (T_lag - T) with
-/// T_lag' = (T - T_lag) / time constant. To first order in the time constant it is
-/// -sensitivity time_constant T', which the linear drift already contains.
+/// T_lag' = (T - T_lag) / time constant, started at the first temperature. To
+/// first order in the time constant it is -sensitivity time_constant T', which the linear drift
+/// already contains.
 struct ThermalLag {
   double sensitivity_dps_per_C = 0.005;
   double time_constant_s = 120.0;
 
   static constexpr std::string_view title = "the bias trails the temperature";
   static constexpr Stage stage = Stage::sensing;
+  static constexpr std::array needs = {&Series::temperature_C, &Series::thermal_bias_dps};
 
   static constexpr auto fields() {
     using P = ThermalLag;
@@ -32,17 +35,11 @@ struct ThermalLag {
   static constexpr ThermalLag absent() { return {.sensitivity_dps_per_C = 0.0}; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
-    if (series.temperature_C.empty()) return;
-    double lagged_C = series.temperature_C.front();
-    double interval_s = -1.0, decay = 0.0;
-    for (std::size_t i = 1; i < series.size(); ++i) {
-      const double next_s = series.t_s[i] - series.t_s[i - 1];
-      if (std::abs(next_s - interval_s) > 1e-6 * next_s) {
-        interval_s = next_s;
-        decay = std::exp(-interval_s / time_constant_s);
-      }
+    Decay decay(time_constant_s);
+    double lagged_C = 0.0;
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
       const double T = series.temperature_C[i];
-      lagged_C = T + decay * (lagged_C - T);
+      lagged_C = T + decay(series.t_s, i) * (lagged_C - T);
       series.thermal_bias_dps[i] += sensitivity_dps_per_C * (lagged_C - T);
     }
   }
