@@ -105,7 +105,7 @@ Eigen::VectorXd Ensemble::lens_deviations(const Eigen::VectorXd& z) const {
 }
 
 double Ensemble::gap_of(const Eigen::VectorXd& deviations) const {
-  return std::sqrt((lens_deviations(deviations).array().square() - 4.0).cwiseMax(0.0).mean());
+  return std::sqrt((lens_deviations(deviations).array().square() - 9.0).cwiseMax(0.0).mean());
 }
 
 double Ensemble::least_probability(const Eigen::VectorXd& z) const {
