@@ -10,7 +10,7 @@
 namespace gyrostat::gap {
 namespace {
 
-constexpr double largest_deviation = 1e3;  // more says no more, and its square may not drown sums
+constexpr double largest_deviation = 1e3;  // more says no more
 constexpr double shrinkage = 0.25;
 
 double mean_square(const Eigen::VectorXd& z, const LensView& lens) {
@@ -102,10 +102,6 @@ Eigen::VectorXd Ensemble::lens_deviations(const Eigen::VectorXd& z) const {
     t[static_cast<Eigen::Index>(l)] =
         (std::log(mean_square(z, lenses_[l])) - tails_[l].centre) / tails_[l].spread;
   return t;
-}
-
-double Ensemble::gap_of(const Eigen::VectorXd& deviations) const {
-  return std::sqrt((lens_deviations(deviations).array().square() - 9.0).cwiseMax(0.0).mean());
 }
 
 double Ensemble::least_probability(const Eigen::VectorXd& z) const {

@@ -33,9 +33,6 @@ class Ensemble {
   /// How far the mean square deviation in each lens lies from a replica's, in spreads of its
   /// logarithm; negative where a lens sees less variety than the simulator has.
   Eigen::VectorXd lens_deviations(const Eigen::VectorXd& deviations) const;
-  /// Root mean square of the lens deviations beyond three spreads, 0 for a typical replica: the gap.
-  double gap(const Eigen::VectorXd& readings) const { return gap_of(deviations(readings)); }
-  double gap_of(const Eigen::VectorXd& deviations) const;
   /// Probability of a replica as far off. Of each lens, the lens deviation and the largest deviation
   /// are held against the replicas' own (normal and Gumbel by moments); the least of these
   /// probabilities is ranked among the replicas' own least ones, and beyond them goes on in

@@ -37,7 +37,8 @@ void align(const Conditions& conditions, std::vector<double>& heading) {
         square += rate[i] * rate[i];
       }
   if (square == 0.0) return;
-  const double lag = std::clamp(product / square, -conditions.interval_s(), conditions.interval_s());
+  const double lag = product / square;
+  if (std::abs(lag) > conditions.interval_s()) return;  // more than a misalignment
   for (std::size_t i = 0; i < heading.size(); ++i) heading[i] -= lag * rate[i];
 }
 

@@ -63,6 +63,7 @@ class Work {
   void attribute();
   void measure_shrinkage();
   void keep_bands();
+  void look_ahead();
 
   const DiagnosisOptions& options_;
   const DiagnosisProgress& progress_;
@@ -70,10 +71,11 @@ class Work {
   Evidence evidence_;
   Readings observed_;
   std::unique_ptr<Ensemble> train_, held_out_;
-  std::unique_ptr<Scoring> scoring_;
+  std::unique_ptr<Scoring> scoring_, held_out_scoring_;
   ReplicaReadings baseline_replicas_;
   LogScore baseline_score_;
   std::vector<Contender> added_;   ///< accepted, in order
+  std::vector<LogScore> held_out_scores_;  ///< of result_.causes, in their order
   Diagnosis result_;
   Clock::time_point since_ = Clock::now();
 };
@@ -124,6 +126,7 @@ void Work::localise() {
   held_out_ = std::make_unique<Ensemble>(simulator_.instrument(Part::held_out),
                                          baseline_replicas_[1], Eigen::MatrixXd());
   scoring_ = std::make_unique<Scoring>(*train_, observed_[0]);
+  held_out_scoring_ = std::make_unique<Scoring>(*held_out_, observed_[1]);
   baseline_score_ = scoring_->of(baseline_replicas_[0]);
 
   result_.p_before = train_->p_value(observed_[0]);
@@ -131,10 +134,19 @@ void Work::localise() {
   took("localisation");
 }
 
+/// Narrow-band noise is narrower than its frequency is high; beyond that it is Gauss-Markov noise.
+bool is_what_it_is_called(const Scenario& scenario) {
+  return std::none_of(scenario.effects.begin(), scenario.effects.end(), [](const auto& any) {
+    const auto* v = std::get_if<effects::Vibration>(&any);
+    return v != nullptr && v->bandwidth_hz > 0.5 * v->centre_hz;
+  });
+}
+
 Contender Work::judged(const std::string& effect, const Scenario& scenario, std::size_t replicas) {
   Contender c{.effect = effect, .scenario = scenario,
               .replicas = simulator_.ensemble(scenario, 0, replicas), .score = {}};
   c.score = scoring_->of(c.replicas[0]);
+  if (!is_what_it_is_called(scenario)) c.score.value -= 1e6;
   for (const auto& any : scenario.effects) c.parameters += free_parameters(any).size();
   return c;
 }
@@ -213,16 +225,18 @@ void Work::attribute() {
   for (const double s : scores) total += std::exp((s - best) / Scoring::temperature);
   for (std::size_t k = 0; k < ranked.size(); ++k) {
     const auto& c = ranked[k];
-    const Ensemble after(simulator_.instrument(Part::held_out), c.replicas[1], {});
     Cause cause{.effect = c.effect, .scenario = c.scenario,
                 .log_score = scores[k] - baseline_score_.value};
     cause.recovered = (c.score.value - baseline_score_.value) /
                       std::max(1e-9, c.score.expected - baseline_score_.value);
     cause.probability = std::exp((scores[k] - best) / Scoring::temperature) / total;
-    cause.gap_after = after.gap(observed_[1]);
     result_.causes.push_back(cause);
+    held_out_scores_.push_back(held_out_scoring_->of(c.replicas[1]));
   }
   added_.push_back(ranked.front());
+  const double by_chance = static_cast<double>(catalogue().size()) *
+                           std::exp(-(best - baseline_score_.value) / Scoring::temperature);
+  result_.p_before = std::min(result_.p_before, by_chance);
 
   // More effects, while the log score gains what a true cause would.
   while (static_cast<int>(added_.size()) < options_.most_effects) {
@@ -240,6 +254,7 @@ void Work::attribute() {
     cause.recovered = (c.score.value - last.score.value) / std::max(1e-9, c.score.expected - last.score.value);
     cause.probability = 1.0 - 1.0 / (1.0 + std::exp(std::min(50.0, gain / Scoring::temperature)));
     result_.causes.push_back(cause);
+    held_out_scores_.push_back(held_out_scoring_->of(c.replicas[1]));
   }
   result_.enriched = added_.back().scenario;
 
@@ -257,28 +272,27 @@ void Work::attribute() {
 
 void Work::measure_shrinkage() {
   const auto& instrument = simulator_.instrument(Part::held_out);
-  result_.gap_before = result_.gap_after = held_out_->gap(observed_[1]);
+  const auto before = held_out_scoring_->of(baseline_replicas_[1]);
+  const auto truth = added_.empty() ? before : held_out_scoring_->of(added_.back().replicas[1]);
+  result_.gap_before = result_.gap_after = gap_of(before, truth);
   result_.p_after = result_.p_before;
   result_.steps.push_back({"", result_.gap_before});
   const auto closed = [&](double to) {
     return result_.gap_before > 0.0 ? 1.0 - to / result_.gap_before : 0.0;
   };
-  for (const auto& c : added_) {
-    const Ensemble with(instrument, c.replicas[1], {});
-    result_.gap_after = with.gap(observed_[1]);
-    result_.steps.push_back({c.effect, result_.gap_after});
-    for (auto& cause : result_.causes)
-      if (cause.effect == c.effect) cause.gap_after = result_.gap_after;
+  for (std::size_t k = 0; k < result_.causes.size(); ++k) {
+    result_.causes[k].gap_after = gap_of(held_out_scores_[k], truth);
+    result_.causes[k].closed = closed(result_.causes[k].gap_after);
   }
-  for (auto& cause : result_.causes) cause.closed = closed(cause.gap_after);
   if (added_.empty()) return;
-  const auto& last = added_.back();
-  const Ensemble enriched(simulator_.instrument(Part::train), last.replicas[0], {});
+  for (const auto& c : added_)
+    result_.steps.push_back({c.effect, gap_of(held_out_scoring_->of(c.replicas[1]), truth)});
+  result_.gap_after = result_.steps.back().gap;
+  result_.closed = closed(result_.gap_after);
+  const Ensemble enriched(simulator_.instrument(Part::train), added_.back().replicas[0], {});
   result_.p_after = enriched.p_value(observed_[0]);
   result_.where_after = departures_of(enriched);
-  result_.closed = closed(result_.gap_after);
-  const auto interval = bootstrap_closed(instrument, *held_out_, Ensemble(instrument, last.replicas[1], {}),
-                                         observed_[1], options_.seed);
+  const auto interval = bootstrap_closed(instrument, before, truth, truth, options_.seed);
   result_.closed_low = interval[0];
   result_.closed_high = interval[1];
 }
@@ -305,6 +319,17 @@ void Work::keep_bands() {
   }
 }
 
+/// Only where the verdict does not stand alone.
+void Work::look_ahead() {
+  std::vector<const Cause*> rivals;
+  for (const auto& cause : result_.causes)
+    if (cause.scenario.effects.size() == 1 && cause.probability >= member_probability)
+      rivals.push_back(&cause);
+  if (rivals.size() < 2) return;
+  tell("looking for the next experiment", 0.95);
+  result_.next = next_experiment(rivals[0]->scenario, rivals[1]->scenario, result_.duration_s, options_.seed);
+}
+
 Diagnosis Work::run() {
   describe(evidence_.recording);
   localise();
@@ -312,6 +337,11 @@ Diagnosis Work::run() {
   measure_shrinkage();
   keep_bands();
   took("shrinkage");
+  tell("running the filters", 0.92);
+  result_.transfer = transfer(simulator_, evidence_.recording, result_.baseline, result_.enriched, 6);
+  took("transfer");
+  look_ahead();
+  took("next experiment");
   tell("done", 1.0);
   return std::move(result_);
 }

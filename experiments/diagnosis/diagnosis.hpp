@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "experiments/diagnosis/candidate.hpp"
+#include "experiments/diagnosis/next_experiment.hpp"
+#include "experiments/diagnosis/transfer.hpp"
 
 namespace gyrostat::gap {
 
@@ -65,6 +67,8 @@ struct Diagnosis {
   std::vector<std::string> verdict_set;
   std::vector<Step> steps;
   std::vector<Shortfall> not_assessable;
+  std::vector<Transfer> transfer;
+  NextExperiment next;           ///< empty where one cause stands alone
   std::vector<Band> bands;
   std::vector<std::pair<std::string, double>> screening;  ///< log scores at the starts
   std::vector<std::pair<std::string, double>> seconds;  ///< spent in each part of the work

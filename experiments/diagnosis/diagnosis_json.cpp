@@ -1,5 +1,7 @@
 #include "experiments/diagnosis/diagnosis_json.hpp"
 
+#include <cmath>
+
 #include "experiments/parameter_map.hpp"
 
 namespace gyrostat::gap {
@@ -13,6 +15,9 @@ Json parameters_json(const Effects::Any& effect) {
 }
 
 namespace {
+
+/// JSON has no NaN.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json departures_json(const std::vector<Where>& departures) {
   Json list = Json::array();
@@ -54,8 +59,33 @@ Json to_json(const Diagnosis& d) {
   for (const auto& n : d.not_assessable)
     json["not_assessable"].push_back({{"effect", n.effect}, {"why", n.why}});
   json["transfer"] = Json::array();
-  json["next_experiment"] = Json::object();
+  for (const auto& t : d.transfer)
+    json["transfer"].push_back({{"filter", t.filter}, {"metric", t.metric}, {"unit", t.unit},
+                                {"real", number(t.real)}, {"sim_before", number(t.before)},
+                                {"sim_after", number(t.after)}});
+  json["next_experiment"] = {{"what", d.next.what}, {"separates", Json::array({d.next.first, d.next.second})},
+                             {"expected_power", d.next.expected_power}};
   return json;
+}
+
+Json scenario_json(const Diagnosis& d) {
+  Json s;
+  s["duration_s"] = d.duration_s;
+  s["rate_hz"] = d.rate_hz;
+  const auto put = [](Json& into, const auto& p) {
+    for (const auto& field : p.fields()) into[std::string(field.name)] = p.*(field.member);
+  };
+  put(s["random_error"], d.enriched.random_error);
+  put(s["thermal_drift"], d.enriched.thermal_drift);
+  put(s["compass"], d.enriched.compass);
+  s["effects"] = Json::array();
+  for (const auto& any : d.enriched.effects) {
+    Json effect = {{"effect", Effects::id_of(any)}};
+    effect.update(parameters_json(any));
+    s["effects"].push_back(effect);
+  }
+  return {{"title", "A scenario that closes the gap of a recording"},
+          {"cells", Json::array({{{"name", "enriched"}, {"trials", 1000}, {"scenario", s}}})}};
 }
 
 }  // namespace gyrostat::gap

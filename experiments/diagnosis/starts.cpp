@@ -429,12 +429,16 @@ std::vector<Start> start(MagneticBursts, const Evidence& e) {
 }
 
 template <class E>
-constexpr bool deterministic =
-    std::is_same_v<E, RateRamp> || std::is_same_v<E, Sinusoidal> || std::is_same_v<E, ThermalCurvature> ||
+constexpr bool is_slow_signature =
+    std::is_same_v<E, RateRamp> || std::is_same_v<E, ThermalCurvature> ||
     std::is_same_v<E, ThermalHysteresis> || std::is_same_v<E, ThermalLag> ||
-    std::is_same_v<E, ScaleFactor> || std::is_same_v<E, ScaleAsymmetry> ||
+    std::is_same_v<E, GSensitivity>;
+
+template <class E>
+constexpr bool deterministic = is_slow_signature<E> ||
+    std::is_same_v<E, Sinusoidal> || std::is_same_v<E, ScaleFactor> || std::is_same_v<E, ScaleAsymmetry> ||
     std::is_same_v<E, SensorBandwidth> || std::is_same_v<E, Saturation> ||
-    std::is_same_v<E, DeadZone> || std::is_same_v<E, GSensitivity> || std::is_same_v<E, HardIron> ||
+    std::is_same_v<E, DeadZone> || std::is_same_v<E, HardIron> ||
     std::is_same_v<E, SoftIron> || std::is_same_v<E, CompassLag>;
 
 }  // namespace
@@ -448,11 +452,13 @@ double Evidence::seconds_of_train() const {
 
 std::vector<Start> starts(const Effects::Any& effect, const Evidence& evidence) {
   return std::visit([&](const auto& any) {
-    auto found = start(any, evidence);
-    if (!is_deterministic(effect) || found.empty()) return found;
-    // The effect inflated the random error that its signature was weighed by: once more without.
+    if (!is_slow_signature<std::decay_t<decltype(any)>>) return start(any, evidence);
+    // The effect itself inflated the random walk of the baseline: first as if there were none, then
+    // with what is left without the effect.
     Evidence cleaner = evidence;
-    cleaner.baseline.random_error = found.front().rest.random_error;
+    cleaner.baseline.random_error.delta1_dps = cleaner.baseline.random_error.delta2_dps = 0.0;
+    for (int pass = 0; pass < 2; ++pass)
+      cleaner.baseline.random_error = start(any, cleaner).front().rest.random_error;
     return start(any, cleaner);
   }, effect);
 }
