@@ -177,11 +177,11 @@ Series on_grid(const Series& series, std::string_view place) {
   for (std::size_t i = 1; i < n; ++i) {
     const double steps = (series.t_s[i] - series.t_s[i - 1]) / step;
     const double whole = std::round(steps);
-    if (whole < 1.0 || std::abs(steps - whole) > 0.1 * whole)
+    if (whole < 1.0 || std::abs(steps - whole) > 0.3)
       throw InputError(std::string(place) + " line " + std::to_string(i + 2),
                        "t_s = " + std::to_string(series.t_s[i]) + " s: sampled unevenly, " +
                            std::to_string(steps) + " intervals of " + std::to_string(step) +
-                           " s after the sample before it; a whole number within 10 % is allowed");
+                           " s after the sample before it; a whole number, give or take 0.3, is allowed");
     index[i] = index[i - 1] + static_cast<std::size_t>(whole);
   }
   const std::size_t size = index.back() + 1;

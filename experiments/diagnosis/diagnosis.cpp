@@ -239,7 +239,8 @@ void Work::attribute() {
   result_.p_before = std::min(result_.p_before, by_chance);
 
   // More effects, while the log score gains what a true cause would.
-  while (static_cast<int>(added_.size()) < options_.most_effects) {
+  const int most = result_.samples <= 200'000 ? options_.most_effects : std::min(options_.most_effects, 2);
+  while (static_cast<int>(added_.size()) < most) {
     const auto& last = added_.back();
     if (last.score.deficit() < 4.0) break;
     std::vector<std::string> taken;
@@ -248,7 +249,7 @@ void Work::attribute() {
     if (next.empty()) break;
     const auto& c = next.front();
     const double gain = c.score.value - last.score.value - c.score.penalty(c.parameters - last.parameters);
-    if (gain < std::max(6.0, 0.3 * (last.score.expected - last.score.value))) break;
+    if (gain < std::max(needed_gain, 0.12 * (last.score.expected - last.score.value))) break;
     added_.push_back(c);
     Cause cause{.effect = c.effect, .scenario = c.scenario, .log_score = gain};
     cause.recovered = (c.score.value - last.score.value) / std::max(1e-9, c.score.expected - last.score.value);

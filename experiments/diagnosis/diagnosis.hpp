@@ -17,7 +17,7 @@ struct DiagnosisOptions {
   std::size_t baseline_replicas = 100;
   std::size_t candidate_replicas = 32;
   std::size_t shortlist = 5;
-  int most_effects = 2;
+  int most_effects = 4;  ///< at most 2 beyond 200,000 samples, for the time it takes
   double significance = 0.01;
 };
 
