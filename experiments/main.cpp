@@ -56,6 +56,8 @@ int main(int argc, char** argv) {
   cli::add_match(program, console, exit_code);
   cli::add_ledger(program, console, exit_code);
   cli::add_publish(program, console, exit_code);
+  cli::add_diagnose(program, console, exit_code);
+  cli::add_blind_check(program, console, exit_code);
   cli::add_list(program, console, exit_code);
   cli::add_validate(program, console, exit_code);
 

@@ -213,6 +213,8 @@ Scenario read_scenario(JsonObject object, const std::string& folder) {
   }
   if (auto motion = object.child("motion"))
     scenario.motion = read_plugin<Motions>(*motion, "profile", "profile");
+  if (auto acceleration = object.child("acceleration"))
+    scenario.acceleration = read_plugin<Accelerations>(*acceleration, "profile", "profile");
   if (auto compass = object.child("compass")) scenario.compass = read_compass(*compass);
   for (const auto& [value, place] : object.list("effects"))
     scenario.effects.push_back(read_plugin<Effects>({*value, place}, "effect", "effect"));

@@ -1,6 +1,8 @@
 #include "generators/scenario.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 
 #include "generators/random_error.hpp"
@@ -16,6 +18,10 @@ void apply_stage(Stage stage, const Scenario& scenario, const Noise& noise, Seri
 
 void linear_drift(const ThermalDrift<double>& drift, Series& series) {
   const auto& T = series.temperature_C;
+  if (T.empty()) {
+    series.thermal_bias_dps.assign(series.size(), drift.c_dps);
+    return;
+  }
   series.thermal_bias_dps.resize(series.size());
   for (std::size_t i = 0; i < series.size(); ++i) {
     const std::size_t from = i == 0 ? 0 : i - 1;
@@ -25,6 +31,61 @@ void linear_drift(const ThermalDrift<double>& drift, Series& series) {
         drift.a_dps_per_C * T[i] + drift.b_dps_s_per_C * slope + drift.c_dps;
   }
 }
+
+/// From the conditions in `series` to its gyro.
+void measure_rate(const Scenario& scenario, const Noise& noise, Series& series) {
+  linear_drift(scenario.thermal_drift, series);
+  apply_stage(Stage::sensing, scenario, noise, series);
+
+  series.random_error_dps.assign(series.size(), 0.0);
+  add_random_error(scenario.random_error, noise, series.random_error_dps);
+  series.gyro_dps.resize(series.size());
+  for (std::size_t i = 0; i < series.size(); ++i)
+    series.gyro_dps[i] =
+        series.rate_ref_dps[i] + series.thermal_bias_dps[i] + series.random_error_dps[i];
+  add_white_noise(scenario.random_error.measurement_noise_std_dps, noise.stream("white_noise"),
+                  series.gyro_dps);
+  for (const auto stage : {Stage::noise, Stage::electronics, Stage::conversion, Stage::transport})
+    apply_stage(stage, scenario, noise, series);
+}
+
+void measure_heading(const Compass& compass, const Scenario& scenario, const Noise& noise,
+                     Series& series) {
+  compass.turn(series);
+  apply_stage(Stage::compass, scenario, noise, series);
+  compass.read(series, noise);
+}
+
+template <class Profile>
+void accelerate(const Profile& profile, Series& series) {
+  for (const double t : series.t_s) {
+    const auto [x, y, z] = profile(t);
+    series.acc_x_mps2.push_back(x);
+    series.acc_y_mps2.push_back(y);
+    series.acc_z_mps2.push_back(z);
+  }
+}
+
+/// `values` with each missing sample replaced by the one before it, or by the first that there is.
+/// Empty if there is none.
+std::vector<double> without_gaps(const std::vector<double>& values) {
+  const auto is_there = [](double value) { return !std::isnan(value); };
+  const auto first = std::find_if(values.begin(), values.end(), is_there);
+  if (first == values.end()) return {};
+  auto held = values;
+  double last = *first;
+  for (double& value : held) value = last = is_there(value) ? value : last;
+  return held;
+}
+
+void copy_gaps(const std::vector<double>& from, std::vector<double>& to) {
+  for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i)
+    if (std::isnan(from[i])) to[i] = no_value;
+}
+
+/// The channels of a recording that errors are computed from.
+constexpr std::array influences = {&Series::temperature_C, &Series::rate_ref_dps,
+                                   &Series::acc_x_mps2, &Series::acc_y_mps2, &Series::acc_z_mps2};
 
 }  // namespace
 
@@ -46,25 +107,49 @@ void synthesise(const Scenario& scenario, const Noise& noise, Series& series) {
   };
   over_time(scenario.temperature, series.temperature_C);
   over_time(scenario.motion, series.rate_ref_dps);
+  if (scenario.acceleration)
+    std::visit([&](const auto& profile) { accelerate(profile, series); }, *scenario.acceleration);
   apply_stage(Stage::environment, scenario, noise, series);
 
-  linear_drift(scenario.thermal_drift, series);
-  apply_stage(Stage::sensing, scenario, noise, series);
+  measure_rate(scenario, noise, series);
+  measure_heading(scenario.compass, scenario, noise, series);
+}
 
-  series.random_error_dps.assign(samples, 0.0);
-  add_random_error(scenario.random_error, noise, series.random_error_dps);
-  series.gyro_dps.resize(samples);
-  for (std::size_t i = 0; i < samples; ++i)
-    series.gyro_dps[i] =
-        series.rate_ref_dps[i] + series.thermal_bias_dps[i] + series.random_error_dps[i];
-  add_white_noise(scenario.random_error.measurement_noise_std_dps, noise.stream("white_noise"),
-                  series.gyro_dps);
-  apply_stage(Stage::electronics, scenario, noise, series);
-  apply_stage(Stage::conversion, scenario, noise, series);
-  apply_stage(Stage::transport, scenario, noise, series);
+void synthesise_rate_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
+                           Series& series) {
+  assert(&conditions != &series);
+  series.clear();
+  series.t_s = conditions.t_s;
+  for (const auto channel : influences) series.*channel = without_gaps(conditions.*channel);
+  series.rate_ref_dps.resize(series.size(), 0.0);
+  measure_rate(scenario, noise, series);
+  copy_gaps(conditions.gyro_dps, series.gyro_dps);
+  for (const auto channel : influences) copy_gaps(conditions.*channel, series.*channel);
+}
 
-  scenario.compass.observe(series, noise);
-  apply_stage(Stage::compass, scenario, noise, series);
+void synthesise_heading_under(const Scenario& scenario, const Series& conditions,
+                              const Noise& noise, Series& series) {
+  assert(&conditions != &series);
+  series.clear();
+  series.mag_valid = conditions.mag_valid;
+  if (conditions.heading_deg.empty()) return;
+  series.t_s = conditions.t_s;
+  series.rate_ref_dps = without_gaps(conditions.rate_ref_dps);
+  series.rate_ref_dps.resize(series.size(), 0.0);
+  auto undisturbed = scenario.compass;
+  undisturbed.disturbances.clear();
+  measure_heading(undisturbed, scenario, noise, series);
+  series.mag_valid = conditions.mag_valid;
+  copy_gaps(conditions.heading_deg, series.heading_deg);
+}
+
+void synthesise_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
+                      Series& series) {
+  Series heading;
+  synthesise_heading_under(scenario, conditions, noise, heading);
+  synthesise_rate_under(scenario, conditions, noise, series);
+  series.heading_deg = std::move(heading.heading_deg);
+  series.mag_valid = std::move(heading.mag_valid);
 }
 
 }  // namespace gyrostat

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/models/arima111.hpp"
 #include "core/models/thermal.hpp"
 #include "generators/effects/list.hpp"
+#include "generators/environment/acceleration/list.hpp"
 #include "generators/environment/magnetic/compass.hpp"
 #include "generators/environment/motion/list.hpp"
 #include "generators/environment/temperature/list.hpp"
@@ -34,6 +36,7 @@ struct Scenario {
   ThermalDrift<double> thermal_drift;
   Temperatures::Any temperature = temperature::QuietRoom{};
   Motions::Any motion = motion::Stationary{};
+  std::optional<Accelerations::Any> acceleration;  ///< none: no accelerometer, acc channels empty
   Compass compass;
   std::vector<Effects::Any> effects;
 };
@@ -42,5 +45,19 @@ struct Scenario {
 ///   gyro = rate_ref + thermal_bias + random_error + white noise,
 /// altered by each effect at its stage. T' of the linear drift is the derivative between samples.
 void synthesise(const Scenario& scenario, const Noise& noise, Series& series);
+
+/// The errors of `scenario` under the conditions of a recording: its times, even or not, temperature,
+/// rate (0 where it has none), acceleration, mag_valid, and its gaps in gyro and heading. The
+/// scenario's sampling, profiles, effects on the environment and magnetic disturbances play no part.
+/// Missing temperatures, rates and accelerations are held while errors are computed from them;
+/// without temperature the drift is c alone. `series` is another than `conditions`.
+void synthesise_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
+                      Series& series);
+
+/// Its gyro alone, and its heading alone: the same bits.
+void synthesise_rate_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
+                           Series& series);
+void synthesise_heading_under(const Scenario& scenario, const Series& conditions,
+                              const Noise& noise, Series& series);
 
 }  // namespace gyrostat

@@ -88,6 +88,7 @@ int run(const ListArguments& arguments, Console& console) {
   const std::vector<std::pair<std::string, Json>> kinds = {
       {"filters", plugins<Filters>()},   {"effects", plugins<Effects>()},
       {"temperatures", plugins<Temperatures>()}, {"motions", plugins<Motions>()},
+      {"accelerations", plugins<Accelerations>()},
       {"metrics", plugins<Metrics>()},   {"studies", studies(arguments.studies, arguments.studies != default_studies)}};
   std::vector<std::string> names = {"all"};
   Json chosen;
@@ -108,7 +109,7 @@ int run(const ListArguments& arguments, Console& console) {
 
 void add_list(CLI::App& program, Console& console, int& exit_code) {
   auto* verb = program.add_subcommand(
-      "list", "what there is: filters, effects, temperatures, motions, metrics, studies");
+      "list", "what there is: filters, effects, temperatures, motions, accelerations, metrics, studies");
   auto arguments = std::make_shared<ListArguments>();
   verb->add_option("kind", arguments->kind, "one of these kinds, or all")->capture_default_str();
   verb->add_option("--studies", arguments->studies, "folder of studies")->capture_default_str();

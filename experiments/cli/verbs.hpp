@@ -26,6 +26,8 @@ void add_allan(CLI::App& program, Console& console, int& exit_code);
 void add_match(CLI::App& program, Console& console, int& exit_code);
 void add_ledger(CLI::App& program, Console& console, int& exit_code);
 void add_publish(CLI::App& program, Console& console, int& exit_code);
+void add_diagnose(CLI::App& program, Console& console, int& exit_code);
+void add_blind_check(CLI::App& program, Console& console, int& exit_code);
 void add_list(CLI::App& program, Console& console, int& exit_code);
 void add_validate(CLI::App& program, Console& console, int& exit_code);
 

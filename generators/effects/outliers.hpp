@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
@@ -15,6 +18,7 @@ struct Outliers {
 
   static constexpr std::string_view title = "occasional gross errors";
   static constexpr Stage stage = Stage::electronics;
+  static constexpr std::array needs = {&Series::gyro_dps};
 
   static constexpr auto fields() {
     using P = Outliers;
@@ -26,10 +30,12 @@ struct Outliers {
     };
   }
 
+  static constexpr Outliers absent() { return {.probability = 0.0}; }
+
   void apply(Series& series, const Noise& noise) const {
     const auto chance = noise.stream("outliers/chance");
     const auto size = noise.stream("outliers/size");
-    for (std::size_t i = 0; i < series.size(); ++i)
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i)
       if (chance.uniform(i) < probability) series.gyro_dps[i] += std_dps * size.normal(i);
   }
 };

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
@@ -14,6 +17,7 @@ struct ThermalCurvature {
 
   static constexpr std::string_view title = "bias curves with temperature";
   static constexpr Stage stage = Stage::sensing;
+  static constexpr std::array needs = {&Series::temperature_C, &Series::thermal_bias_dps};
 
   static constexpr auto fields() {
     using P = ThermalCurvature;
@@ -24,8 +28,10 @@ struct ThermalCurvature {
     };
   }
 
+  static constexpr ThermalCurvature absent() { return {.curvature_dps_per_C2 = 0.0}; }
+
   void apply(Series& series, const Noise& /*noise*/) const {
-    for (std::size_t i = 0; i < series.size(); ++i) {
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
       const double difference = series.temperature_C[i] - reference_C;
       series.thermal_bias_dps[i] += curvature_dps_per_C2 * difference * difference;
     }

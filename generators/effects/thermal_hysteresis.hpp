@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/series.hpp"
+#include "generators/sampled.hpp"
 #include "generators/stage.hpp"
 
 namespace gyrostat::effects {
@@ -19,6 +21,7 @@ struct ThermalHysteresis {
 
   static constexpr std::string_view title = "bias depends on the direction of temperature";
   static constexpr Stage stage = Stage::sensing;
+  static constexpr std::array needs = {&Series::temperature_C, &Series::thermal_bias_dps};
 
   static constexpr auto fields() {
     using P = ThermalHysteresis;
@@ -30,9 +33,12 @@ struct ThermalHysteresis {
     };
   }
 
+  static constexpr ThermalHysteresis absent() { return {.amplitude_dps = 0.0}; }
+
   void apply(Series& series, const Noise& /*noise*/) const {
+    if (series.temperature_C.empty()) return;
     double play_C = series.temperature_C.empty() ? 0.0 : series.temperature_C.front();
-    for (std::size_t i = 0; i < series.size(); ++i) {
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
       const double T = series.temperature_C[i];
       play_C = std::clamp(play_C, T - width_C, T + width_C);
       series.thermal_bias_dps[i] += amplitude_dps * (T - play_C) / width_C;

@@ -1,7 +1,9 @@
 #include "generators/effects/list.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -57,42 +59,167 @@ bool same_bits(const Series& a, const Series& b) {
   return true;
 }
 
-bool is_strength(std::string_view name) {
-  for (const auto word : {"amplitude", "curvature", "probability", "std", "strength", "gain", "offset"})
-    if (name.find(word) != std::string_view::npos) return true;
-  return false;
+/// The channel that a stage's effects may change.
+std::vector<double> Series::*channel_of(Stage stage) {
+  if (stage == Stage::sensing) return &Series::thermal_bias_dps;
+  return stage == Stage::compass ? &Series::heading_deg : &Series::gyro_dps;
+}
+
+/// Its changes add up with those of its like.
+bool is_additive(Stage stage) { return stage == Stage::sensing || stage == Stage::electronics; }
+
+/// An hour with all channels: warming, tilting, and turning at small, middling and large rates.
+Series rich_conditions() {
+  Series conditions;
+  const acceleration::Tilting tilting;
+  constexpr std::array rates = {0.2, 0.0, -0.2, 20.0, -20.0, 150.0, -150.0, 0.0};
+  for (std::size_t i = 0; i < 36000; ++i) {
+    const double t = 0.1 * static_cast<double>(i);
+    conditions.t_s.push_back(t);
+    conditions.temperature_C.push_back(20.0 + 40.0 * t / 3600.0);
+    conditions.rate_ref_dps.push_back(rates[i / 100 % rates.size()]);
+    const auto [x, y, z] = tilting(t);
+    conditions.acc_x_mps2.push_back(x);
+    conditions.acc_y_mps2.push_back(y);
+    conditions.acc_z_mps2.push_back(z);
+  }
+  conditions.heading_deg.resize(conditions.size());
+  conditions.mag_valid.resize(conditions.size(), 1.0);
+  return conditions;
+}
+
+Series under(const Series& conditions, const std::vector<Effects::Any>& effects) {
+  Scenario scenario;
+  scenario.thermal_drift = {.a_dps_per_C = 0.002, .b_dps_s_per_C = 0.3, .c_dps = -0.05};
+  scenario.effects = effects;
+  Series series;
+  synthesise_under(scenario, conditions, {1, 0}, series);
+  return series;
+}
+
+/// A signal without effects, with every channel.
+const Series& plain() {
+  static const Series series = under(rich_conditions(), {});
+  return series;
 }
 
 template <class Effect>
-Effect of_no_strength() {
-  Effect effect;
-  for (const auto& field : effect.fields())
-    if (is_strength(field.name)) effect.*(field.member) = 0.0;
-  return effect;
+Series applied(const Effect& effect, Series series, const Noise& noise = {1, 0}) {
+  effect.apply(series, noise);
+  return series;
 }
 
-/// At zero every strength is inside its range.
-TYPED_TEST(EffectContract, HasAStrengthThatMayBeZero) {
-  int strengths = 0;
-  for (const auto& field : TypeParam::type::fields()) {
-    if (!is_strength(field.name)) continue;
-    ++strengths;
-    EXPECT_TRUE(field.range.contains(0.0)) << field.name;
+bool all_finite(const Series& series) {
+  return std::all_of(channels.begin(), channels.end(), [&](const Channel& channel) {
+    const auto& values = series.*channel.values;
+    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  });
+}
+
+TYPED_TEST(EffectContract, AbsentItChangesNothing) {
+  constexpr auto absent = TypeParam::type::absent();
+  EXPECT_TRUE(same_bits(applied(absent, plain()), plain()));
+  EXPECT_TRUE(same_bits(under(rich_conditions(), {absent}), plain()));
+  EXPECT_TRUE(same_bits(with({absent}), with({})));
+}
+
+TYPED_TEST(EffectContract, AbsentItIsWithinItsRanges) {
+  constexpr auto absent = TypeParam::type::absent();
+  for (const auto& field : absent.fields())
+    EXPECT_TRUE(field.range.contains(absent.*(field.member))) << field.name;
+}
+
+TYPED_TEST(EffectContract, AtItsDefaultsChangesTheChannelOfItsStageAndNoOther) {
+  const typename TypeParam::type effect;
+  const auto after = applied(effect, plain());
+  for (const auto& channel : channels)
+    EXPECT_EQ(same_bits(after.*channel.values, plain().*channel.values),
+              channel.values != channel_of(effect.stage))
+        << channel.name;
+}
+
+TYPED_TEST(EffectContract, AtItsDefaultsShowsInTheScenario) {
+  const auto& before = plain();
+  const auto after = under(rich_conditions(), {typename TypeParam::type{}});
+  const auto stage = TypeParam::type::stage;
+  const auto seen = stage == Stage::compass ? &Series::heading_deg : &Series::gyro_dps;
+  EXPECT_FALSE(same_bits(after.*seen, before.*seen));
+}
+
+TYPED_TEST(EffectContract, IsFiniteWhateverItsRangesAllow) {
+  const typename TypeParam::type defaults;
+  EXPECT_TRUE(all_finite(applied(defaults, plain())));
+  for (const auto& field : defaults.fields()) {
+    for (const double factor : {0.01, 0.5, 2.0, 100.0}) {
+      auto effect = defaults;
+      effect.*(field.member) *= factor;
+      if (!field.range.contains(effect.*(field.member))) continue;
+      EXPECT_TRUE(all_finite(applied(effect, plain()))) << field.name << " times " << factor;
+    }
+    if (!field.range.contains(0.0)) continue;
+    auto effect = defaults;
+    effect.*(field.member) = 0.0;
+    EXPECT_TRUE(all_finite(applied(effect, plain()))) << field.name << " = 0";
   }
-  EXPECT_GT(strengths, 0);
 }
 
-TYPED_TEST(EffectContract, OfNoStrengthChangesNothing) {
-  const auto none = of_no_strength<typename TypeParam::type>();
-  EXPECT_TRUE(same_bits(with({none}), with({})));
+TYPED_TEST(EffectContract, AloneWithOneSampleOrNoneIsFinite) {
+  for (const std::size_t samples : {0, 1, 2})
+    EXPECT_TRUE(all_finite(applied(typename TypeParam::type{}, plain().slice(0, samples)))) << samples;
 }
 
-TYPED_TEST(EffectContract, AtItsDefaultsChangesSomething) {
-  EXPECT_FALSE(same_bits(with({typename TypeParam::type{}}), with({})));
+TYPED_TEST(EffectContract, WithoutAChannelThatItNeedsChangesNothing) {
+  const typename TypeParam::type effect;
+  for (const auto channel : effect.needs) {
+    auto series = plain();
+    (series.*channel).clear();
+    EXPECT_TRUE(same_bits(applied(effect, series), series));
+  }
 }
 
-/// The random error is what it was to the bit; the gyro has changed by the effect alone, wherever
-/// other effects stand beside it.
+TYPED_TEST(EffectContract, NeedsNoOtherChannel) {
+  const typename TypeParam::type effect;
+  auto series = plain();
+  for (const auto& channel : channels) {
+    const auto is_needed = [&](auto needed) { return needed == channel.values; };
+    if (std::none_of(effect.needs.begin(), effect.needs.end(), is_needed) && channel.name != "t_s")
+      (series.*channel.values).clear();
+  }
+  const auto changed = channel_of(effect.stage);
+  EXPECT_TRUE(same_bits(applied(effect, series).*changed, applied(effect, plain()).*changed));
+}
+
+/// In a recording with gaps every sample that the recording has is finite.
+TYPED_TEST(EffectContract, BridgesTheGapsOfARecording) {
+  auto conditions = rich_conditions();
+  conditions.gyro_dps.resize(conditions.size());
+  for (const auto& channel : channels) {
+    auto& values = conditions.*channel.values;
+    for (std::size_t i = 0; channel.name != "t_s" && i < values.size(); ++i)
+      if (i % 1000 < 7) values[i] = no_value;
+  }
+  const auto series = under(conditions, {typename TypeParam::type{}});
+  for (const auto& channel : {&Series::gyro_dps, &Series::heading_deg})
+    for (std::size_t i = 0; i < series.size(); ++i)
+      ASSERT_EQ(std::isfinite((series.*channel)[i]), i % 1000 >= 7) << i;
+}
+
+TYPED_TEST(EffectContract, AppliedToAGapDoesNotFail) {
+  const typename TypeParam::type effect;
+  auto series = plain();
+  for (const auto channel : effect.needs) (series.*channel)[100] = no_value;
+  EXPECT_TRUE(same_bits(applied(effect, series), applied(effect, series)));
+}
+
+TYPED_TEST(EffectContract, TakesUnevenTimes) {
+  auto series = plain();
+  for (std::size_t i = 0; i < series.size(); ++i)
+    series.t_s[i] = 1.7e9 + 0.1 * (static_cast<double>(i) + (i % 3 == 1 ? 0.4 : 0.0)) + (i > 9000 ? 500.0 : 0.0);
+  EXPECT_TRUE(all_finite(applied(typename TypeParam::type{}, series)));
+}
+
+/// The random error is what it was to the bit, and what each effect adds is the same wherever other
+/// effects stand beside it.
 TYPED_TEST(EffectContract, MovesNoDrawOfAnythingElse) {
   const typename TypeParam::type effect;
   Effects::for_each([&](auto plugin) {
@@ -100,6 +227,10 @@ TYPED_TEST(EffectContract, MovesNoDrawOfAnythingElse) {
     const typename decltype(plugin)::type other;
     const auto neither = with({}), one = with({effect}), two = with({other}), both = with({other, effect});
     EXPECT_TRUE(same_bits(neither.random_error_dps, both.random_error_dps)) << plugin.id;
+    EXPECT_TRUE(same_bits(neither.rate_ref_dps, both.rate_ref_dps)) << plugin.id;
+    EXPECT_TRUE(same_bits(neither.temperature_C, both.temperature_C)) << plugin.id;
+    EXPECT_TRUE(same_bits(neither.mag_valid, both.mag_valid)) << plugin.id;
+    if (!is_additive(effect.stage) || !is_additive(other.stage)) return;
     EXPECT_TRUE(same_bits(neither.heading_deg, both.heading_deg)) << plugin.id;
     for (std::size_t i = 0; i < neither.size(); ++i)
       ASSERT_NEAR(both.gyro_dps[i] - two.gyro_dps[i], one.gyro_dps[i] - neither.gyro_dps[i], 1e-12)
@@ -111,6 +242,7 @@ TYPED_TEST(EffectContract, TheOrderOfEffectsOfOneStageDoesNotChangeTheirSum) {
   const typename TypeParam::type effect;
   Effects::for_each([&](auto plugin) {
     const typename decltype(plugin)::type other;
+    if (!is_additive(effect.stage) || !is_additive(other.stage)) return;
     const auto a = with({effect, other}), b = with({other, effect});
     for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a.gyro_dps[i], b.gyro_dps[i], 1e-12);
   });

@@ -81,6 +81,7 @@ TEST(ParameterContract, AParameterOfOneNameHasOneUnitRangeAndMeaning) {
 
 TEST(ParameterContract, EffectsAreWellDescribed) { check_plugins<Effects>(); }
 TEST(ParameterContract, TemperaturesAreWellDescribed) { check_plugins<Temperatures>(); }
+TEST(ParameterContract, AccelerationsAreWellDescribed) { check_plugins<Accelerations>(); }
 TEST(ParameterContract, MotionsAreWellDescribed) { check_plugins<Motions>(); }
 
 TEST(ParameterContract, ScenarioPartsAreWellDescribed) {
@@ -101,8 +102,8 @@ TEST(ParameterContract, MetricsHaveTitleAndUnit) {
 }
 
 TEST(ParameterContract, IdsAreUniqueAndReadAsFileStems) {
-  for (const auto& ids :
-       {Filters::ids(), Effects::ids(), Temperatures::ids(), Motions::ids(), Metrics::ids()}) {
+  for (const auto& ids : {Filters::ids(), Effects::ids(), Temperatures::ids(), Motions::ids(),
+                          Accelerations::ids(), Metrics::ids()}) {
     EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), ids.size());
     for (const auto& id : ids)
       EXPECT_EQ(id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"), std::string::npos);

@@ -460,7 +460,7 @@ TEST(List, EveryDefaultCanBeWrittenIntoAConfig) {
 TEST(List, WithoutArgumentsNamesEveryKindAndPlugin) {
   const TestFolder folder;
   const auto out = run_well(folder, {"list"}).out;
-  for (const char* kind : {"filters", "effects", "temperatures", "motions", "metrics", "studies"})
+  for (const char* kind : {"filters", "effects", "temperatures", "motions", "accelerations", "metrics", "studies"})
     EXPECT_THAT(lines_of(out), testing::Contains(kind));
   for (const auto& ids : {Filters::ids(), Effects::ids(), Metrics::ids()}) {
     for (const auto& id : ids) EXPECT_THAT(out, HasSubstr("  " + id + " "));
@@ -469,7 +469,7 @@ TEST(List, WithoutArgumentsNamesEveryKindAndPlugin) {
 
 TEST(List, EveryKindIsJsonOnRequest) {
   const TestFolder folder;
-  for (const char* kind : {"effects", "temperatures", "motions", "metrics", "studies"})
+  for (const char* kind : {"effects", "temperatures", "motions", "accelerations", "metrics", "studies"})
     EXPECT_TRUE(Json::parse(run_well(folder, {"list", kind, "--json"}).out).is_array()) << kind;
 }
 

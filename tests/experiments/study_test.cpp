@@ -75,6 +75,11 @@ TEST(Study, EveryPluginCanBeChosenByItsName) {
         study_of(R"({"cells": [{"scenario": {"motion": {"profile": ")" + id + R"("}}}]})");
     EXPECT_EQ(Motions::id_of(study.cells[0].scenario.motion), id);
   }
+  for (const auto& id : Accelerations::ids()) {
+    const auto study =
+        study_of(R"({"cells": [{"scenario": {"acceleration": {"profile": ")" + id + R"("}}}]})");
+    EXPECT_EQ(Accelerations::id_of(study.cells[0].scenario.acceleration.value()), id);
+  }
 }
 
 // ---------------------------------------------------------------- from_recording

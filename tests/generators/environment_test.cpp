@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "generators/environment/acceleration/list.hpp"
 #include "generators/environment/magnetic/compass.hpp"
 #include "generators/environment/motion/list.hpp"
 #include "generators/environment/temperature/list.hpp"
@@ -114,6 +115,27 @@ TEST(Sinusoidal, SwingsAboutZero) {
   EXPECT_NEAR(turn(table, 1000, 100.0), 0.0, 1e-9);
   EXPECT_DOUBLE_EQ(table(2.5), 10.0);
   EXPECT_DOUBLE_EQ(table(7.5), -10.0);
+}
+
+TEST(Level, IsGravityOnTheZAxis) {
+  EXPECT_EQ(acceleration::Level{}(12.0), (std::array{0.0, 0.0, 9.80665}));
+}
+
+TEST(Tilting, TurnsGravityAndKeepsItsSize) {
+  const acceleration::Tilting tilting{.roll_amplitude_deg = 90.0, .roll_period_s = 40.0,
+                                      .pitch_amplitude_deg = 30.0, .pitch_period_s = 80.0};
+  const auto level = tilting(0.0);
+  EXPECT_NEAR(level[2], 9.80665, 1e-12);
+  for (const double t : {3.0, 10.0, 17.0, 55.0}) {
+    const auto [x, y, z] = tilting(t);
+    EXPECT_NEAR(std::sqrt(x * x + y * y + z * z), 9.80665, 1e-12);
+  }
+  const auto [x, y, z] = tilting(20.0);  // roll is back at 0, pitch at its largest
+  EXPECT_NEAR(x, -0.5 * 9.80665, 1e-12);
+  EXPECT_NEAR(y, 0.0, 1e-12);
+  EXPECT_NEAR(tilting(10.0)[2], 0.0, 1e-12);  // on its side
+  EXPECT_GT(tilting(10.0)[1], 0.0);
+  EXPECT_GT(z, 0.0);
 }
 
 TEST(Stationary, DoesNotTurn) { EXPECT_EQ(turn(motion::Stationary{}, 1000, 100.0), 0.0); }

@@ -142,5 +142,92 @@ TEST(Synthesise, TheWhiteNoiseIsTheSameAtAnyStrength) {
     EXPECT_NEAR(thrice[i] - none[i], 3.0 * (once[i] - none[i]), 1e-12);
 }
 
+TEST(Synthesise, HasNoAccelerometerUnlessAsked) {
+  auto scenario = busy();
+  EXPECT_TRUE(synthesised(scenario).acc_x_mps2.empty());
+  scenario.acceleration = acceleration::Tilting{};
+  const auto series = synthesised(scenario);
+  EXPECT_EQ(series.acc_x_mps2.size(), series.size());
+  EXPECT_EQ(series.acc_z_mps2.size(), series.size());
+  scenario.acceleration.reset();
+  EXPECT_EQ(bits_of(series.gyro_dps), bits_of(synthesised(scenario).gyro_dps));
+}
+
+Series synthesised_under(const Scenario& scenario, const Series& conditions, const Noise& noise = {1, 0}) {
+  Series series;
+  synthesise_under(scenario, conditions, noise, series);
+  return series;
+}
+
+TEST(SynthesiseUnder, ItsOwnConditionsIsTheSameSignal) {
+  auto scenario = busy();
+  scenario.compass.disturbances.clear();
+  scenario.acceleration = acceleration::Tilting{};
+  const auto series = synthesised(scenario);
+  EXPECT_TRUE(same_bits(synthesised_under(scenario, series), series));
+}
+
+TEST(SynthesiseUnder, AnothersSamplingAndProfilesPlayNoPart) {
+  const auto conditions = synthesised(busy());
+  auto other = busy();
+  other.sampling = {.duration_s = 5.0, .rate_hz = 1.0};
+  other.temperature = temperature::QuietRoom{};
+  other.motion = motion::Stationary{};
+  other.acceleration = acceleration::Level{};
+  other.compass.disturbances.clear();
+  EXPECT_TRUE(same_bits(synthesised_under(other, conditions), synthesised_under(busy(), conditions)));
+}
+
+TEST(SynthesiseUnder, UnevenTimesSlopeAndHeadingGoByTheIntervals) {
+  Scenario scenario;
+  scenario.random_error = {.phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.0};
+  scenario.thermal_drift = {.a_dps_per_C = 0.5, .b_dps_s_per_C = 2.0, .c_dps = 1.0};
+  scenario.compass = {.noise_std_deg = 0.0, .initial_heading_deg = 90.0, .disturbances = {}};
+  Series conditions;
+  conditions.t_s = {100.0, 101.0, 105.0};
+  conditions.temperature_C = {20.0, 21.0, 29.0};
+  conditions.rate_ref_dps = {0.0, 3.0, -1.0};
+  conditions.heading_deg = {0.0, 0.0, 0.0};
+  const auto series = synthesised_under(scenario, conditions);
+  EXPECT_EQ(series.thermal_bias_dps, (std::vector<double>{13.0, 13.5, 19.5}));
+  EXPECT_EQ(series.gyro_dps, (std::vector<double>{13.0, 16.5, 18.5}));
+  EXPECT_EQ(series.heading_deg, (std::vector<double>{90.0, 93.0, 89.0}));
+  EXPECT_TRUE(series.mag_valid.empty());
+}
+
+TEST(SynthesiseUnder, WithoutTemperatureTheDriftIsItsConstant) {
+  Series conditions;
+  conditions.t_s = {0.0, 1.0, 2.0};
+  const auto series = synthesised_under(busy(), conditions);
+  EXPECT_EQ(series.thermal_bias_dps, std::vector<double>(3, -0.05));
+  EXPECT_EQ(series.rate_ref_dps, std::vector<double>(3, 0.0));
+  EXPECT_TRUE(series.temperature_C.empty());
+  EXPECT_TRUE(series.heading_deg.empty());
+  EXPECT_TRUE(std::isfinite(series.gyro_dps[2]));
+}
+
+TEST(SynthesiseUnder, KeepsTheGapsAndFlagsOfTheRecording) {
+  auto conditions = synthesised(busy());
+  conditions.gyro_dps[3] = conditions.heading_deg[5] = conditions.temperature_C[7] = no_value;
+  conditions.mag_valid[9] = 0.0;
+  const auto series = synthesised_under(busy(), conditions);
+  for (std::size_t i = 0; i < 20; ++i) {
+    EXPECT_EQ(std::isnan(series.gyro_dps[i]), i == 3) << i;
+    EXPECT_EQ(std::isnan(series.heading_deg[i]), i == 5) << i;
+    EXPECT_EQ(std::isnan(series.temperature_C[i]), i == 7) << i;
+    EXPECT_EQ(series.mag_valid[i], i == 9 ? 0.0 : 1.0) << i;
+  }
+  // The missing temperature is held.
+  EXPECT_NEAR(series.thermal_bias_dps[7] - series.thermal_bias_dps[6],
+              -0.3 * (series.temperature_C[6] - series.temperature_C[5]) / 0.05, 1e-12);
+}
+
+TEST(SynthesiseUnder, IgnoresTheScenariosDisturbances) {
+  const auto conditions = synthesised(busy());
+  auto quiet = busy();
+  quiet.compass.disturbances.clear();
+  EXPECT_TRUE(same_bits(synthesised_under(busy(), conditions), synthesised_under(quiet, conditions)));
+}
+
 }  // namespace
 }  // namespace gyrostat

@@ -6,12 +6,16 @@
 
 namespace gyrostat {
 
-void Compass::observe(Series& series, const Noise& noise) const {
+void Compass::turn(Series& series) const {
   auto& heading = series.heading_deg;
   heading.assign(series.size(), initial_heading_deg);
-  series.mag_valid.assign(series.size(), 1.0);
   for (std::size_t i = 1; i < heading.size(); ++i)
     heading[i] = heading[i - 1] + series.rate_ref_dps[i] * (series.t_s[i] - series.t_s[i - 1]);
+}
+
+void Compass::read(Series& series, const Noise& noise) const {
+  auto& heading = series.heading_deg;
+  series.mag_valid.assign(series.size(), 1.0);
   add_white_noise(noise_std_deg, noise.stream("compass"), heading);
 
   for (std::size_t n = 0; n < disturbances.size(); ++n) {
@@ -25,6 +29,11 @@ void Compass::observe(Series& series, const Noise& noise) const {
     }
   }
   for (auto& angle : heading) angle = wrap_degrees(angle);
+}
+
+void Compass::observe(Series& series, const Noise& noise) const {
+  turn(series);
+  read(series, noise);
 }
 
 }  // namespace gyrostat

@@ -46,8 +46,12 @@ struct Compass {
     };
   }
 
-  /// Fills heading_deg and mag_valid from t_s and rate_ref_dps. Streams "compass" and
-  /// "compass/disturbance/0", "…/1", ….
+  /// Fills heading_deg with the true heading from t_s and rate_ref_dps, not wrapped.
+  void turn(Series& series) const;
+  /// Adds white noise and disturbances to heading_deg, wraps it, and fills mag_valid. Streams
+  /// "compass" and "compass/disturbance/0", "…/1", ….
+  void read(Series& series, const Noise& noise) const;
+  /// Turns and reads.
   void observe(Series& series, const Noise& noise) const;
 };
 

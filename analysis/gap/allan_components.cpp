@@ -1,0 +1,92 @@
+#include "analysis/gap/allan_components.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "analysis/search/box_search.hpp"
+#include "analysis/spectra/arima_haar.hpp"
+
+namespace gyrostat::gap {
+namespace {
+
+struct Target {
+  std::size_t cluster;
+  double log_variance, error;
+};
+
+/// Allan variance of a unit Gauss-Markov process at tau over correlation time = u (IEEE Std 952).
+double gauss_markov_allan(double u) {
+  if (u < 1e-3) return u / 3.0;
+  return (1.0 - (3.0 - 4.0 * std::exp(-u) + std::exp(-2.0 * u)) / (2.0 * u)) / u;
+}
+
+std::vector<Target> targets(std::span<const Octave> fast, std::span<const Octave> slow,
+                            std::size_t cluster) {
+  std::vector<Target> all;
+  const auto add = [&](const Octave& octave, std::size_t unit) {
+    if (!(octave.mean_square > 0.0)) return;
+    const double degrees = std::max(1.0, 0.6 * static_cast<double>(octave.count));
+    all.push_back({octave.cluster * unit, std::log(0.5 * octave.mean_square),
+                   std::sqrt(2.0 / degrees + 1e-4)});
+  };
+  for (const auto& octave : fast)
+    if (octave.cluster < cluster) add(octave, 1);
+  for (const auto& octave : slow) add(octave, cluster);
+  return all;
+}
+
+}  // namespace
+
+AllanComponents fit_allan_components(std::span<const Octave> fast, std::span<const Octave> slow,
+                                     std::size_t cluster, double interval_s,
+                                     SlowComponent component) {
+  const auto all = targets(fast, slow, cluster);
+  AllanComponents best;
+  best.misfit = std::numeric_limits<double>::infinity();
+  if (all.empty()) return best;
+  const double white = std::sqrt(std::exp(all.front().log_variance));
+  const double longest_s = interval_s * static_cast<double>(all.back().cluster);
+  constexpr std::array memories = {std::array{0.0, 0.0}, std::array{0.8, 0.0}, std::array{0.8, 0.7},
+                                   std::array{0.8, 0.93}, std::array{0.95, 0.8}, std::array{0.95, 0.98}};
+  for (const auto& [phi, theta] : memories) {
+    const Arima111<double> unit{.phi = phi, .delta1_dps = 1.0, .delta2_dps = theta,
+                                .measurement_noise_std_dps = 0.0};
+    std::vector<double> walk;
+    for (const auto& target : all) walk.push_back(arima_allan_variance(unit, target.cluster));
+    const auto misfit = [&](const std::vector<double>& p) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        double variance = p[0] * p[0] / static_cast<double>(all[k].cluster) + p[1] * p[1] * walk[k];
+        if (component == SlowComponent::flicker)
+          variance += p[2] * p[2] * 2.0 * std::numbers::ln2 / std::numbers::pi;
+        if (component == SlowComponent::gauss_markov)
+          variance += p[2] * p[2] *
+                      gauss_markov_allan(interval_s * static_cast<double>(all[k].cluster) / p[3]);
+        const double z = (std::log(variance) - all[k].log_variance) / all[k].error;
+        // An unknown effect adds variance. So a model that lies below the data by more than the
+        // sampling error may be right, one that lies above is wrong.
+        sum += z > -2.0 ? z * z : 4.0 + 4.0 * std::log(z * z / 4.0);
+      }
+      return sum;
+    };
+    const double step = std::sqrt(walk.back());
+    std::vector<SearchRange> ranges = {{0.3 * white, 1.5 * white},
+                                       {1e-5 * white / step, 10.0 * white / step}};
+    if (component != SlowComponent::none) ranges.push_back({1e-4 * white, 3.0 * white});
+    if (component == SlowComponent::gauss_markov)
+      ranges.push_back({std::max(0.5, 5.0 * interval_s), std::max(1.0, 3.0 * longest_s)});
+    const auto found = box_search(ranges, 300 * static_cast<int>(ranges.size()), misfit);
+    if (!(found.objective < best.misfit)) continue;
+    best = {.random_error = {.phi = phi, .delta1_dps = found.values[1],
+                             .delta2_dps = theta * found.values[1],
+                             .measurement_noise_std_dps = found.values[0]},
+            .misfit = found.objective};
+    if (component != SlowComponent::none) best.slow_std_dps = found.values[2];
+    if (component == SlowComponent::gauss_markov) best.correlation_time_s = found.values[3];
+  }
+  return best;
+}
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+
+#include "analysis/gap/octaves.hpp"
+#include "core/models/arima111.hpp"
+
+namespace gyrostat::gap {
+
+/// A slow error to be fitted beside ARIMA(1,1,1) and white noise.
+enum class SlowComponent { none, gauss_markov, flicker };
+
+struct AllanComponents {
+  Arima111<double> random_error;
+  double slow_std_dps = 0.0;  ///< of the Gauss-Markov process, or the bias instability coefficient
+  double correlation_time_s = 0.0;
+  double misfit = 0.0;        ///< robust, in units of the sampling error
+};
+
+/// Matches the Allan variances of `fast` octaves (single samples) and `slow` ones (clusters of
+/// `cluster` samples), robustly. The memory of the ARIMA increments is at most fifty samples: longer
+/// correlations are Gauss-Markov noise, which has a name of its own.
+AllanComponents fit_allan_components(std::span<const Octave> fast, std::span<const Octave> slow,
+                                     std::size_t cluster, double interval_s,
+                                     SlowComponent component);
+
+}  // namespace gyrostat::gap

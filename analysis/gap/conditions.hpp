@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/series.hpp"
+#include "core/types.hpp"
+
+namespace gyrostat::gap {
+
+/// The two parts of a recording: what the diagnosis may see, and what it is judged on.
+enum class Part { train, held_out };
+inline constexpr std::array parts = {Part::train, Part::held_out};
+
+/// Samples [first, last) of an evenly sampled stretch.
+struct Span {
+  std::size_t first, last;
+  std::size_t size() const { return last - first; }
+};
+
+/// What a recording and every replica of it share: when the gyro was sampled, how warm it was, how
+/// it moved, where the compass could be used - and how the samples are split in parts.
+///
+/// Time is cut into eight equal blocks, of which the third and the seventh are held out. Fast
+/// readings come from single samples, slow ones from the means of `cluster` samples, of which there
+/// are about three thousand.
+class Conditions {
+ public:
+  /// Of an evenly sampled series; NaN marks a missing sample. Gaps of up to `bridged` samples are
+  /// interpolated, longer ones end a span.
+  explicit Conditions(const Series& recording);
+
+  static constexpr std::size_t blocks = 8;
+  static constexpr std::size_t bridged = 5;
+
+  const Series& series() const { return series_; }
+  std::size_t size() const { return series_.size(); }
+  double interval_s() const { return interval_s_; }
+  double rate_hz() const { return 1.0 / interval_s_; }
+  std::size_t cluster() const { return cluster_; }
+  double slow_interval_s() const { return interval_s_ * static_cast<double>(cluster_); }
+
+  const std::vector<Span>& spans(Part part) const { return fast_[static_cast<int>(part)]; }
+  const std::vector<Span>& slow_spans(Part part) const { return slow_[static_cast<int>(part)]; }
+  std::size_t slow_size() const { return slow_time_s_.size(); }
+
+  bool has_temperature() const { return !series_.temperature_C.empty(); }
+  bool has_motion() const { return !motion_dps_s_.empty(); }
+  bool has_heading() const { return !series_.heading_deg.empty(); }
+  bool has_acceleration() const { return !series_.acc_x_mps2.empty(); }
+
+  const std::vector<double>& slow_time_s() const { return slow_time_s_; }
+  const std::vector<double>& slow_temperature_C() const { return slow_temperature_C_; }
+  /// Change of the temperature over ten seconds, per second, [B eq. 5].
+  const std::vector<double>& slow_warming_C_per_s() const { return slow_warming_; }
+  /// Derivative of the reference rate, dps/s; empty where it never changes.
+  const std::vector<double>& motion_dps_s() const { return motion_dps_s_; }
+  /// Integral of the reference rate, deg, from 0.
+  const std::vector<double>& turned_deg() const { return turned_deg_; }
+
+  /// Least-squares coefficients (3 or 1 rows) of [1, T, T'] from the slow values of the train part.
+  const Eigen::MatrixXd& drift_fit() const { return drift_fit_; }
+  /// The regressors themselves, slow_size() x (3 or 1).
+  const Eigen::MatrixXd& drift_regressors() const { return drift_regressors_; }
+  /// The slow indices that drift_fit() takes.
+  const std::vector<std::size_t>& train_points() const { return train_points_; }
+
+  /// `values` with its short gaps bridged.
+  void bridge(std::vector<double>& values) const;
+  /// The mean of every cluster, NaN values passed over.
+  std::vector<double> slow_means(const std::vector<double>& values) const;
+
+ private:
+  void find_spans();
+  void find_drift();
+
+  Series series_;
+  double interval_s_ = 0.0;
+  std::size_t cluster_ = 1;
+  std::array<std::vector<Span>, 2> fast_, slow_;
+  std::vector<Span> gaps_;
+  std::vector<double> slow_time_s_, slow_temperature_C_, slow_warming_, motion_dps_s_, turned_deg_;
+  Eigen::MatrixXd drift_fit_, drift_regressors_;
+  std::vector<std::size_t> train_points_;
+};
+
+/// A series whose intervals are all multiples of one, with NaN rows for what is missing. Throws
+/// InputError at `place` where an interval is more than 0.3 of one off such a grid, or where the grid
+/// would be fifty times longer than the series.
+Series on_grid(const Series& series, std::string_view place);
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "analysis/gap/conditions.hpp"
+#include "analysis/gap/octaves.hpp"
+#include "analysis/spectra/welch.hpp"
+
+namespace gyrostat::gap {
+
+/// What the lenses look at: a recording, or a simulated replica of it, reduced once. A series without
+/// its gyro or its heading leaves that half empty.
+struct Scene {
+  Scene(const Conditions& conditions, const Series& series);
+
+  std::vector<double> rate_error_dps;     ///< gyro minus reference rate, short gaps bridged
+  const std::vector<double>& recorded_dps() const { return *recorded_dps_; }
+  std::vector<double> slow_dps;           ///< its cluster means without a T + b T' + c as the train
+                                          ///< part fits it
+  std::vector<double> heading_error_deg;  ///< without its mean; NaN where the compass is not valid
+  std::vector<double> slow_heading_deg;   ///< its cluster means
+  std::array<Spectrum, 2> spectra;        ///< of the rate error, a part each
+  std::array<Spectrum, 2> slow_spectra;   ///< of slow_dps
+  /// Of the rate error in samples, of slow_dps and slow_heading_deg in clusters; a part each.
+  std::array<std::vector<Octave>, 2> octaves, slow_octaves, heading_octaves;
+
+ private:
+  void reduce_rate(const Conditions& conditions, const Series& series);
+
+  const std::vector<double>* recorded_dps_;  ///< the series outlives its scene
+};
+
+}  // namespace gyrostat::gap

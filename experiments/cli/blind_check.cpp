@@ -1,0 +1,44 @@
+#include "experiments/diagnosis/blind_check.hpp"
+
+#include <filesystem>
+
+#include "experiments/atomic_file.hpp"
+#include "experiments/cli/options.hpp"
+#include "experiments/cli/verbs.hpp"
+
+namespace gyrostat::cli {
+namespace {
+
+struct BlindCheckArguments {
+  std::string file;
+  std::string folder;
+  FormatOption format;
+};
+
+int run(const BlindCheckArguments& arguments, Console& console) {
+  const auto format = arguments.format.get();
+  const auto check = gap::read_blind_check(arguments.file);
+  const std::filesystem::path folder =
+      arguments.folder.empty() ? std::filesystem::path("runs") / std::filesystem::path(arguments.file).stem()
+                               : std::filesystem::path(arguments.folder);
+  gap::make_recordings(check, folder);
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").string();
+  const bool whole = gap::diagnose_recordings(check, folder, program, console.log, console.stop);
+  const auto tables = gap::score_recordings(check, folder);
+  console.out << render(tables, format);
+  return whole ? complete : stopped;
+}
+
+}  // namespace
+
+void add_blind_check(CLI::App& program, Console& console, int& exit_code) {
+  auto* verb = program.add_subcommand(
+      "blind-check", "diagnose recordings whose effects are sealed, then open the seals and score");
+  auto arguments = std::make_shared<BlindCheckArguments>();
+  verb->add_option("check", arguments->file, "blind check file (JSON)")->required();
+  verb->add_option("--out", arguments->folder, "folder of recordings, labels and diagnoses (default: runs/<name>)");
+  arguments->format.add_to(verb);
+  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+}
+
+}  // namespace gyrostat::cli

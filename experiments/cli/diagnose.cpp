@@ -1,0 +1,65 @@
+#include "analysis/gap/conditions.hpp"
+#include "experiments/atomic_file.hpp"
+#include "experiments/cli/options.hpp"
+#include "experiments/cli/verbs.hpp"
+#include "experiments/diagnosis/diagnosis_json.hpp"
+#include "experiments/diagnosis/diagnosis_tables.hpp"
+
+namespace gyrostat::cli {
+namespace {
+
+struct DiagnoseArguments {
+  RecordingOption recording;
+  SpanOption span;
+  FormatOption format;
+  std::string json_out, html_out, scenario_out;
+  bool timing = false;
+  gap::DiagnosisOptions options;
+};
+
+int run(const DiagnoseArguments& arguments, Console& console) {
+  const auto format = arguments.format.get();
+  const auto& file = arguments.recording.file;
+  for (const auto& name : arguments.options.without)
+    Effects::with("--without", "effect", name, [](auto) {});
+  const auto read = read_recording(file, arguments.recording.axis);
+  const Series series = gap::on_grid(
+      cut(read.series, arguments.span.from_s, arguments.span.to_s, file + ": --from, --to"), file);
+  const auto diagnosis = about(file, [&] {
+    return gap::diagnose(series, arguments.options, [&](const std::string& what, double share) {
+      if (console.log_is_terminal) console.log << fmt::format("\r\033[K{:3.0f} %  {}", 100.0 * share, what) << std::flush;
+    });
+  });
+  if (console.log_is_terminal) console.log << "\r\033[K";
+  if (!arguments.json_out.empty()) write_atomically(arguments.json_out, gap::to_json(diagnosis).dump(1) + '\n');
+  if (!arguments.html_out.empty()) write_atomically(arguments.html_out, gap::diagnosis_page(diagnosis, file));
+  if (!arguments.scenario_out.empty())
+    write_atomically(arguments.scenario_out, gap::scenario_json(diagnosis).dump(2) + '\n');
+  if (format == Format::text) console.out << gap::in_words(diagnosis, file) << '\n';
+  console.out << render(gap::diagnosis_tables(diagnosis, file), format);
+  if (arguments.timing)
+    for (const auto& [part, seconds] : diagnosis.seconds)
+      console.log << fmt::format("{:<16} {:.2f} s\n", part, seconds);
+  return complete;
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& program, Console& console, int& exit_code) {
+  auto* verb = program.add_subcommand(
+      "diagnose", "find where a recording leaves the simulator, which effect causes it, and how far "
+                  "the gap closes once it is added");
+  auto arguments = std::make_shared<DiagnoseArguments>();
+  arguments->recording.add_to(verb);
+  arguments->span.add_to(verb);
+  verb->add_option("--json", arguments->json_out, "write the diagnosis as JSON");
+  verb->add_option("--html", arguments->html_out, "write the diagnosis as a page with pictures");
+  verb->add_option("--scenario", arguments->scenario_out, "write a study whose scenario has the effects found");
+  verb->add_flag("--timing", arguments->timing, "say where the time went");
+  arguments->format.add_to(verb);
+  verb->add_option("--without", arguments->options.without, "leave these effects out of the catalogue")->delimiter(',');
+  verb->add_option("--seed", arguments->options.seed, "of all simulated noise")->capture_default_str();
+  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+}
+
+}  // namespace gyrostat::cli

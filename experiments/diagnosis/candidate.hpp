@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/diagnosis/simulator.hpp"
+
+namespace gyrostat::gap {
+
+/// What estimates of an effect's parameters are made from.
+struct Evidence {
+  const Simulator& simulator;
+  const Series& recording;
+  Scene scene;
+  Scenario baseline;       ///< fitted to the recording
+  double white_std_dps;    ///< of the recording, from its single steps
+  double seconds_of_train() const;
+};
+
+/// Random error and thermal drift of a recording: the baseline's, or what is left of them beside an
+/// effect.
+struct Rest {
+  Arima111<double> random_error;
+  ThermalDrift<double> thermal_drift;
+};
+
+/// An effect with first parameters, and what is left beside it.
+struct Start {
+  Effects::Any effect;
+  Rest rest;
+};
+
+/// Why the recording cannot show the effect, with how much more it would need; empty where it can.
+std::string why_not_assessable(const Effects::Any& effect, const Conditions& conditions);
+
+/// First parameters of the effect from the recording, one set or several; an effect without an
+/// estimate of its own starts from its defaults.
+std::vector<Start> starts(const Effects::Any& effect, const Evidence& evidence);
+
+/// Whether the effect is the same in every replica: then least squares on the recording finds its
+/// parameters, and a fit to simulated readings moves the noise alone.
+bool is_deterministic(const Effects::Any& effect);
+/// Names of the parameters that the recording decides; the others would move nothing that the
+/// baseline does not.
+std::vector<std::string_view> free_parameters(const Effects::Any& effect);
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+
+#include "core/fields.hpp"
+#include "core/random.hpp"
+#include "core/series.hpp"
+#include "core/types.hpp"
+#include "generators/sampled.hpp"
+#include "generators/stage.hpp"
+
+namespace gyrostat::effects {
+
+/// The compass trails the heading with one time constant, exactly so for a heading that is linear
+/// between samples and along the shorter arc; its noise is added afterwards.
+struct CompassLag {
+  double time_constant_s = 0.5;
+
+  static constexpr std::string_view title = "the compass trails the heading";
+  static constexpr Stage stage = Stage::compass;
+  static constexpr std::array needs = {&Series::heading_deg};
+
+  static constexpr auto fields() {
+    using P = CompassLag;
+    return std::array{
+        Field{"time_constant_s", &P::time_constant_s, "s", ranges::non_negative,
+              "time constant of the lag"},
+    };
+  }
+
+  static constexpr CompassLag absent() { return {.time_constant_s = 0.0}; }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    if (time_constant_s == 0.0) return;
+    Decay decay(time_constant_s);
+    double behind_deg = 0.0, before_deg = 0.0;
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
+      const double heading_deg = series.heading_deg[i];
+      if (i > 0) {
+        const double interval_s = series.t_s[i] - series.t_s[i - 1];
+        const double rate_dps = wrap_degrees(heading_deg - before_deg) / interval_s;
+        behind_deg -= (1.0 - decay.over(interval_s)) * (behind_deg + rate_dps * time_constant_s);
+      }
+      before_deg = heading_deg;
+      series.heading_deg[i] += behind_deg;
+    }
+  }
+};
+
+}  // namespace gyrostat::effects

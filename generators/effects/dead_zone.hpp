@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "core/fields.hpp"
+#include "core/random.hpp"
+#include "core/series.hpp"
+#include "generators/sampled.hpp"
+#include "generators/stage.hpp"
+
+namespace gyrostat::effects {
+
+/// Rates about zero are not sensed (IEEE Std 528, dead band): up to the half width the rate is 0,
+/// beyond it the rate itself.
+struct DeadZone {
+  double half_width_dps = 0.5;
+
+  static constexpr std::string_view title = "small rates are not sensed";
+  static constexpr Stage stage = Stage::electronics;
+  static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps};
+
+  static constexpr auto fields() {
+    using P = DeadZone;
+    return std::array{
+        Field{"half_width_dps", &P::half_width_dps, "dps", ranges::non_negative,
+              "largest rate that is not sensed"},
+    };
+  }
+
+  static constexpr DeadZone absent() { return {.half_width_dps = 0.0}; }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i)
+      if (std::abs(series.rate_ref_dps[i]) <= half_width_dps)
+        series.gyro_dps[i] -= series.rate_ref_dps[i];
+  }
+};
+
+}  // namespace gyrostat::effects

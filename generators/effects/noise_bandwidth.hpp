@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/fields.hpp"
+#include "core/random.hpp"
+#include "core/series.hpp"
+#include "generators/sampled.hpp"
+#include "generators/stage.hpp"
+
+namespace gyrostat::effects {
+
+/// An output filter of unit gain at rest colours the white noise: one pole at the cut-off frequency,
+/// exact between samples (IEEE Std 1554, bandwidth). The noise keeps its density well below it.
+struct NoiseBandwidth {
+  double cutoff_hz = 20.0;
+
+  static constexpr std::string_view title = "an output filter colours the white noise";
+  static constexpr Stage stage = Stage::noise;
+  static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps,
+                                       &Series::thermal_bias_dps, &Series::random_error_dps};
+
+  static constexpr auto fields() {
+    using P = NoiseBandwidth;
+    return std::array{
+        Field{"cutoff_hz", &P::cutoff_hz, "Hz", ranges::positive,
+              "frequency at which the noise has lost 3 dB"},
+    };
+  }
+
+  static constexpr NoiseBandwidth absent() { return {.cutoff_hz = 1e9}; }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    Decay decay(0.5 / (std::numbers::pi * cutoff_hz));
+    double filtered = 0.0;
+    const std::size_t samples = samples_with(series, needs);
+    for (std::size_t i = 0; i < samples; ++i) {
+      const double white = series.gyro_dps[i] - series.rate_ref_dps[i] -
+                           series.thermal_bias_dps[i] - series.random_error_dps[i];
+      const std::size_t to = std::max<std::size_t>(i, 1);
+      const double pole = samples > 1 ? decay.over(series.t_s[to] - series.t_s[to - 1]) : 0.0;
+      filtered = i == 0 ? white * std::sqrt((1.0 - pole) / (1.0 + pole))
+                        : pole * filtered + (1.0 - pole) * white;
+      series.gyro_dps[i] += filtered - white;
+    }
+  }
+};
+
+}  // namespace gyrostat::effects

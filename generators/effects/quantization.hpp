@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "core/fields.hpp"
+#include "core/random.hpp"
+#include "core/series.hpp"
+#include "generators/sampled.hpp"
+#include "generators/stage.hpp"
+
+namespace gyrostat::effects {
+
+/// The converter's grid: each value becomes the nearest multiple of the least significant bit
+/// (IEEE Std 952 annex C, quantization noise; variance lsb^2 / 12).
+struct Quantization {
+  double lsb_dps = 0.05;
+
+  static constexpr std::string_view title = "values lie on a grid";
+  static constexpr Stage stage = Stage::conversion;
+  static constexpr std::array needs = {&Series::gyro_dps};
+
+  static constexpr auto fields() {
+    using P = Quantization;
+    return std::array{
+        Field{"lsb_dps", &P::lsb_dps, "dps", ranges::non_negative,
+              "least significant bit; 0 leaves the values as they are"},
+    };
+  }
+
+  static constexpr Quantization absent() { return {.lsb_dps = 0.0}; }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    if (lsb_dps == 0.0) return;
+    for (double& z : series.gyro_dps) z = lsb_dps * std::nearbyint(z / lsb_dps);
+  }
+};
+
+}  // namespace gyrostat::effects

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+
+#include "core/fields.hpp"
+#include "core/random.hpp"
+#include "core/series.hpp"
+#include "generators/sampled.hpp"
+#include "generators/stage.hpp"
+
+namespace gyrostat::effects {
+
+/// The output is clipped at the limits of the input range (IEEE Std 528, input range).
+struct Saturation {
+  double limit_dps = 50.0;
+
+  static constexpr std::string_view title = "the output is clipped";
+  static constexpr Stage stage = Stage::conversion;
+  static constexpr std::array needs = {&Series::gyro_dps};
+
+  static constexpr auto fields() {
+    using P = Saturation;
+    return std::array{
+        Field{"limit_dps", &P::limit_dps, "dps", ranges::positive,
+              "largest output"},
+    };
+  }
+
+  static constexpr Saturation absent() { return {.limit_dps = 1e9}; }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    for (double& z : series.gyro_dps) z = z > limit_dps ? limit_dps : z < -limit_dps ? -limit_dps : z;
+  }
+};
+
+}  // namespace gyrostat::effects

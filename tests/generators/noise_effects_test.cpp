@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "generators/random_error.hpp"
+#include "generators/scenario.hpp"
+#include "tests/generators/effect_series.hpp"
+
+namespace gyrostat {
+namespace {
+
+// Every statistical tolerance here is 5 standard errors of a normal estimate: 6e-7 false failures each.
+
+/// White noise of standard deviation 0.2 on a gyro that turns, drifts and wanders.
+Series noisy(std::size_t samples, double rate_hz) {
+  auto series = silent(even_times(samples, rate_hz));
+  for (std::size_t i = 0; i < samples; ++i) {
+    series.rate_ref_dps[i] = i / 100 % 2 == 0 ? 20.0 : -20.0;
+    series.thermal_bias_dps[i] = 1e-5 * static_cast<double>(i);
+    series.random_error_dps[i] = i % 7 == 0 ? 0.1 : 0.0;
+    series.gyro_dps[i] =
+        series.rate_ref_dps[i] + series.thermal_bias_dps[i] + series.random_error_dps[i];
+  }
+  add_white_noise(0.2, NormalStream(1, 0, "white_noise"), series.gyro_dps);
+  return series;
+}
+
+std::vector<double> white_part(const Series& series) {
+  std::vector<double> white;
+  for (std::size_t i = 0; i < series.size(); ++i)
+    white.push_back(series.gyro_dps[i] - series.rate_ref_dps[i] - series.thermal_bias_dps[i] -
+                    series.random_error_dps[i]);
+  return white;
+}
+
+TEST(Quantization, EveryValueIsTheNearestMultipleOfTheLsb) {
+  const auto before = noisy(10000, 100.0);
+  auto after = before;
+  effects::Quantization{.lsb_dps = 0.03}.apply(after, {1, 0});
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_NEAR(std::remainder(after.gyro_dps[i], 0.03), 0.0, 1e-12);
+    EXPECT_LE(std::abs(after.gyro_dps[i] - before.gyro_dps[i]), 0.015 + 1e-12);
+  }
+}
+
+// The residual e is uniform: the variance of e^2 is lsb^4 / 180, that of a lag product (lsb^2 / 12)^2.
+TEST(Quantization, LeavesAWhiteResidualOfTheVarianceLsbSquaredOverTwelve) {
+  constexpr std::size_t n = 200000;
+  constexpr double lsb = 0.04;
+  std::vector<double> residual;
+  const auto before = noisy(n, 100.0);
+  auto after = before;
+  effects::Quantization{.lsb_dps = lsb}.apply(after, {1, 0});
+  for (std::size_t i = 0; i < n; ++i) residual.push_back(after.gyro_dps[i] - before.gyro_dps[i]);
+  EXPECT_NEAR(mean_square(residual), lsb * lsb / 12.0, 5.0 * lsb * lsb / std::sqrt(180.0 * n));
+  EXPECT_NEAR(autocovariance(residual, 1), 0.0, 5.0 * lsb * lsb / 12.0 / std::sqrt(n));
+}
+
+// Bartlett: a sample autocovariance c_h over n samples has variance sum (c_k^2 + c_{k+h} c_{k-h}) / n.
+TEST(NoiseBandwidth, MakesOfWhiteNoiseAFirstOrderAutoregression) {
+  constexpr std::size_t n = 200000;
+  auto series = noisy(n, 100.0);
+  effects::NoiseBandwidth{.cutoff_hz = 5.0}.apply(series, {1, 0});
+  const auto filtered = white_part(series);
+  const double pole = std::exp(-2.0 * std::acos(-1.0) * 5.0 / 100.0);
+  const auto c = [&](int lag) {
+    return 0.04 * (1.0 - pole) / (1.0 + pole) * std::pow(pole, std::abs(lag));
+  };
+  for (const int lag : {0, 1, 3, 10}) {
+    double variance = 0.0;
+    for (int k = -300; k <= 300; ++k) variance += (c(k) * c(k) + c(k + lag) * c(k - lag)) / n;
+    EXPECT_NEAR(autocovariance(filtered, lag), c(lag), 5.0 * std::sqrt(variance)) << "lag " << lag;
+  }
+}
+
+// Squares of one normal deviate a trial: relative standard error sqrt(2 / trials).
+TEST(NoiseBandwidth, IsStationaryFromTheFirstSample) {
+  constexpr std::uint32_t trials = 4000;
+  const double pole = std::exp(-2.0 * std::acos(-1.0) * 5.0 / 100.0);
+  const double variance = (1.0 - pole) / (1.0 + pole);
+  const auto draw = [](std::uint32_t trial) {
+    auto series = silent(even_times(4, 100.0));
+    add_white_noise(1.0, NormalStream(1, trial, "white_noise"), series.gyro_dps);
+    effects::NoiseBandwidth{.cutoff_hz = 5.0}.apply(series, {1, trial});
+    return series.gyro_dps;
+  };
+  for (const std::size_t i : {0, 1, 3})
+    EXPECT_NEAR(mean_product(draw, trials, i, i) / variance, 1.0, 5.0 * std::sqrt(2.0 / trials)) << i;
+}
+
+TEST(NoiseBandwidth, HasUnitGainAtRestAndLeavesRateAndDriftAlone) {
+  auto series = silent(even_times(2000, 100.0));
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    series.rate_ref_dps[i] = i % 2 == 0 ? 50.0 : -50.0;
+    series.gyro_dps[i] = series.rate_ref_dps[i] + 0.25;
+  }
+  effects::NoiseBandwidth{.cutoff_hz = 2.0}.apply(series, {1, 0});
+  for (std::size_t i = 1500; i < series.size(); ++i)
+    EXPECT_NEAR(series.gyro_dps[i] - series.rate_ref_dps[i], 0.25, 1e-12);
+}
+
+TEST(NoiseBandwidth, DoesNotFilterSlowErrorsOrOutliers) {
+  const auto gyro = [](const std::vector<Effects::Any>& effects) {
+    Scenario scenario;
+    scenario.sampling = {.duration_s = 20.0, .rate_hz = 100.0};
+    scenario.effects = effects;
+    Series series;
+    synthesise(scenario, {1, 0}, series);
+    return series.gyro_dps;
+  };
+  const effects::NoiseBandwidth filter{.cutoff_hz = 1.0};
+  const effects::Vibration vibration{};
+  const effects::Outliers outliers{.probability = 0.1};
+  const auto none = gyro({}), other = gyro({vibration, outliers}), filtered = gyro({filter}),
+             both = gyro({vibration, outliers, filter});
+  for (std::size_t i = 0; i < none.size(); ++i)
+    EXPECT_NEAR(both[i] - filtered[i], other[i] - none[i], 1e-12);
+}
+
+TEST(NoiseTemperature, MultipliesTheWhiteNoiseAndNothingElse) {
+  const auto before = noisy(3000, 100.0);
+  auto after = before;
+  for (std::size_t i = 0; i < after.size(); ++i)
+    after.temperature_C[i] = i < 1000 ? 40.0 : i < 2000 ? 90.0 : -60.0;
+  effects::NoiseTemperature{.relative_per_C = 0.02, .reference_C = 40.0}.apply(after, {1, 0});
+  const auto w = white_part(before), scaled = white_part(after);
+  for (std::size_t i = 0; i < w.size(); ++i)
+    EXPECT_NEAR(scaled[i], (i < 1000 ? 1.0 : i < 2000 ? 2.0 : 0.0) * w[i], 1e-13) << i;
+}
+
+// The mean square of n normals has relative standard error sqrt(2 / n).
+TEST(NoiseTemperature, GivesTheStandardDeviationThatItStates) {
+  constexpr std::size_t n = 100000;
+  auto series = noisy(n, 100.0);
+  std::fill(series.temperature_C.begin(), series.temperature_C.end(), 65.0);
+  effects::NoiseTemperature{.relative_per_C = 0.01, .reference_C = 25.0}.apply(series, {1, 0});
+  EXPECT_NEAR(mean_square(white_part(series)) / (0.28 * 0.28), 1.0, 5.0 * std::sqrt(2.0 / n));
+}
+
+// Of z = N(0, s^2) + hits: E z^2, E z^4 and E z^8 by the mixture; the error of a mean of z^k is
+// sqrt((E z^2k - (E z^k)^2) / n).
+TEST(Outliers, OnWhiteNoiseHaveTheVarianceAndKurtosisOfTheMixture) {
+  constexpr std::size_t n = 500000;
+  constexpr double p = 0.01, s2 = 0.04, hit2 = 0.36;
+  auto series = silent(even_times(n, 100.0));
+  add_white_noise(std::sqrt(s2), NormalStream(1, 0, "white_noise"), series.gyro_dps);
+  effects::Outliers{.probability = p, .std_dps = std::sqrt(hit2)}.apply(series, {1, 0});
+  const auto moment = [&](double normal_moment, int half) {
+    return normal_moment * ((1.0 - p) * std::pow(s2, half) + p * std::pow(s2 + hit2, half));
+  };
+  double square = 0.0, fourth = 0.0;
+  for (const double z : series.gyro_dps) {
+    square += z * z / n;
+    fourth += z * z * z * z / n;
+  }
+  const double m2 = moment(1, 1), m4 = moment(3, 2), m8 = moment(105, 4);
+  EXPECT_NEAR(square, m2, 5.0 * std::sqrt((m4 - m2 * m2) / n));
+  EXPECT_NEAR(fourth, m4, 5.0 * std::sqrt((m8 - m4 * m4) / n));
+  EXPECT_GT(m4 / (m2 * m2), 4.5);  // where a normal has 3
+}
+
+// Two-state chain with rates a = p and b = 1 / m: its share s = a / (a + b) has variance
+// s (1 - s) (2 / (a + b) - 1) / n; a mean of r geometric lengths has variance m (m - 1) / r.
+TEST(StaleSamples, RepeatTheirShareInRunsOfTheirMeanLength) {
+  constexpr std::size_t n = 400000;
+  for (const double m : {1.0, 4.0}) {
+    constexpr double p = 0.02;
+    auto series = silent(even_times(n, 100.0));
+    add_white_noise(1.0, NormalStream(1, 0, "white_noise"), series.gyro_dps);
+    const auto fresh = series.gyro_dps;
+    effects::StaleSamples{.probability = p, .mean_run = m}.apply(series, {1, 0});
+    double stale = 0.0, runs = 0.0;
+    for (std::size_t i = 1; i < n; ++i) {
+      const bool repeats = series.gyro_dps[i] == series.gyro_dps[i - 1];
+      EXPECT_EQ(series.gyro_dps[i], repeats ? series.gyro_dps[i - 1] : fresh[i]);
+      stale += repeats;
+      runs += repeats && fresh[i - 1] == series.gyro_dps[i - 1];
+    }
+    const double share = p * m / (1.0 + p * m);
+    const double variance = share * (1.0 - share) * (2.0 / (p + 1.0 / m) - 1.0) / n;
+    EXPECT_NEAR(stale / n, share, 5.0 * std::sqrt(variance)) << "mean run " << m;
+    EXPECT_NEAR(stale / runs, m, 5.0 * std::sqrt(m * (m - 1.0) / runs) + 1e-12) << "mean run " << m;
+  }
+}
+
+}  // namespace
+}  // namespace gyrostat
