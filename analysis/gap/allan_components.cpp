@@ -41,7 +41,7 @@ std::vector<Target> targets(std::span<const Octave> fast, std::span<const Octave
 
 AllanComponents fit_allan_components(std::span<const Octave> fast, std::span<const Octave> slow,
                                      std::size_t cluster, double interval_s,
-                                     SlowComponent component) {
+                                     SlowComponent component, bool with_walk) {
   const auto all = targets(fast, slow, cluster);
   AllanComponents best;
   best.misfit = std::numeric_limits<double>::infinity();
@@ -73,11 +73,20 @@ AllanComponents fit_allan_components(std::span<const Octave> fast, std::span<con
     };
     const double step = std::sqrt(walk.back());
     std::vector<SearchRange> ranges = {{0.3 * white, 1.5 * white},
-                                       {1e-5 * white / step, 10.0 * white / step}};
+                                       {1e-5 * white / step, (with_walk ? 10.0 : 2e-5) * white / step}};
     if (component != SlowComponent::none) ranges.push_back({1e-4 * white, 3.0 * white});
-    if (component == SlowComponent::gauss_markov)
-      ranges.push_back({std::max(0.5, 5.0 * interval_s), std::max(1.0, 3.0 * longest_s)});
-    const auto found = box_search(ranges, 300 * static_cast<int>(ranges.size()), misfit);
+    SearchResult found;
+    if (component != SlowComponent::gauss_markov) {
+      found = box_search(ranges, 300 * static_cast<int>(ranges.size()), misfit);
+    } else {  // the misfit has a valley for each correlation time
+      const double shortest_s = std::max(0.5, 5.0 * interval_s);
+      ranges.push_back({});
+      for (double time_s = shortest_s; time_s < std::max(2.0 * shortest_s, 3.0 * longest_s); time_s *= 2.0) {
+        ranges[3] = {time_s, 2.0 * time_s};
+        if (const auto tried = box_search(ranges, 250, misfit); !(tried.objective >= found.objective))
+          found = tried;
+      }
+    }
     if (!(found.objective < best.misfit)) continue;
     best = {.random_error = {.phi = phi, .delta1_dps = found.values[1],
                              .delta2_dps = theta * found.values[1],

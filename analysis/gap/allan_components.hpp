@@ -19,9 +19,10 @@ struct AllanComponents {
 
 /// Matches the Allan variances of `fast` octaves (single samples) and `slow` ones (clusters of
 /// `cluster` samples), robustly. The memory of the ARIMA increments is at most fifty samples: longer
-/// correlations are Gauss-Markov noise, which has a name of its own.
+/// correlations are Gauss-Markov noise, which has a name of its own. Without `walk` the slow
+/// component is all there is beside white noise: a random walk may stand in for it on short records.
 AllanComponents fit_allan_components(std::span<const Octave> fast, std::span<const Octave> slow,
                                      std::size_t cluster, double interval_s,
-                                     SlowComponent component);
+                                     SlowComponent component, bool walk = true);
 
 }  // namespace gyrostat::gap

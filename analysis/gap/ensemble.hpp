@@ -25,6 +25,7 @@ class Ensemble {
   Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas,
            const Eigen::MatrixXd& jacobian);
 
+  const std::vector<LensView>& lenses() const { return lenses_; }
   const Eigen::VectorXd& mean() const { return mean_; }
   const Eigen::VectorXd& spread() const { return spread_; }
 

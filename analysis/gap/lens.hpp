@@ -32,6 +32,12 @@ struct Lens {
 
   const std::vector<Span>& spans() const { return conditions->spans(part); }
   const std::vector<Span>& slow_spans() const { return conditions->slow_spans(part); }
+  /// Without the first sample of each span: those with a sample of the same part before them.
+  std::vector<Span> later_spans() const {
+    auto later = spans();
+    for (auto& span : later) ++span.first;
+    return later;
+  }
   template <class PerPart>
   const auto& of(const PerPart& values) const { return values[static_cast<std::size_t>(part)]; }
 };

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double degrees = 5.0;
 constexpr double least_spread = 0.1;  // of whitened readings, whose baseline spread is about 1
+constexpr double shared_degrees = 6.0;  // that a variance borrows from the others of its lens
 constexpr double forgiven_share = 0.1;
 
 double log_density(double z, double spread) {
@@ -42,8 +43,12 @@ LogScore Scoring::of(const Eigen::MatrixXd& replicas) const {
   const Eigen::VectorXd mean = white.rowwise().mean();
   const Eigen::VectorXd variance =
       (white.colwise() - mean).rowwise().squaredNorm() / std::max(1.0, n - 1.0);
+  Eigen::VectorXd of_lens(mean.size());
+  for (const auto& lens : baseline_.lenses())
+    of_lens.segment(lens.first, lens.count).setConstant(variance.segment(lens.first, lens.count).mean());
   const auto spread_at = [&](Eigen::Index i, double v) {
-    return std::sqrt(std::max(v, least_spread * least_spread) * (1.0 + 1.0 / n) +
+    const double shared = ((n - 1.0) * v + shared_degrees * of_lens[i]) / (n - 1.0 + shared_degrees);
+    return std::sqrt(std::max(shared, least_spread * least_spread) * (1.0 + 1.0 / n) +
                      forgiven_[i] * forgiven_[i]);
   };
   LogScore score;
@@ -68,9 +73,8 @@ LogScore Scoring::of(const Eigen::MatrixXd& replicas) const {
   Eigen::VectorXd shortfalls(count);
   for (Eigen::Index k = 0; k < count; ++k)
     shortfalls[k] = mean_square_shortfall(own_each.col(k), score.expected_each);
-  score.typical_shortfall =
-      shortfalls.mean() +
-      2.0 * std::sqrt((shortfalls.array() - shortfalls.mean()).square().sum() / (n - 1.0));
+  std::sort(shortfalls.begin(), shortfalls.end());
+  score.typical_shortfall = shortfalls[std::min(count - 1, count * 9 / 10)];
   score.expected = own.mean();
   score.spread = std::sqrt(std::max(1.0, (own.array() - own.mean()).square().sum() / (n - 1.0)));
   return score;

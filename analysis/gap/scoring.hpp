@@ -12,7 +12,7 @@ struct LogScore {
   double expected = 0.0;  ///< of a replica of that simulator itself
   double spread = 1.0;    ///< of such a replica's
   Eigen::VectorXd each, expected_each;  ///< a reading each
-  double typical_shortfall = 0.0;       ///< of such a replica: mean and two standard deviations
+  double typical_shortfall = 0.0;       ///< of such a replica: nine of ten have less
 
   /// How many spreads the recording scores below a replica.
   double deficit() const { return (expected - value) / spread; }

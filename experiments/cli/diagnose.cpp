@@ -4,6 +4,7 @@
 #include "experiments/cli/verbs.hpp"
 #include "experiments/diagnosis/diagnosis_json.hpp"
 #include "experiments/diagnosis/diagnosis_tables.hpp"
+#include "experiments/outcome_file.hpp"
 
 namespace gyrostat::cli {
 namespace {
@@ -22,6 +23,8 @@ int run(const DiagnoseArguments& arguments, Console& console) {
   const auto& file = arguments.recording.file;
   for (const auto& name : arguments.options.without)
     Effects::with("--without", "effect", name, [](auto) {});
+  for (const auto& out : {arguments.json_out, arguments.html_out, arguments.scenario_out})
+    if (!out.empty()) require_writable(out, file);
   const auto read = read_recording(file, arguments.recording.axis);
   const Series series = gap::on_grid(
       cut(read.series, arguments.span.from_s, arguments.span.to_s, file + ": --from, --to"), file);

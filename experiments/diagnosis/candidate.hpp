@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,15 @@ struct Rest {
 struct Start {
   Effects::Any effect;
   Rest rest;
+  /// No more log score than this can be due to the effect: of a slow signature half its squared
+  /// t-statistic, since a random walk imitates every slow curve.
+  double most_gain = std::numeric_limits<double>::infinity();
 };
+
+/// Whether the parameters are what the effect's name says: narrow-band noise is narrower than its
+/// frequency is high but no line, slow errors last for more than a few samples, a disturbance of the
+/// compass does not turn it round.
+bool is_what_it_is_called(const Effects::Any& effect, const Conditions& conditions);
 
 /// Why the recording cannot show the effect, with how much more it would need; empty where it can.
 std::string why_not_assessable(const Effects::Any& effect, const Conditions& conditions);

@@ -18,7 +18,7 @@ namespace gyrostat::gap {
 namespace {
 
 constexpr std::size_t fewest_samples = 1000;
-constexpr std::size_t screening_replicas = 6;
+constexpr std::size_t screening_replicas = 8;
 constexpr std::size_t fit_replicas = 3;
 constexpr double needed_recovery = 0.6;   ///< less, and the cause is unknown
 constexpr double needed_gain = 8.0;       ///< of log score; less, and there is no cause to name
@@ -33,6 +33,8 @@ struct Contender {
   ReplicaReadings replicas;
   LogScore score;
   std::size_t parameters = 0;
+  double ceiling = 0.0;  ///< of the score: more is not the effect's
+  double foretold = 0.0; ///< the score without the ceiling
 };
 
 class Work {
@@ -59,7 +61,8 @@ class Work {
   void localise();
   std::vector<Where> departures_of(const Ensemble& ensemble) const;
   std::vector<Contender> contend(const Scenario& base, const std::vector<std::string>& taken);
-  Contender judged(const std::string& effect, const Scenario& scenario, std::size_t replicas);
+  Contender judged(const std::string& effect, const Scenario& scenario, std::size_t replicas,
+                   double ceiling);
   void attribute();
   void measure_shrinkage();
   void keep_bands();
@@ -134,24 +137,21 @@ void Work::localise() {
   took("localisation");
 }
 
-/// Narrow-band noise is narrower than its frequency is high; beyond that it is Gauss-Markov noise.
-bool is_what_it_is_called(const Scenario& scenario) {
-  return std::none_of(scenario.effects.begin(), scenario.effects.end(), [](const auto& any) {
-    const auto* v = std::get_if<effects::Vibration>(&any);
-    return v != nullptr && v->bandwidth_hz > 0.5 * v->centre_hz;
-  });
-}
-
-Contender Work::judged(const std::string& effect, const Scenario& scenario, std::size_t replicas) {
+Contender Work::judged(const std::string& effect, const Scenario& scenario, std::size_t replicas,
+                       double ceiling) {
   Contender c{.effect = effect, .scenario = scenario,
               .replicas = simulator_.ensemble(scenario, 0, replicas), .score = {}};
   c.score = scoring_->of(c.replicas[0]);
-  if (!is_what_it_is_called(scenario)) c.score.value -= 1e6;
+  c.ceiling = ceiling;
+  c.foretold = c.score.value;
+  c.score.value = std::min(c.score.value, ceiling);
+  if (!is_what_it_is_called(scenario.effects.back(), simulator_.conditions())) c.score.value -= 1e6;
   for (const auto& any : scenario.effects) c.parameters += free_parameters(any).size();
   return c;
 }
 
 std::vector<Contender> Work::contend(const Scenario& base, const std::vector<std::string>& taken) {
+  const double from = added_.empty() ? baseline_score_.value : added_.back().score.value;
   std::vector<Effects::Any> assessable;
   for (const auto& effect : catalogue()) {
     const auto id = Effects::id_of(effect);
@@ -177,8 +177,10 @@ std::vector<Contender> Work::contend(const Scenario& base, const std::vector<std
         scenario.thermal_drift = start.rest.thermal_drift;
       }
       scenario.effects.push_back(start.effect);
-      tried.push_back(judged(std::string(Effects::id_of(assessable[k])), scenario, screening_replicas));
+      tried.push_back(judged(std::string(Effects::id_of(assessable[k])), scenario, screening_replicas,
+                             from + start.most_gain));
     }
+    if (tried.empty()) continue;
     screened.push_back(*std::max_element(tried.begin(), tried.end(), [](const auto& a, const auto& b) {
       return a.score.value < b.score.value;
     }));
@@ -201,7 +203,7 @@ std::vector<Contender> Work::contend(const Scenario& base, const std::vector<std
          0.5 + 0.4 * static_cast<double>(k) / static_cast<double>(screened.size()));
     const auto fitted = refine(simulator_, screened[k].scenario, observed_[0],
                                scoring_->spread(screened[k].replicas[0]), 3, fit_replicas);
-    screened[k] = judged(screened[k].effect, fitted, options_.candidate_replicas);
+    screened[k] = judged(screened[k].effect, fitted, options_.candidate_replicas, screened[k].ceiling);
   }
   std::sort(screened.begin(), screened.end(), [](const auto& a, const auto& b) {
     return a.score.value - a.score.penalty(a.parameters) > b.score.value - b.score.penalty(b.parameters);
@@ -227,7 +229,7 @@ void Work::attribute() {
     const auto& c = ranked[k];
     Cause cause{.effect = c.effect, .scenario = c.scenario,
                 .log_score = scores[k] - baseline_score_.value};
-    cause.recovered = (c.score.value - baseline_score_.value) /
+    cause.recovered = (c.foretold - baseline_score_.value) /
                       std::max(1e-9, c.score.expected - baseline_score_.value);
     cause.probability = std::exp((scores[k] - best) / Scoring::temperature) / total;
     result_.causes.push_back(cause);
@@ -260,9 +262,10 @@ void Work::attribute() {
   result_.enriched = added_.back().scenario;
 
   const auto& final = added_.back();
-  const double recovered = (final.score.value - baseline_score_.value) /
+  const double recovered = (final.foretold - baseline_score_.value) /
                            std::max(1e-9, final.score.expected - baseline_score_.value);
-  const bool unexplained = recovered < needed_recovery && final.score.deficit() > 4.0;
+  const double deficit = (final.score.expected - final.foretold) / final.score.spread;
+  const bool unexplained = recovered < needed_recovery && deficit > 4.0;
   result_.verdict = unexplained ? "unknown" : result_.causes.front().effect;
   if (unexplained)
     for (auto& cause : result_.causes) cause.probability *= std::clamp(recovered, 0.0, 1.0);

@@ -185,6 +185,21 @@ Rest fit_rest(const Conditions& conditions, const Scene& scene) {
   return rest;
 }
 
+/// The memory of the increments, phi and delta2 / delta1: what the Allan fit chose, and a replica's
+/// refit would choose anew.
+std::vector<Dial> memory_dials() {
+  const auto bounded = [](double x) { return 0.98 * std::tanh(x); };
+  return {{[](const Scenario& s) { return std::atanh(s.random_error.phi / 0.981); },
+           [=](Scenario& s, double x) { s.random_error.phi = bounded(x); }, 0.2, 1.0},
+          {[](const Scenario& s) {
+             return std::atanh(s.random_error.delta2_dps / s.random_error.delta1_dps / 0.999);
+           },
+           [=](Scenario& s, double x) {
+             s.random_error.delta2_dps = 0.999 * std::tanh(x) * s.random_error.delta1_dps;
+           },
+           -0.2, 1.0}};
+}
+
 BaselineFit fit_baseline(const Simulator& simulator, const Scene& scene, const Series& recording) {
   const auto& conditions = simulator.conditions();
   BaselineFit fit;
@@ -200,7 +215,8 @@ BaselineFit fit_baseline(const Simulator& simulator, const Scene& scene, const S
     s.compass.initial_heading_deg = compass_centre(conditions, recording);
   }
 
-  const auto dials = noise_dials(conditions, Noises::all);
+  auto dials = noise_dials(conditions, Noises::all);
+  for (auto& dial : memory_dials()) dials.push_back(std::move(dial));
   constexpr std::size_t replicas = 6;
   const auto count = static_cast<Eigen::Index>(dials.size());
   const auto middle = simulator.ensemble(s, judging_replicas, replicas);

@@ -17,8 +17,7 @@ struct BaselineFit {
 /// Random error by its Allan variances, and a T + b T' + c by least squares, from the train part.
 Rest fit_rest(const Conditions& conditions, const Scene& scene);
 
-/// White noise + ARIMA(1,1,1) + a T + b T' + c and white compass noise: Allan variances first, then
-/// the simulated readings themselves.
+/// White noise + ARIMA(1,1,1) + a T + b T' + c and white compass noise.
 BaselineFit fit_baseline(const Simulator& simulator, const Scene& scene, const Series& recording);
 
 /// Moves the scenario's noise and the free parameters of its effects until its mean simulated

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -133,27 +134,38 @@ std::vector<Start> start(NoiseTemperature, const Evidence& e) {
            with_white(e, std::sqrt(sum / count))}};
 }
 
-AllanComponents slow_fit(const Evidence& e, SlowComponent component) {
+/// With a random walk beside the component and without.
+std::array<AllanComponents, 2> slow_fits(const Evidence& e, SlowComponent component) {
   const auto& conditions = e.simulator.conditions();
-  return fit_allan_components(e.scene.octaves[0], e.scene.slow_octaves[0], conditions.cluster(),
-                              conditions.interval_s(), component);
+  const auto fit = [&](bool walk) {
+    return fit_allan_components(e.scene.octaves[0], e.scene.slow_octaves[0], conditions.cluster(),
+                                conditions.interval_s(), component, walk);
+  };
+  return {fit(true), fit(false)};
+}
+
+template <class Make>
+std::vector<Start> slow_starts(const Evidence& e, SlowComponent component, const Make& make) {
+  std::vector<Start> found;
+  for (const auto& fit : slow_fits(e, component))
+    found.push_back({make(fit), {fit.random_error, e.baseline.thermal_drift}});
+  return found;
 }
 
 std::vector<Start> start(BiasInstability, const Evidence& e) {
-  const auto fit = slow_fit(e, SlowComponent::flicker);
-  return {{BiasInstability{fit.slow_std_dps}, {fit.random_error, e.baseline.thermal_drift}}};
+  return slow_starts(e, SlowComponent::flicker, [](const auto& fit) { return BiasInstability{fit.slow_std_dps}; });
 }
 
 std::vector<Start> start(GaussMarkov, const Evidence& e) {
-  const auto fit = slow_fit(e, SlowComponent::gauss_markov);
-  return {{GaussMarkov{fit.slow_std_dps, fit.correlation_time_s},
-           {fit.random_error, e.baseline.thermal_drift}}};
+  return slow_starts(e, SlowComponent::gauss_markov, [](const auto& fit) {
+    return GaussMarkov{fit.slow_std_dps, fit.correlation_time_s};
+  });
 }
 
 std::vector<Start> start(Telegraph, const Evidence& e) {
-  const auto fit = slow_fit(e, SlowComponent::gauss_markov);
-  return {{Telegraph{fit.slow_std_dps, 2.0 * fit.correlation_time_s},
-           {fit.random_error, e.baseline.thermal_drift}}};
+  return slow_starts(e, SlowComponent::gauss_markov, [](const auto& fit) {
+    return Telegraph{fit.slow_std_dps, 2.0 * fit.correlation_time_s};
+  });
 }
 
 std::vector<Start> start(BiasSteps, const Evidence& e) {
@@ -222,6 +234,14 @@ std::complex<double> line_at(const std::vector<double>& values, const std::vecto
   return 2.0 * sum / count;
 }
 
+/// Whether the line is the motion's own, scaled, rectified or delayed.
+bool follows_motion(const Evidence& e, const Sinusoidal& sine) {
+  if (!e.simulator.conditions().has_motion()) return false;
+  const auto motion = signatures(e, Trace::rate, {ScaleFactor{1.0}, ScaleAsymmetry{1.0},
+                                                  SensorBandwidth{0.05 * e.simulator.conditions().rate_hz()}});
+  return match(motion, signatures(e, Trace::rate, {sine}).col(0)).unexplained < 0.5;
+}
+
 std::vector<Start> start(Sinusoidal, const Evidence& e) {
   const auto& conditions = e.simulator.conditions();
   std::vector<Start> found;
@@ -253,6 +273,7 @@ std::vector<Start> start(Sinusoidal, const Evidence& e) {
     const double x = std::numbers::pi * best * interval_s;
     const double lost = slow && x > 0.0 ? std::sin(x) / x : 1.0;
     const Sinusoidal sine{std::abs(line) / lost, best, wrap_degrees(phase)};
+    if (follows_motion(e, sine)) continue;
     found.push_back({sine, rest_without(e, sine)});
   }
   return found;
@@ -459,8 +480,25 @@ std::vector<Start> starts(const Effects::Any& effect, const Evidence& evidence) 
     cleaner.baseline.random_error.delta1_dps = cleaner.baseline.random_error.delta2_dps = 0.0;
     for (int pass = 0; pass < 2; ++pass)
       cleaner.baseline.random_error = start(any, cleaner).front().rest.random_error;
-    return start(any, cleaner);
+    auto found = start(any, cleaner);
+    cleaner.baseline.random_error = found.front().rest.random_error;
+    const auto seen = trace_of(cleaner, Trace::slow_rate);
+    const double unexplained =
+        match(signatures(cleaner, Trace::slow_rate, {found.front().effect}), seen).unexplained;
+    found.front().most_gain =
+        0.5 * static_cast<double>(seen.size()) * (1.0 / std::max(unexplained, 1e-12) - 1.0);
+    return found;
   }, effect);
+}
+
+bool is_what_it_is_called(const Effects::Any& effect, const Conditions& conditions) {
+  const double shortest_s = 5.0 * conditions.interval_s();
+  if (const auto* v = std::get_if<Vibration>(&effect))
+    return v->bandwidth_hz < 0.5 * v->centre_hz && v->bandwidth_hz > 0.02 * v->centre_hz;
+  if (const auto* g = std::get_if<GaussMarkov>(&effect)) return g->correlation_time_s > shortest_s;
+  if (const auto* t = std::get_if<Telegraph>(&effect)) return t->mean_dwell_s > shortest_s;
+  if (const auto* b = std::get_if<MagneticBursts>(&effect)) return b->std_deg < 90.0;
+  return true;
 }
 
 bool is_deterministic(const Effects::Any& effect) {

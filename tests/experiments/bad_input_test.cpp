@@ -484,5 +484,32 @@ TEST(BadInput, ARecordingIsNotOverwrittenByItsOwnCompensation) {
   expect_refused(folder, {"apply", "rec.csv", "--out", "./rec.csv"}, {"rec.csv"});
 }
 
+TEST(BadInput, Diagnosis) {
+  TestFolder folder;
+  folder.write("rec.csv", sound_recording(2000));
+  folder.write("short.csv", sound_recording(10));
+  expect_refused(folder, {"diagnose", "missing.csv"}, {"missing.csv"});
+  expect_refused(folder, {"diagnose", "short.csv"}, {"short.csv", "10 samples", "at least 1000"});
+  expect_refused(folder, {"diagnose", "rec.csv", "--without", "outlier"}, {"outlier", "outliers"});
+  expect_refused(folder, {"diagnose", "rec.csv", "--format", "html"}, {"html"});
+  expect_refused(folder, {"diagnose", "rec.csv", "--json", "nowhere/out.json"}, {"nowhere"});
+}
+
+TEST(BadInput, BlindCheck) {
+  TestFolder folder;
+  const auto refused = [&](const std::string& json, const Words& parts) {
+    folder.write("check.json", json);
+    expect_refused(folder, {"blind-check", "check.json"}, parts);
+  };
+  refused(R"({"title": "x"})", {"check.json", "scenarios"});
+  refused(R"({"scenarios": {"a": {}}, "record": 3})", {"record", "recordings"});
+  refused(R"({"scenarios": {"a": {}}, "cases": [{"effect": "outlier", "scenario": "a", "strong": {}}]})",
+          {"cases[0]", "outlier", "outliers"});
+  refused(R"({"scenarios": {"a": {}}, "cases": [{"effect": "outliers", "scenario": "b", "strong": {}}]})",
+          {"cases[0].scenario", "'b'", "'a'"});
+  refused(R"({"scenarios": {"a": {}}, "cases": [{"effect": "outliers", "scenario": "a", "strong": {"probability": 2}}]})",
+          {"probability", "2", "[0, 1]"});
+}
+
 }  // namespace
 }  // namespace gyrostat

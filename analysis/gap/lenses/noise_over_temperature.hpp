@@ -16,14 +16,14 @@ struct NoiseOverTemperature : Lens {
     const auto& T = seen.series().temperature_C;
     const auto edges = quantile_edges(T, spans(), 8);
     if (edges.size() < 3 || edges.back() - edges.front() < 1.0) return;
-    bins_ = Bins(T, spans(), edges, 100);
+    bins_ = Bins(T, later_spans(), edges, 100);
     at = bins_.at();
   }
 
   void read(const Scene& scene, double* out) const {
     const auto& e = scene.rate_error_dps;
     bins_.means([&](std::size_t i) {
-      const double step = i == 0 ? no_value : e[i] - e[i - 1];
+      const double step = e[i] - e[i - 1];
       return step * step;
     }, out);
     double mean = 0.0;
