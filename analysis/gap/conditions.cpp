@@ -17,14 +17,10 @@ constexpr std::size_t shortest_span = 64;
 constexpr std::size_t shortest_slow_span = 2;
 constexpr double warming_interval_s = 10.0;
 
-Part part_of(std::size_t index, std::size_t size) {
-  return index * Conditions::blocks / size % 4 == 2 ? Part::held_out : Part::train;
-}
-
 /// Maximal runs of present indices of one part.
-template <class Present>
+template <class Present, class PartOf>
 std::array<std::vector<Span>, 2> runs(std::size_t size, std::size_t shortest,
-                                      const Present& present) {
+                                      const Present& present, const PartOf& part_of) {
   std::array<std::vector<Span>, 2> spans;
   std::size_t first = 0;
   while (first < size) {
@@ -32,9 +28,9 @@ std::array<std::vector<Span>, 2> runs(std::size_t size, std::size_t shortest,
       ++first;
       continue;
     }
-    const Part part = part_of(first, size);
+    const Part part = part_of(first);
     std::size_t last = first + 1;
-    while (last < size && present(last) && part_of(last, size) == part) ++last;
+    while (last < size && present(last) && part_of(last) == part) ++last;
     if (last - first >= shortest) spans[static_cast<int>(part)].push_back({first, last});
     first = last;
   }
@@ -95,6 +91,12 @@ Conditions::Conditions(const Series& recording) : series_(recording) {
   find_drift();
 }
 
+Part Conditions::part_of(std::size_t sample) const {
+  const std::size_t clusters = std::max<std::size_t>(1, size() / cluster_);
+  const std::size_t at = std::min(sample / cluster_, clusters - 1);
+  return at * blocks / clusters % 4 == 2 ? Part::held_out : Part::train;
+}
+
 void Conditions::find_spans() {
   const auto& z = series_.gyro_dps;
   std::vector<char> present(size(), 1);
@@ -105,16 +107,18 @@ void Conditions::find_spans() {
     }
     std::size_t end = i;
     while (end < size() && is_missing(z[end])) ++end;
-    if (i > 0 && end < size() && end - i <= bridged) gaps_.push_back({i, end});
+    if (i > 0 && end < size() && end - i <= bridged && part_of(i - 1) == part_of(end)) gaps_.push_back({i, end});
     else std::fill(present.begin() + static_cast<std::ptrdiff_t>(i),
                    present.begin() + static_cast<std::ptrdiff_t>(end), char{0});
     i = end;
   }
-  fast_ = runs(size(), shortest_span, [&](std::size_t i) { return present[i] != 0; });
+  fast_ = runs(size(), shortest_span, [&](std::size_t i) { return present[i] != 0; },
+               [&](std::size_t i) { return part_of(i); });
   std::vector<char> whole(size() / cluster_, 1);
   for (std::size_t i = 0; i < whole.size() * cluster_; ++i)
     if (present[i] == 0) whole[i / cluster_] = 0;
-  slow_ = runs(whole.size(), shortest_slow_span, [&](std::size_t i) { return whole[i] != 0; });
+  slow_ = runs(whole.size(), shortest_slow_span, [&](std::size_t i) { return whole[i] != 0; },
+               [&](std::size_t i) { return part_of(i * cluster_); });
 }
 
 void Conditions::find_drift() {
@@ -137,7 +141,8 @@ void Conditions::find_drift() {
   for (std::size_t k = 0; k < train_points_.size(); ++k)
     chosen.row(static_cast<Eigen::Index>(k)) =
         drift_regressors_.row(static_cast<Eigen::Index>(train_points_[k]));
-  drift_fit_ = chosen.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd normal = chosen.transpose() * chosen;
+  drift_fit_ = normal.completeOrthogonalDecomposition().pseudoInverse() * chosen.transpose();
 }
 
 void Conditions::bridge(std::vector<double>& values) const {

@@ -21,7 +21,8 @@ struct Span {
 /// What a recording and every replica of it share: when the gyro was sampled, how warm it was, how
 /// it moved, where the compass could be used - and how the samples are split in parts.
 ///
-/// Time is cut into eight equal blocks, of which the third and the seventh are held out. Fast
+/// Time is cut into eight equal blocks of whole clusters, of which the third and the seventh are held
+/// out; what is bridged or averaged never mixes the parts. Fast
 /// readings come from single samples, slow ones from the means of `cluster` samples, of which there
 /// are about three thousand.
 class Conditions {
@@ -40,6 +41,7 @@ class Conditions {
   std::size_t cluster() const { return cluster_; }
   double slow_interval_s() const { return interval_s_ * static_cast<double>(cluster_); }
 
+  Part part_of(std::size_t sample) const;
   const std::vector<Span>& spans(Part part) const { return fast_[static_cast<int>(part)]; }
   const std::vector<Span>& slow_spans(Part part) const { return slow_[static_cast<int>(part)]; }
   std::size_t slow_size() const { return slow_time_s_.size(); }

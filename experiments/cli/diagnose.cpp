@@ -26,8 +26,8 @@ int run(const DiagnoseArguments& arguments, Console& console) {
   for (const auto& out : {arguments.json_out, arguments.html_out, arguments.scenario_out})
     if (!out.empty()) require_writable(out, file);
   const auto read = read_recording(file, arguments.recording.axis);
-  const Series series = gap::on_grid(
-      cut(read.series, arguments.span.from_s, arguments.span.to_s, file + ": --from, --to"), file);
+  const Series series = cut(gap::on_grid(read.series, file), arguments.span.from_s,
+                            arguments.span.to_s, file + ": --from, --to");
   const auto diagnosis = about(file, [&] {
     return gap::diagnose(series, arguments.options, [&](const std::string& what, double share) {
       if (console.log_is_terminal) console.log << fmt::format("\r\033[K{:3.0f} %  {}", 100.0 * share, what) << std::flush;

@@ -132,6 +132,8 @@ BlindCheck read_blind_check(const std::string& path) {
       check.cases.push_back(std::move(c));
     }
     entry.finish();
+    if (!value->contains("strong") && !value->contains("medium") && !value->contains("weak"))
+      throw InputError(place, "\"strong\", \"medium\" or \"weak\" is needed, an object of the effect's parameters");
   }
   object.finish();
   return check;

@@ -364,7 +364,8 @@ Diagnosis diagnose(const Series& recording, const DiagnosisOptions& options,
     throw InputError("recording", fmt::format("{} samples; at least {} are needed for a diagnosis",
                                               recording.size(), fewest_samples));
   const auto& z = recording.gyro_dps;
-  if (std::all_of(z.begin(), z.end(), [&](double v) { return is_missing(v) || v == z.front(); }))
+  const auto first = std::find_if(z.begin(), z.end(), [](double v) { return !is_missing(v); });
+  if (std::all_of(first, z.end(), [&](double v) { return is_missing(v) || v == *first; }))
     throw InputError("recording", "gyro_dps never changes; there is nothing to diagnose");
   return Work(recording, options, progress).run();
 }

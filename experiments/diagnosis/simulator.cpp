@@ -10,14 +10,14 @@ namespace {
 
 /// The coarsest power of ten that all values are multiples of, unless it is comparable with the
 /// noise: then it is the sensor's grid and not the file's.
-double decimal_step(const std::vector<double>& values) {
+double decimal_step(const std::vector<double>& values, const std::vector<Span>& spans) {
   std::vector<double> inspected, steps;
-  for (const double v : values) {
-    if (is_missing(v)) continue;
-    if (!inspected.empty()) steps.push_back(std::abs(v - inspected.back()));
-    inspected.push_back(v);
-    if (inspected.size() == 2000) break;
-  }
+  for (const auto& span : spans)
+    for (std::size_t i = span.first; i < span.last && inspected.size() < 2000; ++i) {
+      if (is_missing(values[i])) continue;
+      if (!inspected.empty()) steps.push_back(std::abs(values[i] - inspected.back()));
+      inspected.push_back(values[i]);
+    }
   if (steps.empty()) return 0.0;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
@@ -50,7 +50,7 @@ Simulator::Simulator(const Series& recording, std::uint64_t seed)
     : conditions_(recording),
       instruments_{Instrument(conditions_, Part::train), Instrument(conditions_, Part::held_out)},
       seed_(seed),
-      resolution_dps_(decimal_step(recording.gyro_dps)) {}
+      resolution_dps_(decimal_step(recording.gyro_dps, conditions_.spans(Part::train))) {}
 
 void Simulator::to_resolution(Series& series) const {
   if (resolution_dps_ > 0.0)

@@ -493,6 +493,7 @@ TEST(BadInput, Diagnosis) {
   expect_refused(folder, {"diagnose", "rec.csv", "--without", "outlier"}, {"outlier", "outliers"});
   expect_refused(folder, {"diagnose", "rec.csv", "--format", "html"}, {"html"});
   expect_refused(folder, {"diagnose", "rec.csv", "--json", "nowhere/out.json"}, {"nowhere"});
+  expect_refused(folder, {"diagnose", "rec.csv", "--json", "out.json", "--scenario", "nowhere/s.json"}, {"nowhere"});
 }
 
 TEST(BadInput, BlindCheck) {
@@ -509,6 +510,8 @@ TEST(BadInput, BlindCheck) {
           {"cases[0].scenario", "'b'", "'a'"});
   refused(R"({"scenarios": {"a": {}}, "cases": [{"effect": "outliers", "scenario": "a", "strong": {"probability": 2}}]})",
           {"probability", "2", "[0, 1]"});
+  refused(R"({"scenarios": {"a": {}}, "cases": [{"effect": "outliers", "scenario": "a"}]})",
+          {"cases[0]", "strong"});
 }
 
 }  // namespace

@@ -122,6 +122,22 @@ TEST(Conditions, BridgeShortGapsAndBreakAtLongOnes) {
   EXPECT_EQ(spans[1].first, 406U);
 }
 
+// Of lengths that no cluster divides, too.
+TEST(Conditions, NeverMixThePartsInAMeanOrABridge) {
+  for (const std::size_t samples : {8000U, 24010U, 65067U}) {
+    Series s = rich(samples);
+    const std::size_t edge = Conditions(s).spans(Part::held_out).front().first;
+    for (std::size_t i = edge - 1; i < edge + 2; ++i) s.gyro_dps[i] = no_value;
+    const Conditions conditions(s);
+    for (const auto& span : conditions.slow_spans(Part::train))
+      for (std::size_t i = span.first * conditions.cluster(); i < span.last * conditions.cluster(); ++i)
+        ASSERT_EQ(conditions.part_of(i), Part::train) << samples << " " << i;
+    auto values = s.gyro_dps;
+    conditions.bridge(values);
+    EXPECT_TRUE(std::isnan(values[edge])) << samples;
+  }
+}
+
 TEST(OnGrid, GapsBecomeMissingSamples) {
   Series s;
   for (const double t : {0.0, 0.1, 0.2, 0.5, 0.6}) {

@@ -76,6 +76,7 @@ TEST(Gap, ThePValueOfTheSimulatorsOwnRecordingsIsUniform) {
 
 TEST(Diagnosis, TheHeldOutPartChangesNeitherFitNorChoice) {
   Scenario s = still();
+  s.sampling.duration_s = 1200.5;  // no multiple of a cluster
   s.effects = {effects::Outliers{0.005, 0.5}};
   const Series series = recorded(s, 5, false);
   Series other = series;
@@ -183,6 +184,8 @@ TEST(Diagnosis, RefusesWhatHoldsNothing) {
   few.gyro_dps = {0.0, 1.0};
   EXPECT_THROW(diagnose(few, {}), InputError);
   Series constant;
+  constant.t_s = {-0.1};
+  constant.gyro_dps = {no_value};
   for (int i = 0; i < 2000; ++i) {
     constant.t_s.push_back(0.1 * i);
     constant.gyro_dps.push_back(1.0);
