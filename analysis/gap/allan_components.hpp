@@ -1,8 +1,6 @@
 #pragma once
 
-#include <span>
-
-#include "analysis/gap/octaves.hpp"
+#include "analysis/gap/scene.hpp"
 #include "core/models/arima111.hpp"
 
 namespace gyrostat::gap {
@@ -17,12 +15,11 @@ struct AllanComponents {
   double misfit = 0.0;        ///< robust, in units of the sampling error
 };
 
-/// Matches the Allan variances of `fast` octaves (single samples) and `slow` ones (clusters of
-/// `cluster` samples), robustly. The memory of the ARIMA increments is at most fifty samples: longer
+/// Matches the Allan variances of the train part, of samples and of clusters without the drift,
+/// robustly. The memory of the ARIMA increments is at most fifty samples: longer
 /// correlations are Gauss-Markov noise, which has a name of its own. Without `walk` the slow
 /// component is all there is beside white noise: a random walk may stand in for it on short records.
-AllanComponents fit_allan_components(std::span<const Octave> fast, std::span<const Octave> slow,
-                                     std::size_t cluster, double interval_s,
+AllanComponents fit_allan_components(const Conditions& conditions, const Scene& scene,
                                      SlowComponent component, bool walk = true);
 
 }  // namespace gyrostat::gap

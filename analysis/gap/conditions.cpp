@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include <Eigen/QR>
 
+#include "analysis/gap/octaves.hpp"
 #include "core/error.hpp"
+#include "core/random.hpp"
 #include "core/step.hpp"
 
 namespace gyrostat::gap {
@@ -89,6 +92,7 @@ Conditions::Conditions(const Series& recording) : series_(recording) {
     }
   }
   find_drift();
+  find_walk_left();
 }
 
 Part Conditions::part_of(std::size_t sample) const {
@@ -127,22 +131,76 @@ void Conditions::find_drift() {
                                    *std::min_element(slow_temperature_C_.begin(),
                                                      slow_temperature_C_.end()) >
                                0.5;
-  drift_regressors_.resize(static_cast<Eigen::Index>(slow_size()), regress ? 3 : 1);
-  for (std::size_t i = 0; i < slow_size(); ++i) {
+  drift_regressors_ = Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(slow_size()), regress ? 4 : 1);
+  for (std::size_t i = 0; regress && i < slow_size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    drift_regressors_(row, 0) = 1.0;
-    if (!regress) continue;
+    const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, slow_size() - 1);
     drift_regressors_(row, 1) = slow_temperature_C_[i] - slow_temperature_C_[0];
     drift_regressors_(row, 2) = slow_warming_[i];
+    drift_regressors_(row, 3) = (slow_temperature_C_[after] - slow_temperature_C_[before]) /
+                                (slow_time_s_[after] - slow_time_s_[before]);
   }
   for (const auto& span : slow_spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i) train_points_.push_back(i);
-  Eigen::MatrixXd chosen(static_cast<Eigen::Index>(train_points_.size()), drift_regressors_.cols());
+
+  std::vector<double> rate_error = series_.gyro_dps;
+  for (std::size_t i = 0; i < series_.rate_ref_dps.size(); ++i) rate_error[i] -= series_.rate_ref_dps[i];
+  bridge(rate_error);
+  const RatioLikelihood likelihood(train_points_, train_regressors(), train_values(slow_means(rate_error)));
+  level_.emplace(train_points_, likelihood.most_likely());
+  const Eigen::MatrixXd white = level_->innovations_of_columns(train_regressors());
+  drift_fit_ = white.transpose();
+  if (!regress) return;
+  const Eigen::MatrixXd normal = white.transpose() * white;
+  drift_fit_ = normal.completeOrthogonalDecomposition().pseudoInverse() * white.transpose();
+}
+
+Eigen::VectorXd Conditions::train_values(const std::vector<double>& slow) const {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(train_points_.size()));
+  for (std::size_t k = 0; k < train_points_.size(); ++k)
+    values[static_cast<Eigen::Index>(k)] = slow[train_points_[k]];
+  return values;
+}
+
+Eigen::MatrixXd Conditions::train_regressors() const {
+  const Eigen::Index columns = drift_regressors_.cols() - 1;
+  Eigen::MatrixXd chosen(static_cast<Eigen::Index>(train_points_.size()), columns);
   for (std::size_t k = 0; k < train_points_.size(); ++k)
     chosen.row(static_cast<Eigen::Index>(k)) =
-        drift_regressors_.row(static_cast<Eigen::Index>(train_points_[k]));
-  const Eigen::MatrixXd normal = chosen.transpose() * chosen;
-  drift_fit_ = normal.completeOrthogonalDecomposition().pseudoInverse() * chosen.transpose();
+        drift_regressors_.row(static_cast<Eigen::Index>(train_points_[k])).tail(columns);
+  return chosen;
+}
+
+Eigen::VectorXd Conditions::drift_of(const std::vector<double>& slow) const {
+  const Eigen::VectorXd values = train_values(slow);
+  Eigen::VectorXd coefficients(drift_regressors_.cols());
+  coefficients.tail(drift_fit_.rows()) = drift_fit_ * level_->innovations(values);
+  coefficients[0] = (values - train_regressors() * coefficients.tail(drift_fit_.rows())).mean();
+  return coefficients;
+}
+
+std::vector<double> Conditions::drift(const Eigen::VectorXd& coefficients) const {
+  const Eigen::VectorXd values = drift_regressors_ * coefficients;
+  return {values.begin(), values.end()};
+}
+
+/// By a hundred random walks with unit steps from cluster to cluster.
+void Conditions::find_walk_left() {
+  constexpr std::uint32_t walks = 100;
+  const auto& spans = slow_spans(Part::train);
+  walk_left_.assign(octave_count(spans), 0.0);
+  std::vector<double> walk(slow_size());
+  for (std::uint32_t k = 0; k < walks; ++k) {
+    NormalStream(1, k, "walk_left").fill(0, walk);
+    std::partial_sum(walk.begin(), walk.end(), walk.begin());
+    const auto drift_there = drift(drift_of(walk));
+    std::transform(walk.begin(), walk.end(), drift_there.begin(), walk.begin(), std::minus<>());
+    const auto left = octaves(walk, spans);
+    for (std::size_t level = 0; level < left.size(); ++level) {
+      const auto m = static_cast<double>(left[level].cluster);
+      walk_left_[level] += left[level].mean_square / ((2.0 * m * m + 1.0) / (3.0 * m)) / walks;
+    }
+  }
 }
 
 void Conditions::bridge(std::vector<double>& values) const {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
+#include "analysis/gap/local_level.hpp"
 #include "core/series.hpp"
 #include "core/types.hpp"
 
@@ -60,13 +62,24 @@ class Conditions {
   /// Integral of the reference rate, deg, from 0.
   const std::vector<double>& turned_deg() const { return turned_deg_; }
 
-  /// Least-squares coefficients (3 or 1 rows) of [1, T, T'] from the slow values of the train part.
-  const Eigen::MatrixXd& drift_fit() const { return drift_fit_; }
-  /// The regressors themselves, slow_size() x (3 or 1).
+  /// 1, T - T(0), and T' over ten seconds as well as from cluster to cluster: recorders differ in what
+  /// they call T'. slow_size() x 4, or x 1 without a temperature that changes.
   const Eigen::MatrixXd& drift_regressors() const { return drift_regressors_; }
-  /// The slow indices that drift_fit() takes.
+  /// Their coefficients in slow values of the train part, by least squares generalised for the random
+  /// walk that the recording shows.
+  Eigen::VectorXd drift_of(const std::vector<double>& slow) const;
+  /// The values at the slow points of the train part, the only ones that drift_of() looks at.
+  Eigen::VectorXd train_values(const std::vector<double>& slow) const;
+  /// All regressors but the constant at those points.
+  Eigen::MatrixXd train_regressors() const;
+  /// What taking the drift out leaves of a random walk's Allan variance, an octave of clusters each:
+  /// the longest octaves lose most of theirs to it.
+  const std::vector<double>& walk_left() const { return walk_left_; }
+  /// The slow points of the train part.
   const std::vector<std::size_t>& train_points() const { return train_points_; }
 
+  /// The drift with these coefficients at every slow point.
+  std::vector<double> drift(const Eigen::VectorXd& coefficients) const;
   /// `values` with its short gaps bridged.
   void bridge(std::vector<double>& values) const;
   /// The mean of every cluster, NaN values passed over.
@@ -75,6 +88,7 @@ class Conditions {
  private:
   void find_spans();
   void find_drift();
+  void find_walk_left();
 
   Series series_;
   double interval_s_ = 0.0;
@@ -83,7 +97,9 @@ class Conditions {
   std::vector<Span> gaps_;
   std::vector<double> slow_time_s_, slow_temperature_C_, slow_warming_, motion_dps_s_, turned_deg_;
   Eigen::MatrixXd drift_fit_, drift_regressors_;
+  std::optional<LocalLevel> level_;
   std::vector<std::size_t> train_points_;
+  std::vector<double> walk_left_;
 };
 
 /// A series whose intervals are all multiples of one, with NaN rows for what is missing. Throws

@@ -22,11 +22,18 @@ double largest(const Eigen::VectorXd& z, const LensView& lens) {
 }
 
 struct Moments { double mean, variance; };
-Moments moments(const std::vector<double>& values) {
-  double mean = 0.0, square = 0.0;
-  for (const double v : values) mean += v / static_cast<double>(values.size());
-  for (const double v : values) square += (v - mean) * (v - mean);
-  return {mean, std::max(square / static_cast<double>(values.size() - 1), 1e-12)};
+/// Of all values but the one at `left_out`.
+Moments moments(const std::vector<double>& values, std::size_t left_out) {
+  double mean = 0.0, square = 0.0, count = 0.0;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (k != left_out) {
+      mean += values[k];
+      count += 1.0;
+    }
+  mean /= count;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (k != left_out) square += (values[k] - mean) * (values[k] - mean);
+  return {mean, std::max(square / (count - 1.0), 1e-12)};
 }
 
 }  // namespace
@@ -47,7 +54,7 @@ Ensemble::Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas
     refit_left_ = jacobian;
     const Eigen::MatrixXd weighted = spread_.cwiseAbs2().cwiseInverse().asDiagonal() * jacobian;
     Eigen::MatrixXd information = jacobian.transpose() * weighted;
-    information.diagonal().array() += 1e-3;  // a parameter that nothing shows stays as it is
+    information.diagonal().array() += 1.0;  // by no more than an e-fold, where nothing shows it
     refit_right_ = information.ldlt().solve(weighted.transpose());
     off -= refit_left_ * (refit_right_ * off);
     spread_ = spread_of(off);
@@ -64,17 +71,13 @@ Ensemble::Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas
             .cwiseSqrt();
     z.col(k) = d.cwiseQuotient(others).cwiseMin(largest_deviation).cwiseMax(-largest_deviation);
   }
-  for (const auto& lens : lenses_) {
-    std::vector<double> squares, peaks;
+  std::vector<std::vector<double>> squares(lenses_.size()), peaks(lenses_.size());
+  for (std::size_t l = 0; l < lenses_.size(); ++l) {
+    const auto& lens = lenses_[l];
     for (Eigen::Index k = 0; k < count; ++k) {
-      squares.push_back(std::log(mean_square(z.col(k), lens)));
-      peaks.push_back(largest(z.col(k), lens));
+      squares[l].push_back(std::log(mean_square(z.col(k), lens)));
+      peaks[l].push_back(largest(z.col(k), lens));
     }
-    const auto square = moments(squares);
-    const auto peak = moments(peaks);
-    const double width = std::sqrt(6.0 * peak.variance) / std::numbers::pi;
-    tails_.push_back({square.mean, std::sqrt(square.variance + 0.01),
-                      peak.mean - std::numbers::egamma * width, width});
     const Eigen::MatrixXd scaled =
         spread_.segment(lens.first, lens.count).cwiseInverse().asDiagonal() *
         off.middleRows(lens.first, lens.count);
@@ -82,10 +85,22 @@ Ensemble::Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas
     correlation.diagonal().array() += shrinkage;
     roots_.push_back(correlation.llt().matrixL());
   }
+  const auto tails_without = [&](Eigen::Index replica) {
+    std::vector<Tail> tails;
+    for (std::size_t l = 0; l < lenses_.size(); ++l) {
+      const auto square = moments(squares[l], static_cast<std::size_t>(replica));
+      const auto peak = moments(peaks[l], static_cast<std::size_t>(replica));
+      const double width = std::sqrt(6.0 * peak.variance) / std::numbers::pi;
+      tails.push_back({square.mean, std::sqrt(square.variance + 0.01),
+                       peak.mean - std::numbers::egamma * width, width});
+    }
+    return tails;
+  };
   for (Eigen::Index k = 0; k < count; ++k) {
-    replica_least_.push_back(least_probability(z.col(k)));
+    replica_least_.push_back(least_probability(z.col(k), tails_without(k)));
     replica_largest_.push_back(z.col(k).cwiseAbs().maxCoeff());
   }
+  tails_ = tails_without(count);
   std::sort(replica_least_.begin(), replica_least_.end());
   std::sort(replica_largest_.begin(), replica_largest_.end());
 }
@@ -104,10 +119,10 @@ Eigen::VectorXd Ensemble::lens_deviations(const Eigen::VectorXd& z) const {
   return t;
 }
 
-double Ensemble::least_probability(const Eigen::VectorXd& z) const {
+double Ensemble::least_probability(const Eigen::VectorXd& z, const std::vector<Tail>& tails) const {
   double least = 1.0;
   for (std::size_t l = 0; l < lenses_.size(); ++l) {
-    const auto& tail = tails_[l];
+    const auto& tail = tails[l];
     const double off = (std::log(mean_square(z, lenses_[l])) - tail.centre) / tail.spread;
     least = std::min(least, std::erfc(std::abs(off) / std::numbers::sqrt2));
     least = std::min(least, -std::expm1(-std::exp((tail.location - largest(z, lenses_[l])) / tail.width)));
@@ -116,7 +131,7 @@ double Ensemble::least_probability(const Eigen::VectorXd& z) const {
 }
 
 double Ensemble::p_value(const Eigen::VectorXd& readings) const {
-  const double least = least_probability(deviations(readings));
+  const double least = least_probability(deviations(readings), tails_);
   const auto below = std::upper_bound(replica_least_.begin(), replica_least_.end(), least) -
                      replica_least_.begin();
   const double n = static_cast<double>(replica_least_.size());

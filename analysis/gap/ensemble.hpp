@@ -35,7 +35,7 @@ class Ensemble {
   /// logarithm; negative where a lens sees less variety than the simulator has.
   Eigen::VectorXd lens_deviations(const Eigen::VectorXd& deviations) const;
   /// Probability of a replica as far off. Of each lens, the lens deviation and the largest deviation
-  /// are held against the replicas' own (normal and Gumbel by moments); the least of these
+  /// are held against the other replicas' (normal and Gumbel by moments); the least of these
   /// probabilities is ranked among the replicas' own least ones, and beyond them goes on in
   /// proportion.
   double p_value(const Eigen::VectorXd& readings) const;
@@ -45,12 +45,12 @@ class Ensemble {
   Eigen::VectorXd whitened(const Eigen::VectorXd& readings) const;
 
  private:
-  double least_probability(const Eigen::VectorXd& deviations) const;
+  struct Tail { double centre, spread, location, width; };
+  double least_probability(const Eigen::VectorXd& deviations, const std::vector<Tail>& tails) const;
 
   std::vector<LensView> lenses_;
   Eigen::VectorXd mean_, spread_;
   Eigen::MatrixXd refit_left_, refit_right_;  ///< J, and (J' W J)^-1 J' W
-  struct Tail { double centre, spread, location, width; };
   std::vector<Tail> tails_;
   std::vector<double> replica_least_;     ///< sorted
   std::vector<double> replica_largest_;   ///< largest |z| of each replica, sorted

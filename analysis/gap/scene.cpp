@@ -42,6 +42,18 @@ void align(const Conditions& conditions, std::vector<double>& heading) {
   for (std::size_t i = 0; i < heading.size(); ++i) heading[i] -= lag * rate[i];
 }
 
+/// Takes out what slow values, in the middle of each cluster, say by linear interpolation.
+void remove_slow(const std::vector<double>& slow, std::size_t cluster, std::vector<double>& values) {
+  if (slow.empty()) return;
+  const auto last = static_cast<double>(slow.size() - 1);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double at = std::clamp((static_cast<double>(i) + 0.5) / static_cast<double>(cluster) - 0.5, 0.0, last);
+    const auto low = std::min(static_cast<std::size_t>(at), slow.size() - 1);
+    const auto high = std::min(low + 1, slow.size() - 1);
+    values[i] -= slow[low] + (slow[high] - slow[low]) * (at - static_cast<double>(low));
+  }
+}
+
 std::vector<double> heading_error(const Conditions& conditions, const Series& series) {
   const auto& valid = conditions.series().mag_valid;
   const auto& turned = conditions.turned_deg();
@@ -93,14 +105,10 @@ void Scene::reduce_rate(const Conditions& conditions, const Series& series) {
   conditions.bridge(rate_error_dps);
 
   slow_dps = conditions.slow_means(rate_error_dps);
-  const auto& chosen = conditions.train_points();
-  Eigen::VectorXd train(static_cast<Eigen::Index>(chosen.size()));
-  for (std::size_t k = 0; k < chosen.size(); ++k)
-    train[static_cast<Eigen::Index>(k)] = slow_dps[chosen[k]];
-  const Eigen::VectorXd drift =
-      conditions.drift_regressors() * Eigen::VectorXd(conditions.drift_fit() * train);
-  for (std::size_t i = 0; i < slow_dps.size(); ++i)
-    slow_dps[i] -= drift[static_cast<Eigen::Index>(i)];
+  drift = conditions.drift_of(slow_dps);
+  const auto slow_drift = conditions.drift(drift);
+  for (std::size_t k = 0; k < slow_dps.size(); ++k) slow_dps[k] -= slow_drift[k];
+  remove_slow(slow_drift, conditions.cluster(), rate_error_dps);
 }
 
 Scene::Scene(const Conditions& conditions, const Series& series)

@@ -14,10 +14,10 @@ namespace gyrostat::gap {
 struct Scene {
   Scene(const Conditions& conditions, const Series& series);
 
-  std::vector<double> rate_error_dps;     ///< gyro minus reference rate, short gaps bridged
+  std::vector<double> rate_error_dps;     ///< gyro minus reference rate and drift, short gaps bridged
   const std::vector<double>& recorded_dps() const { return *recorded_dps_; }
-  std::vector<double> slow_dps;           ///< its cluster means without a T + b T' + c as the train
-                                          ///< part fits it
+  std::vector<double> slow_dps;           ///< its cluster means
+  Eigen::VectorXd drift;                  ///< what was taken out, Conditions::drift_of()
   std::vector<double> heading_error_deg;  ///< without its mean; NaN where the compass is not valid
   std::vector<double> slow_heading_deg;   ///< its cluster means
   std::array<Spectrum, 2> spectra;        ///< of the rate error, a part each

@@ -21,7 +21,8 @@ constexpr std::size_t fewest_samples = 1000;
 constexpr std::size_t screening_replicas = 8;
 constexpr std::size_t fit_replicas = 3;
 constexpr double needed_recovery = 0.6;   ///< less, and the cause is unknown
-constexpr double needed_gain = 8.0;       ///< of log score; less, and there is no cause to name
+constexpr double needed_gain = 8.0;       ///< of log score, to name a cause where nothing stands out
+constexpr double needed_gain_of_gap = 4.0;  ///< and where the gap is significant
 constexpr double member_probability = 0.05;
 
 using Clock = std::chrono::steady_clock;
@@ -216,9 +217,11 @@ void Work::attribute() {
   const auto ranked = contend(result_.baseline, {});
   std::vector<double> scores;
   for (const auto& c : ranked) scores.push_back(c.score.value - c.score.penalty(c.parameters));
-  const bool gained = !ranked.empty() && scores.front() - baseline_score_.value > needed_gain;
+  const bool significant = result_.p_before <= options_.significance;
+  const bool gained = !ranked.empty() && scores.front() - baseline_score_.value >
+                                             (significant ? needed_gain_of_gap : needed_gain);
   if (!gained) {
-    result_.verdict = result_.p_before <= options_.significance ? "unknown" : "none";
+    result_.verdict = significant ? "unknown" : "none";
     if (result_.verdict == "unknown") result_.verdict_set = {"unknown"};
     return;
   }

@@ -169,35 +169,13 @@ Scenario refine(const Simulator& simulator, Scenario scenario, const Eigen::Vect
 }
 
 Rest fit_rest(const Conditions& conditions, const Scene& scene) {
-  const auto& chosen = conditions.train_points();
-  const auto slow = conditions.slow_means(scene.rate_error_dps);
-  Eigen::VectorXd train(static_cast<Eigen::Index>(chosen.size()));
-  for (std::size_t k = 0; k < chosen.size(); ++k) train[static_cast<Eigen::Index>(k)] = slow[chosen[k]];
-  const Eigen::VectorXd drift = conditions.drift_fit() * train;
-  Rest rest{.random_error = fit_allan_components(scene.octaves[0], scene.slow_octaves[0],
-                                                 conditions.cluster(), conditions.interval_s(),
-                                                 SlowComponent::none)
-                                .random_error,
+  const auto& drift = scene.drift;
+  Rest rest{.random_error = fit_allan_components(conditions, scene, SlowComponent::none).random_error,
             .thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = drift[0]}};
-  if (drift.size() == 3)
-    rest.thermal_drift = {.a_dps_per_C = drift[1], .b_dps_s_per_C = drift[2],
+  if (drift.size() > 1)
+    rest.thermal_drift = {.a_dps_per_C = drift[1], .b_dps_s_per_C = drift[2] + drift[3],
                           .c_dps = drift[0] - drift[1] * conditions.slow_temperature_C().front()};
   return rest;
-}
-
-/// The memory of the increments, phi and delta2 / delta1: what the Allan fit chose, and a replica's
-/// refit would choose anew.
-std::vector<Dial> memory_dials() {
-  const auto bounded = [](double x) { return 0.98 * std::tanh(x); };
-  return {{[](const Scenario& s) { return std::atanh(s.random_error.phi / 0.981); },
-           [=](Scenario& s, double x) { s.random_error.phi = bounded(x); }, 0.2, 1.0},
-          {[](const Scenario& s) {
-             return std::atanh(s.random_error.delta2_dps / s.random_error.delta1_dps / 0.999);
-           },
-           [=](Scenario& s, double x) {
-             s.random_error.delta2_dps = 0.999 * std::tanh(x) * s.random_error.delta1_dps;
-           },
-           -0.2, 1.0}};
 }
 
 BaselineFit fit_baseline(const Simulator& simulator, const Scene& scene, const Series& recording) {
@@ -215,8 +193,7 @@ BaselineFit fit_baseline(const Simulator& simulator, const Scene& scene, const S
     s.compass.initial_heading_deg = compass_centre(conditions, recording);
   }
 
-  auto dials = noise_dials(conditions, Noises::all);
-  for (auto& dial : memory_dials()) dials.push_back(std::move(dial));
+  const auto dials = noise_dials(conditions, Noises::all);
   constexpr std::size_t replicas = 6;
   const auto count = static_cast<Eigen::Index>(dials.size());
   const auto middle = simulator.ensemble(s, judging_replicas, replicas);

@@ -6,6 +6,7 @@
 
 #include "analysis/gap/allan_components.hpp"
 #include "experiments/diagnosis/candidate.hpp"
+#include "experiments/diagnosis/model_fit.hpp"
 #include "experiments/diagnosis/signature.hpp"
 
 namespace gyrostat::gap {
@@ -95,6 +96,21 @@ std::vector<Start> start(Outliers, const Evidence& e) {
   return found;
 }
 
+/// Autocovariance at lags 0, 1 and 2 of unit white noise through equal poles.
+std::array<double, 3> through_poles(double pole, int poles) {
+  std::vector<double> response(static_cast<std::size_t>(8.0 * poles / (1.0 - pole)) + 8, 0.0);
+  response[0] = 1.0;
+  for (int k = 0; k < poles; ++k) {
+    double state = 0.0;
+    for (double& h : response) h = state = pole * state + (1.0 - pole) * h;
+  }
+  std::array<double, 3> covariance{};
+  for (std::size_t lag = 0; lag < 3; ++lag)
+    for (std::size_t i = lag; i < response.size(); ++i) covariance[lag] += response[i] * response[i - lag];
+  return covariance;
+}
+
+/// From the variance and the first autocorrelation of the steps from sample to sample.
 std::vector<Start> start(NoiseBandwidth, const Evidence& e) {
   const auto steps = train_steps(e);
   double square = 0.0, lagged = 0.0;
@@ -104,12 +120,18 @@ std::vector<Start> start(NoiseBandwidth, const Evidence& e) {
   }
   const double rate_hz = e.simulator.conditions().rate_hz();
   std::vector<Start> found;
-  const double pole = std::clamp(1.0 + 2.0 * lagged / square, 0.01, 0.98);
-  for (const double a : {pole, 0.5 * pole})
-    found.push_back({NoiseBandwidth{-std::log(a) * rate_hz / (2.0 * std::numbers::pi)},
-                     with_white(e,
-                                std::sqrt(0.5 * square / static_cast<double>(steps.size()) *
-                                          (1.0 + a)) / (1.0 - a))});
+  for (const int poles : {1, 2, 4}) {
+    double low = 0.002, high = 0.99;
+    for (int k = 0; k < 30; ++k) {
+      const double pole = 0.5 * (low + high);
+      const auto r = through_poles(pole, poles);
+      ((2.0 * r[1] - r[0] - r[2]) / (2.0 * (r[0] - r[1])) < lagged / square ? low : high) = pole;
+    }
+    const auto r = through_poles(low, poles);
+    found.push_back({NoiseBandwidth{-std::log(low) * rate_hz / (2.0 * std::numbers::pi), 1.0 * poles},
+                     with_white(e, std::sqrt(square / static_cast<double>(steps.size()) /
+                                             (2.0 * (r[0] - r[1]))))});
+  }
   return found;
 }
 
@@ -138,8 +160,7 @@ std::vector<Start> start(NoiseTemperature, const Evidence& e) {
 std::array<AllanComponents, 2> slow_fits(const Evidence& e, SlowComponent component) {
   const auto& conditions = e.simulator.conditions();
   const auto fit = [&](bool walk) {
-    return fit_allan_components(e.scene.octaves[0], e.scene.slow_octaves[0], conditions.cluster(),
-                                conditions.interval_s(), component, walk);
+    return fit_allan_components(conditions, e.scene, component, walk);
   };
   return {fit(true), fit(false)};
 }
@@ -168,13 +189,77 @@ std::vector<Start> start(Telegraph, const Evidence& e) {
   });
 }
 
+/// A sudden change of the slow values.
+struct Jump {
+  std::size_t at;
+  double size_dps;
+};
+
+/// Where the means of `reach` slow values before and after differ by more than six of their own
+/// robust deviations, the largest of each neighbourhood; `clearness` is of the largest.
+std::vector<Jump> jumps_over(const Evidence& e, std::size_t reach, double& clearness) {
+  const auto& slow = e.scene.slow_dps;
+  std::vector<Jump> differences;
+  for (const auto& span : e.simulator.conditions().slow_spans(Part::train)) {
+    if (span.size() < 2 * reach) continue;
+    double before = 0.0, after = 0.0;
+    for (std::size_t k = 0; k < reach; ++k) before += slow[span.first + k], after += slow[span.first + reach + k];
+    for (std::size_t i = span.first + reach;; ++i) {
+      differences.push_back({i, (after - before) / static_cast<double>(reach)});
+      if (i + reach >= span.last) break;
+      before += slow[i] - slow[i - reach];
+      after += slow[i + reach] - slow[i];
+    }
+  }
+  std::vector<double> sizes;
+  for (const auto& d : differences) sizes.push_back(std::abs(d.size_dps));
+  const double deviation = quantile(sizes, 0.5) / 0.6744897501960817;
+  std::sort(differences.begin(), differences.end(),
+            [](const Jump& a, const Jump& b) { return std::abs(a.size_dps) > std::abs(b.size_dps); });
+  std::vector<Jump> found;
+  for (const auto& d : differences) {
+    if (std::abs(d.size_dps) < 6.0 * deviation || found.size() == 200) break;
+    const auto near = [&](const Jump& other) { return std::max(d.at, other.at) - std::min(d.at, other.at) < 2 * reach; };
+    if (std::none_of(found.begin(), found.end(), near)) found.push_back(d);
+  }
+  clearness = found.empty() ? 0.0 : std::abs(found.front().size_dps) / deviation;
+  return found;
+}
+
+std::vector<Jump> jumps(const Evidence& e) {
+  std::vector<Jump> best;
+  double clearest = 0.0;
+  for (const std::size_t reach : {4U, 8U, 16U, 32U, 64U}) {
+    double clearness = 0.0;
+    if (auto found = jumps_over(e, reach, clearness); clearness > clearest) {
+      clearest = clearness;
+      best = std::move(found);
+    }
+  }
+  return best;
+}
+
+/// The jumps that are seen, beside what is left without them; and the random walk in steps.
 std::vector<Start> start(BiasSteps, const Evidence& e) {
+  std::vector<Start> found;
+  if (const auto seen = jumps(e); !seen.empty()) {
+    const auto& conditions = e.simulator.conditions();
+    Series rest = e.recording;
+    double square = 0.0;
+    for (const auto& jump : seen) {
+      square += jump.size_dps * jump.size_dps;
+      for (std::size_t i = jump.at * conditions.cluster(); i < rest.size(); ++i) rest.gyro_dps[i] -= jump.size_dps;
+    }
+    rest.heading_deg.clear();
+    const auto count = static_cast<double>(seen.size());
+    found.push_back({BiasSteps{count / e.seconds_of_train() * 3600.0, std::sqrt(square / count)},
+                     fit_rest(conditions, Scene(conditions, rest))});
+  }
   auto arima = e.baseline.random_error;
   const double walk = (arima.delta1_dps - arima.delta2_dps) / (1.0 - arima.phi);
   const double an_hour = walk * walk * e.simulator.conditions().rate_hz() * 3600.0;
   arima.delta1_dps *= 0.1;
   arima.delta2_dps *= 0.1;
-  std::vector<Start> found;
   for (const double steps : {3.0, 12.0, 50.0})
     found.push_back({BiasSteps{steps, std::sqrt(an_hour / steps)}, {arima, e.baseline.thermal_drift}});
   return found;
@@ -493,10 +578,12 @@ std::vector<Start> starts(const Effects::Any& effect, const Evidence& evidence) 
 
 bool is_what_it_is_called(const Effects::Any& effect, const Conditions& conditions) {
   const double shortest_s = 5.0 * conditions.interval_s();
+  const double longest_s = conditions.interval_s() * static_cast<double>(conditions.size());
   if (const auto* v = std::get_if<Vibration>(&effect))
     return v->bandwidth_hz < 0.5 * v->centre_hz && v->bandwidth_hz > 0.02 * v->centre_hz;
   if (const auto* g = std::get_if<GaussMarkov>(&effect)) return g->correlation_time_s > shortest_s;
-  if (const auto* t = std::get_if<Telegraph>(&effect)) return t->mean_dwell_s > shortest_s;
+  if (const auto* t = std::get_if<Telegraph>(&effect))  // it is seen to come back to its levels
+    return t->mean_dwell_s > shortest_s && t->mean_dwell_s < longest_s / 6.0;
   if (const auto* b = std::get_if<MagneticBursts>(&effect)) return b->std_deg < 90.0;
   return true;
 }
@@ -509,7 +596,7 @@ std::vector<std::string_view> free_parameters(const Effects::Any& effect) {
   std::vector<std::string_view> names;
   std::visit([&](const auto& any) {
     for (const auto& field : any.fields())
-      if (field.name != "reference_C" && field.name != "lsb_dps")
+      if (field.name != "reference_C" && field.name != "lsb_dps" && field.name != "poles")
         names.push_back(field.name);
   }, effect);
   return names;

@@ -75,6 +75,26 @@ TEST(NoiseBandwidth, MakesOfWhiteNoiseAFirstOrderAutoregression) {
   }
 }
 
+// The density at f relative to rest is (1 + (2 sin(pi f / rate) sqrt(a) / (1 - a))^2)^-poles, a exact
+// pole; the noise left over is its mean over all frequencies. 4 standard errors.
+TEST(NoiseBandwidth, PolesFollowOneAnother) {
+  constexpr std::size_t n = 200000;
+  const double pi = std::acos(-1.0), pole = std::exp(-2.0 * pi * 5.0 / 100.0);
+  for (const int poles : {2, 4}) {
+    auto series = noisy(n, 100.0);
+    effects::NoiseBandwidth{.cutoff_hz = 5.0, .poles = 1.0 * poles}.apply(series, {1, 0});
+    double power = 0.0, power_of_power = 0.0;
+    constexpr int steps = 20000;
+    for (int k = 0; k < steps; ++k) {
+      const double x = 2.0 * std::sin(0.5 * pi * (k + 0.5) / steps) * std::sqrt(pole) / (1.0 - pole);
+      const double density = std::pow(1.0 + x * x, -poles);
+      power += 0.04 * density / steps;
+      power_of_power += 0.04 * 0.04 * density * density / steps;
+    }
+    EXPECT_NEAR(autocovariance(white_part(series), 0), power, 4.0 * std::sqrt(2.0 * power_of_power / n)) << poles;
+  }
+}
+
 // Squares of one normal deviate a trial: relative standard error sqrt(2 / trials).
 TEST(NoiseBandwidth, IsStationaryFromTheFirstSample) {
   constexpr std::uint32_t trials = 4000;
