@@ -26,6 +26,7 @@ void catch_interrupts() {
   orderly.sa_handler = on_interrupt;
   sigaction(SIGINT, &orderly, nullptr);
   sigaction(SIGTERM, &orderly, nullptr);
+  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
 }
 
 /// A misspelt verb would otherwise be told that an argument was not expected.

@@ -15,7 +15,7 @@ struct Console {
   const std::atomic<bool>& stop;   ///< set by Ctrl-C
 };
 
-enum ExitCode { complete = 0, error = 1, usage = 2, stopped = 4 };
+enum ExitCode { complete = 0, error = 1, usage = 2, over_failure_budget = 3, stopped = 4 };
 
 /// Each adds its verb to the program. A verb that was called leaves its exit code in `exit_code`.
 void add_run(CLI::App& program, Console& console, int& exit_code);
