@@ -50,6 +50,12 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.set_version_flag("--version", GYROSTAT_VERSION);
   cli::add_run(program, console, exit_code);
+  cli::add_plan(program, console, exit_code);
+  cli::add_status(program, console, exit_code);
+  cli::add_export(program, console, exit_code);
+  cli::add_replay(program, console, exit_code);
+  cli::add_merge(program, console, exit_code);
+  cli::add_slurm(program, console, exit_code);
   cli::add_fit(program, console, exit_code);
   cli::add_apply(program, console, exit_code);
   cli::add_simulate(program, console, exit_code);
