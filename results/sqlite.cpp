@@ -63,17 +63,16 @@ std::span<const std::byte> Statement::blob(int column) const {
 
 namespace {
 
+bool can_write(const std::filesystem::path& path) { return ::access(path.c_str(), W_OK) == 0; }
+
 /// A finished file in a folder that cannot be written to has no log beside it and needs none.
-std::string read_only_uri(const std::filesystem::path& path) {
-  const auto absolute = std::filesystem::absolute(path);
+std::string uri_of(const std::filesystem::path& path, bool frozen) {
   std::string uri = "file:";
-  for (const char c : absolute.string())
+  for (const char c : std::filesystem::absolute(path).string())
     if (c == '%') uri += "%25";
     else if (c == '?') uri += "%3f";
     else if (c == '#') uri += "%23";
     else uri += c;
-  const bool has_log = std::filesystem::exists(path.string() + "-wal");
-  const bool frozen = !has_log && ::access(absolute.parent_path().c_str(), W_OK) != 0;
   return uri + (frozen ? "?immutable=1" : "");
 }
 
@@ -84,16 +83,20 @@ void Database::Close::operator()(sqlite3* connection) const { sqlite3_close_v2(c
 Database::Database(const std::filesystem::path& path, Access access) : path_(path) {
   constexpr int busy_ms = 60000;
   sqlite3* connection = nullptr;
-  const int code =
-      access == Access::read
-          ? sqlite3_open_v2(read_only_uri(path).c_str(), &connection,
-                            SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr)
-          : sqlite3_open_v2(path.c_str(), &connection, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
-                            nullptr);
+  // The last reader, too, tidies the log away where it may; it still changes nothing that can be read.
+  const bool writable = can_write(std::filesystem::absolute(path).parent_path()) &&
+                        (!std::filesystem::exists(path) || can_write(path));
+  const bool frozen = !writable && !std::filesystem::exists(path.string() + "-wal");
+  const int flags = access == Access::write ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE
+                    : writable              ? SQLITE_OPEN_READWRITE
+                                            : SQLITE_OPEN_READONLY;
+  const int code = sqlite3_open_v2(uri_of(path, frozen && access == Access::read).c_str(), &connection,
+                                   flags | SQLITE_OPEN_URI, nullptr);
   connection_.reset(connection);
   if (code != SQLITE_OK) fail(code);
   sqlite3_extended_result_codes(connection, 1);
   sqlite3_busy_timeout(connection, busy_ms);
+  if (access == Access::read) run("PRAGMA query_only = ON");
 }
 
 void Database::run(const std::string& sql) {

@@ -6,6 +6,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cstring>
@@ -48,9 +49,10 @@ std::int64_t checksum_of(std::int64_t id, bool calibrated, std::span<const doubl
 
 /// One line for what SQLite says: what happened, and what to do.
 StoreError explained(const fs::path& path, const sqlite::Error& error) {
+  auto reason = std::string(error.what()).substr(path.string().size() + 2);
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
   const auto said = [&](const char* what, const char* advice) {
-    return StoreError(fmt::format("{}: {} ({}); {}", path.string(), what,
-                                  std::string(error.what()).substr(path.string().size() + 2), advice));
+    return StoreError(fmt::format("{}: {} ({}); {}", path.string(), what, reason, advice));
   };
   constexpr const char* again = "finished trials are kept, and the same command goes on from them";
   if (error.is_damage())
@@ -77,6 +79,9 @@ Texts texts(const Database& database, const std::string& json) {
   if (!parsed.is_array()) throw damage(database, "a list of names cannot be read");
   return parsed.get<Texts>();
 }
+
+/// Made, and ended before anything was in it.
+bool is_empty(Database& database) { return database.number("SELECT count(*) FROM sqlite_master") == 0; }
 
 std::vector<Session> sessions_of(Database& database) {
   std::vector<Session> sessions;
@@ -169,7 +174,10 @@ Store::Store(const fs::path& folder, Access access) : path_(folder / file_name) 
 Store Store::open(const fs::path& folder) {
   Store store(folder, Access::read);
   store.guarded([&] {
-    if (store.database_->number("PRAGMA user_version") != schema_version)
+    const auto version = store.database_->number("PRAGMA user_version");
+    if (version == 0 && is_empty(*store.database_))
+      throw StoreError(store.path_.string() + ": holds no outcomes yet");
+    if (version != schema_version)
       throw StoreError(store.path_.string() + ": is not a store of this version of gyrostat");
   });
   return store;
@@ -181,9 +189,10 @@ Store Store::open_or_create(const fs::path& folder, const Manifest& manifest) {
     auto& database = *store.database_;
     // Rows of some KiB fill large pages better. NORMAL: a power cut may take the last batches, whose
     // trials are then simply missing.
-    database.run("PRAGMA page_size = 16384; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
+    database.run("PRAGMA page_size = 16384; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; "
+                 "PRAGMA wal_autocheckpoint = 256");
     const auto version = database.number("PRAGMA user_version");
-    if (version == 0 && database.number("SELECT count(*) FROM sqlite_master") == 0)
+    if (version == 0 && is_empty(database))
       store.create(manifest);
     else if (version != schema_version)
       throw StoreError(store.path_.string() + ": is not a store of this version of gyrostat; "
