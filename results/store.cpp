@@ -34,16 +34,18 @@ constexpr std::int64_t id_of(std::uint32_t cell, std::uint32_t trial) {
 constexpr std::uint32_t cell_of(std::int64_t id) { return static_cast<std::uint32_t>(id >> 32); }
 constexpr std::uint32_t trial_of(std::int64_t id) { return static_cast<std::uint32_t>(id); }
 
-/// Multiply-xor over 64-bit words: finds what a disk or a stray write does, not what a forger does.
+/// Multiply-xor over 64-bit words, four at a time: finds what a disk or a stray write does, not what a
+/// forger does.
 std::int64_t checksum_of(std::int64_t id, bool calibrated, std::span<const double> outcomes) {
-  std::uint64_t hash = 0x9e3779b97f4a7c15;
-  const auto add = [&](std::uint64_t word) {
+  std::uint64_t lanes[4] = {0x9e3779b97f4a7c15, 0xbf58476d1ce4e5b9, 0x94d049bb133111eb, 0x2545f4914f6cdd1d};
+  const auto mix = [](std::uint64_t hash, std::uint64_t word) {
     hash = (hash ^ word) * 0xff51afd7ed558ccd;
-    hash ^= hash >> 32;
+    return hash ^ hash >> 32;
   };
-  add(static_cast<std::uint64_t>(id));
-  add(calibrated);
-  for (const double value : outcomes) add(std::bit_cast<std::uint64_t>(value));
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    lanes[i % 4] = mix(lanes[i % 4], std::bit_cast<std::uint64_t>(outcomes[i]));
+  std::uint64_t hash = mix(static_cast<std::uint64_t>(id), calibrated);
+  for (const auto lane : lanes) hash = mix(hash, lane);
   return static_cast<std::int64_t>(hash);
 }
 

@@ -32,7 +32,7 @@ class OrderStatistic {
   std::size_t count_ = 0, below_ = 0, inside_ = 0;
   std::uint64_t least_above_ = ~0ULL;
   std::vector<std::uint64_t> kept_;
-  std::vector<std::size_t> bins_;
+  std::vector<std::uint32_t> bins_;
   double value_ = 0.0, next_ = 0.0;
 };
 
