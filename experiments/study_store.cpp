@@ -36,7 +36,7 @@ std::string described(const Build& build) {
 
 void require_build(const std::string& place, const std::vector<Session>& sessions, const Build& build) {
   for (const auto& session : sessions)
-    if (session.build != build)
+    if (session.trials > 0 && session.build != build)
       throw InputError(place, fmt::format("holds outcomes of build {}, not {}; {}",
                                           described(session.build), described(build), ways_out));
 }
@@ -83,7 +83,7 @@ Store open_study_store(const fs::path& folder, const Study& study, Mismatch mism
   Store store = Store::open_or_create(folder, manifest);
   require_match(store, manifest, place, mismatch);
   store.set_cells(manifest.cells);
-  store.begin_session({study.digest, this_build(), this_machine(), ::getpid(), utc_now(), ""});
+  store.begin_session({study.digest, this_build(), this_machine(), ::getpid(), utc_now(), "", 0});
   return store;
 }
 
@@ -98,7 +98,7 @@ void require_same(const fs::path& into, const fs::path& from, Mismatch mismatch)
                                           into.string(), other.digest, there.digest));
     for (const auto& session : a.sessions())
       for (const auto& theirs : b.sessions())
-        if (session.build != theirs.build)
+        if (session.trials > 0 && theirs.trials > 0 && session.build != theirs.build)
           throw InputError(place, fmt::format("is by build {}, {} by {}; --mix merges them all the same",
                                               described(theirs.build), into.string(),
                                               described(session.build)));

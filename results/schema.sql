@@ -26,6 +26,7 @@ CREATE TABLE session (             -- one row a run: which build on which machin
   machine    TEXT    NOT NULL,
   process    INTEGER NOT NULL,
   started    TEXT    NOT NULL,     -- UTC
+  trials     INTEGER NOT NULL DEFAULT 0,    -- that it finished
   progress   TEXT    NOT NULL DEFAULT '{}'  -- JSON, as of the last batch
 );
 
@@ -46,4 +47,5 @@ CREATE TABLE failure (             -- trials in quarantine: a method threw or br
 
 CREATE TRIGGER trial_finished AFTER INSERT ON trial BEGIN
   UPDATE cell SET finished = finished + 1 WHERE id = NEW.id >> 32;
+  UPDATE session SET trials = trials + 1 WHERE id = NEW.session;
 END;

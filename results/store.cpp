@@ -88,10 +88,10 @@ bool is_empty(Database& database) { return database.number("SELECT count(*) FROM
 std::vector<Session> sessions_of(Database& database) {
   std::vector<Session> sessions;
   Statement rows(database, "SELECT digest, version, compiler, flags, machine, process, started, "
-                           "progress FROM session ORDER BY id");
+                           "progress, trials FROM session ORDER BY id");
   while (rows.step())
     sessions.push_back({rows.text(0), {rows.text(1), rows.text(2), rows.text(3)}, rows.text(4),
-                        rows.integer(5), rows.text(6), rows.text(7)});
+                        rows.integer(5), rows.text(6), rows.text(7), rows.integer(8)});
   return sessions;
 }
 

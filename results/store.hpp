@@ -54,6 +54,7 @@ struct Session {
   std::int64_t process = 0;
   std::string started;   ///< UTC
   std::string progress;  ///< JSON, as of the last batch
+  std::int64_t trials = 0;  ///< that it finished; kept by the store
 };
 
 /// A method that threw or broke down in a trial.

@@ -45,7 +45,7 @@ Store store_in(const fs::path& folder, const Cell& cell) {
   for (const auto& method : cell.methods) manifest.cells[0].methods.push_back(method.id);
   auto store = Store::open_or_create(folder, manifest);
   store.set_cells(manifest.cells);
-  store.begin_session({"bench", {"1", "1", "1"}, "here", 1, "now", ""});
+  store.begin_session({"bench", {"1", "1", "1"}, "here", 1, "now", "", 0});
   return store;
 }
 

@@ -44,11 +44,11 @@ std::string last_words(const Session& session) {
 
 Table sessions_table(const Store& store) {
   Table table{.title = "sessions",
-              .columns = {{"started", "UTC"}, {"process", ""}, {"last batch", ""}, {"build", ""},
+              .columns = {{"started", "UTC"}, {"process", ""}, {"trials", ""}, {"last batch", ""}, {"build", ""},
                           {"compiler", ""}, {"flags", ""}, {"machine", ""}},
               .rows = {}, .notes = {}};
   for (const auto& session : store.sessions())
-    table.rows.push_back({session.started, session.process, last_words(session), session.build.version,
+    table.rows.push_back({session.started, session.process, session.trials, last_words(session), session.build.version,
                           session.build.compiler, session.build.flags, session.machine});
   return table;
 }

@@ -234,7 +234,9 @@ TEST(Store, OutcomesOfAnotherBuildAreRefusedUnlessToldSo) {
   {
     auto store = Store::open_or_create(out, manifest_of(read));
     store.set_cells(manifest_of(read).cells);
-    store.begin_session({read.digest, {"0.0.9 abc", "cc", "-O0"}, "there", 1, "2026-01-01T00:00:00Z", ""});
+    store.begin_session({read.digest, {"0.0.9 abc", "cc", "-O0"}, "there", 1, "2026-01-01T00:00:00Z", "", 0});
+    Workspace workspace;
+    store.write(std::vector{row_of(1, 0, run_trial(read.cells[1], {}, read.seed, 0, workspace))});
   }
   const auto refused = run_program(folder, {"run", "s.json"});
   EXPECT_EQ(refused.exit_code, 2);
@@ -413,7 +415,7 @@ TEST(Watching, StatusReadsARunThatIsUnderWayAndTheLogIsJsonLines) {
   const auto status = Json::parse(run_program(folder, {"status", "runs/s", "--format", "json"}).out);
   EXPECT_EQ(status[0]["rows"][0][0], "short");
   EXPECT_GT(status[0]["rows"][0][1].get<int>(), 200);
-  EXPECT_THAT(status[1]["rows"][0][2].get<std::string>(),
+  EXPECT_THAT(status[1]["rows"][0][3].get<std::string>(),
               AllOf(HasSubstr("short: "), HasSubstr("trials/s"), HasSubstr("s left"), HasSubstr("widest")));
   expect_resumed(folder);
   std::istringstream log(folder.read("runs/s/log.jsonl"));

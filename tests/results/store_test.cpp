@@ -23,7 +23,7 @@ const Manifest manifest{"d1", "study", 7, "{}", "/", {"x", "y"}, {{"a", {"kf", "
 Store store_in(const TestFolder& folder) {
   auto store = Store::open_or_create(folder.path(), manifest);
   store.set_cells(manifest.cells);
-  store.begin_session({"d1", {"1", "g++", "-O3"}, "here", 1, "2026-01-01T00:00:00Z", ""});
+  store.begin_session({"d1", {"1", "g++", "-O3"}, "here", 1, "2026-01-01T00:00:00Z", "", 0});
   return store;
 }
 
@@ -56,6 +56,7 @@ TEST(Store, ReadsBackTheBitsThatWereWrittenInOrderOfTrials) {
   });
   EXPECT_EQ(store.manifest().cells[0].finished, 3U);
   EXPECT_EQ(store.manifest().cells[1].finished, 1U);
+  EXPECT_EQ(store.sessions().at(0).trials, 4);
 }
 
 TEST(Store, KeepsTheFailuresOfATrialWithIt) {
