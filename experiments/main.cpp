@@ -26,6 +26,7 @@ void catch_interrupts() {
   orderly.sa_handler = on_interrupt;
   sigaction(SIGINT, &orderly, nullptr);
   sigaction(SIGTERM, &orderly, nullptr);
+  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
 }
 
 /// A misspelt verb would otherwise be told that an argument was not expected.
@@ -49,6 +50,12 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.set_version_flag("--version", GYROSTAT_VERSION);
   cli::add_run(program, console, exit_code);
+  cli::add_plan(program, console, exit_code);
+  cli::add_status(program, console, exit_code);
+  cli::add_export(program, console, exit_code);
+  cli::add_replay(program, console, exit_code);
+  cli::add_merge(program, console, exit_code);
+  cli::add_slurm(program, console, exit_code);
   cli::add_fit(program, console, exit_code);
   cli::add_apply(program, console, exit_code);
   cli::add_simulate(program, console, exit_code);

@@ -68,8 +68,9 @@ Method read_method(const Json& value, const std::string& place, ParameterSource 
   method.filter = object.has("filter") || id.empty() ? object.required_text("filter") : id;
   Filters::with(object.place_of("filter"), "filter", method.filter, [](auto) {});
   method.id = plain_name(object.text("id", method.filter), object.place_of("id"));
-  if (method.id.find(',') != std::string::npos)
-    throw InputError(object.place_of("id"), "'" + method.id + "' cannot head a column: no commas");
+  if (method.id.find_first_of(",:") != std::string::npos)
+    throw InputError(object.place_of("id"),
+                     "'" + method.id + "' cannot head a column or end an address: no commas, no colons");
   method.source = source_of(method.filter, fallback);
   if (object.has("parameters_from") && fallback == ParameterSource::defaults)
     throw InputError(object.place_of("parameters_from"),

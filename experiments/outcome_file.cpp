@@ -1,6 +1,7 @@
 #include "experiments/outcome_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -38,30 +39,35 @@ void require_writable(const std::filesystem::path& path, const std::filesystem::
     throw InputError(path.string(), "cannot be written");
 }
 
-void write_outcomes(const std::filesystem::path& path, const Study& study,
-                    std::span<const CellResult> results) {
-  std::string text = "cell,trial,method";
-  for (const auto& id : Metrics::ids()) text += ',' + id;
-  for (const auto name : status_names) text += fmt::format(",{}", name);
-  text += ",diverged\n";
-  auto out = std::back_inserter(text);
-  for (std::size_t c = 0; c < results.size(); ++c) {
-    const auto& cell = study.cells[c];
-    for (std::size_t trial = 0; trial < results[c].trials.size(); ++trial) {
-      const auto& record = results[c].trials[trial];
-      if (!record) continue;
-      for (std::size_t m = 0; m < cell.methods.size(); ++m) {
-        const auto& outcome = record->outcomes[m];
-        fmt::format_to(out, "{},{},{}", quoted(cell.name), trial, cell.methods[m].id);
-        for (const double value : outcome.metrics)
-          if (std::isnan(value)) text += ',';
-          else fmt::format_to(out, ",{:.17g}", value);
-        for (const auto count : outcome.status_counts) fmt::format_to(out, ",{}", count);
-        fmt::format_to(out, ",{}\n", outcome.diverged ? 1 : 0);
+void export_outcomes(const Store& store, const TextSink& sink) {
+  constexpr std::size_t piece = 1 << 16;
+  const auto manifest = store.manifest();
+  std::string text = fmt::format("cell,trial,method,{}\n", fmt::join(manifest.columns, ","));
+  for (std::uint32_t c = 0; c < manifest.cells.size(); ++c) {
+    const auto& cell = manifest.cells[c];
+    const auto name = quoted(cell.name);
+    store.for_each_trial(c, cell.trials, [&](const Store::TrialView& trial) {
+      auto value = trial.outcomes.begin();
+      for (const auto& method : cell.methods) {
+        auto out = fmt::format_to(std::back_inserter(text), "{},{},{}", name, trial.trial, method);
+        for (std::size_t i = 0; i < manifest.columns.size(); ++i, ++value)
+          out = std::isnan(*value) ? fmt::format_to(out, ",") : fmt::format_to(out, ",{:.17g}", *value);
+        text += '\n';
       }
-    }
+      if (text.size() < piece) return;
+      sink(text);
+      text.clear();
+    });
   }
-  write_atomically(path, gzipped(text));
+  sink(text);
+}
+
+void write_outcomes(const std::filesystem::path& path, const Store& store) {
+  AtomicFile file(path);
+  Gzip gzip([&](std::string_view packed) { file.write(packed); });
+  export_outcomes(store, [&](std::string_view text) { gzip.write(text); });
+  gzip.finish();
+  file.commit();
 }
 
 }  // namespace gyrostat

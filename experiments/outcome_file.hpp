@@ -1,9 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
+#include <functional>
+#include <string_view>
 
-#include "experiments/runner.hpp"
+#include "results/store.hpp"
 
 namespace gyrostat {
 
@@ -14,9 +15,16 @@ void make_result_folder(const std::filesystem::path& folder);
 /// is done for it.
 void require_writable(const std::filesystem::path& path, const std::filesystem::path& input);
 
-/// Every finished trial as a row "cell,trial,method,<metrics>,<statuses>,diverged", ordered by
-/// cell, trial and method: the same bytes for the same study. Written whole or not at all.
-void write_outcomes(const std::filesystem::path& path, const Study& study,
-                    std::span<const CellResult> results);
+/// Takes text piece by piece.
+using TextSink = std::function<void(std::string_view)>;
+
+/// The canonical export: every finished trial of the store as a row "cell,trial,method,<metrics>,
+/// <statuses>,diverged", ordered by cell, trial and method; a number without a value is blank. Only
+/// trials below the number that the store was last asked for. The same bytes for the same outcomes,
+/// whoever made them, in whatever order.
+void export_outcomes(const Store& store, const TextSink& sink);
+
+/// The export, packed, at `path`: whole or not at all.
+void write_outcomes(const std::filesystem::path& path, const Store& store);
 
 }  // namespace gyrostat

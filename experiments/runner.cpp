@@ -21,28 +21,46 @@ std::vector<double> metric_values(const CellResult& result, std::size_t method,
   return values;
 }
 
-CellResult run_cell(const Cell& cell, std::uint64_t seed, const RunOptions& options) {
+namespace {
+
+/// At most so many threads as long as it lives; 0: as many as the machine has.
+std::optional<tbb::global_control> thread_limit(int threads) {
   std::optional<tbb::global_control> limit;
-  if (options.threads > 0)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
+  if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
+  return limit;
+}
 
-  CellResult result;
-  result.trials.resize(cell.trials);
+}  // namespace
+
+PreparedCell prepare_cell(const Cell& cell, std::uint64_t seed, int threads) {
+  const auto limit = thread_limit(threads);
+  PreparedCell prepared;
   Series buffer;
-  if (cell.needs_calibration()) result.calibration = calibrate_cell(cell, seed, 0, buffer);
-  result.tuned = tune_methods(cell, result.calibration, seed);
-  const Cell fixed = with_tuned(cell, result.tuned);
+  if (cell.needs_calibration()) prepared.calibration = calibrate_cell(cell, seed, 0, buffer);
+  prepared.tuned = tune_methods(cell, prepared.calibration, seed);
+  prepared.cell = with_tuned(cell, prepared.tuned);
+  return prepared;
+}
 
+std::vector<double> run_trials(const PreparedCell& prepared, std::uint64_t seed,
+                               const RunOptions& options,
+                               const std::function<bool(std::uint32_t trial)>& wanted,
+                               const std::function<void(std::uint32_t trial, Record&&)>& take) {
+  const auto limit = thread_limit(options.threads);
+  const auto& cell = prepared.cell;
   tbb::enumerable_thread_specific<Workspace> workspaces;
   std::atomic<std::size_t> finished{0};
-  tbb::parallel_for(std::uint32_t{0}, cell.trials, [&](std::uint32_t trial) {
+  std::atomic<std::uint32_t> next{0};
+  tbb::parallel_for(std::uint32_t{0}, cell.trials, [&](std::uint32_t /*turn*/) {
+    const auto trial = next++;  // so that trials begin in order, and what is finished has few gaps
     if (options.stop && options.stop->load(std::memory_order_relaxed)) return;
-    result.trials[trial] = run_trial(fixed, result.calibration, seed, trial, workspaces.local());
+    if (!wanted(trial)) return;
+    take(trial, run_trial(cell, prepared.calibration, seed, trial, workspaces.local()));
     const std::size_t done = ++finished;
     if (options.progress) options.progress(done);
   });
 
-  result.nanoseconds_per_step.resize(cell.methods.size());
+  std::vector<double> nanoseconds_per_step(cell.methods.size());
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
     double seconds = 0.0, steps = 0.0;
     for (const auto& workspace : workspaces) {
@@ -50,8 +68,26 @@ CellResult run_cell(const Cell& cell, std::uint64_t seed, const RunOptions& opti
       seconds += workspace.seconds[m];
       steps += workspace.steps[m];
     }
-    result.nanoseconds_per_step[m] = steps > 0.0 ? 1e9 * seconds / steps : no_value;
+    nanoseconds_per_step[m] = steps > 0.0 ? 1e9 * seconds / steps : no_value;
   }
+  return nanoseconds_per_step;
+}
+
+CellResult run_cell(const Cell& cell, std::uint64_t seed, const RunOptions& options) {
+  auto prepared = prepare_cell(cell, seed, options.threads);
+  CellResult result;
+  result.trials.resize(cell.trials);
+  const auto every = [](std::uint32_t) { return true; };
+  result.nanoseconds_per_step =
+      run_trials(prepared, seed, options, every, [&](std::uint32_t trial, Record&& record) {
+        for (std::size_t m = 0; m < record.outcomes.size(); ++m)
+          if (const auto& thrown = record.outcomes[m].thrown; !thrown.empty())
+            throw std::runtime_error(fmt::format("{}, trial {}, {}: {}", cell.name, trial,
+                                                 cell.methods[m].id, thrown));
+        result.trials[trial] = std::move(record);
+      });
+  result.calibration = std::move(prepared.calibration);
+  result.tuned = std::move(prepared.tuned);
   return result;
 }
 

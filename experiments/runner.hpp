@@ -28,8 +28,25 @@ struct RunOptions {
   std::function<void(std::size_t finished)> progress;  ///< called from any thread
 };
 
-/// Calibrates, tunes where methods ask for it, and runs the trials of a cell on oneTBB. Each trial writes its own slot and its noise is addressed by
-/// its number, so the result does not depend on the number of threads.
+/// A cell with its calibration, and with tuned values fixed.
+struct PreparedCell {
+  Cell cell;
+  Calibration calibration;
+  std::vector<TunedMethod> tuned;  ///< one a method, empty values where nothing was to be tuned
+};
+
+/// Calibrates, and tunes where methods ask for it.
+PreparedCell prepare_cell(const Cell& cell, std::uint64_t seed, int threads);
+
+/// Runs those trials of the cell that are `wanted`, on oneTBB, and hands each to `take`, from any
+/// thread. A trial's noise is addressed by its number, so no record depends on the number of threads.
+/// Returns nanoseconds per step of each method, metrics included; NaN where nothing ran.
+std::vector<double> run_trials(const PreparedCell& prepared, std::uint64_t seed,
+                               const RunOptions& options,
+                               const std::function<bool(std::uint32_t trial)>& wanted,
+                               const std::function<void(std::uint32_t trial, Record&&)>& take);
+
+/// Prepares a cell and runs all of its trials; each writes its own slot. Throws what a trial threw.
 CellResult run_cell(const Cell& cell, std::uint64_t seed, const RunOptions& options);
 
 }  // namespace gyrostat

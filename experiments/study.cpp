@@ -8,6 +8,7 @@
 #include "analysis/spectra/shrinkage.hpp"
 #include "core/filters/list.hpp"
 #include "core/track.hpp"
+#include "experiments/digest.hpp"
 #include "experiments/grid.hpp"
 #include "experiments/recording.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr Range trial_range{.from = 1, .to = 1e8, .whole = true};
 constexpr Range budget_range{.from = 1, .to = 100000, .whole = true};
+constexpr Range share_range{.from = 0.0, .to = 1.0};
 const Json no_keys = Json::object();
 constexpr double most_samples = 1e8;
 constexpr Range seed_range{.from = 0, .to = 9007199254740992.0, .whole = true};
@@ -253,6 +255,27 @@ std::size_t metric_named(const std::string& name, const std::string& place) {
   return static_cast<std::size_t>(found - ids.begin());
 }
 
+std::string Study::name() const { return std::filesystem::path(path).stem().string(); }
+
+std::uint64_t Study::trials() const {
+  std::uint64_t sum = 0;
+  for (const auto& cell : cells) sum += cell.trials;
+  return sum;
+}
+
+void set_trials(Study& study, std::uint32_t trials) {
+  for (auto& cell : study.cells) cell.trials = cell.recording ? std::min(cell.trials, trials) : trials;
+}
+
+const Cell& cell_named(const Study& study, const std::string& name, const std::string& place) {
+  std::vector<std::string> names;
+  for (const auto& cell : study.cells) {
+    if (name.empty() || cell.name == name) return cell;
+    names.push_back(cell.name);
+  }
+  throw InputError(place, unknown_name("cell", name, names));
+}
+
 Study read_study(const std::string& path) { return parse_study(read_json(path), path); }
 
 Study parse_study(const Json& json, const std::string& path) {
@@ -265,7 +288,11 @@ Study parse_study(const Json& json, const std::string& path) {
     for (const auto& [cell, cell_place] : expand_grid(*value, place))
       add_cell(study, read_cell({cell, cell_place}, folder, study.cells.size()), cell_place);
   if (study.cells.empty()) throw InputError(path, "\"cells\" is missing or empty");
+  study.failure_budget = object.number("failure_budget", 1.0, share_range, "of all trials");
   object.finish();
+  study.path = path;
+  study.source = json.dump(2);
+  study.digest = study_digest(json, path);
   return study;
 }
 

@@ -52,7 +52,21 @@ struct Study {
   std::string title;
   std::uint64_t seed = 1;
   std::vector<Cell> cells;
+  double failure_budget = 1.0;  ///< share of all trials that may throw or break down
+  std::string path;             ///< of the study file
+  std::string source;           ///< its JSON
+  std::string digest;           ///< of all in it that decides an outcome, see study_digest
+
+  /// What the study is called in folders and addresses: its file without the extension.
+  std::string name() const;
+  std::uint64_t trials() const;  ///< of all cells
 };
+
+/// Sets the number of trials of every cell; a recording has no more than its pieces.
+void set_trials(Study& study, std::uint32_t trials);
+
+/// The cell called `name`, the first where that is empty; throws InputError at `place` otherwise.
+const Cell& cell_named(const Study& study, const std::string& name, const std::string& place);
 
 /// Reads and checks a study file; recordings it names are relative to its own folder. Throws
 /// InputError with the JSON path.

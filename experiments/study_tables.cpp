@@ -341,7 +341,7 @@ Table tuned(const Request& request, Results& results) {
                           {"before", ""}, {"after", ""}},
               .rows = {}, .notes = {}};
   for (const auto* cell : request.cells) {
-    for (auto& row : tuning_table(*cell, results.of(*cell)).rows) {
+    for (auto& row : tuning_table(*cell, results.of(*cell).tuned).rows) {
       row.insert(row.begin(), TableCell(cell->name));
       table.rows.push_back(std::move(row));
     }

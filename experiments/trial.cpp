@@ -1,6 +1,7 @@
 #include "experiments/trial.hpp"
 
 #include <chrono>
+#include <new>
 
 #include "analysis/errors.hpp"
 #include "core/filters/list.hpp"
@@ -77,27 +78,57 @@ Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t t
   return calibrate(buffer, cell.calibration.method);
 }
 
+namespace {
+
+/// `work`'s outcome, or what it threw.
+template <class Work>
+Outcome quarantined(const Work& work) {
+  std::string thrown;
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& failure) {
+    thrown = failure.what();
+  }
+  Outcome outcome;
+  outcome.metrics.fill(no_value);
+  outcome.thrown = thrown.empty() ? "unknown" : thrown;
+  return outcome;
+}
+
+}  // namespace
+
 Record run_trial(const Cell& cell, const Calibration& shared, std::uint64_t seed,
                  std::uint32_t trial, Workspace& workspace) {
   Record record;
   auto& series = workspace.series;
-  cell.make_trial(seed, trial, series);
   Calibration own;
-  if (cell.calibration.each_trial && cell.needs_calibration()) {
-    own = calibrate_cell(cell, seed, trial, workspace.calibration_series);
-    record.calibration_converged = own.random_error.converged;
+  const Series* judged = nullptr;
+  const auto prepared = quarantined([&] {
+    cell.make_trial(seed, trial, series);
+    if (cell.calibration.each_trial && cell.needs_calibration()) {
+      own = calibrate_cell(cell, seed, trial, workspace.calibration_series);
+      record.calibration_converged = own.random_error.converged;
+    }
+    judged = &cell.judged(series, workspace.denoised);
+    return Outcome{};
+  });
+  if (!prepared.thrown.empty()) {
+    record.outcomes.assign(cell.methods.size(), prepared);
+    return record;
   }
   const Calibration& calibration = cell.calibration.each_trial ? own : shared;
 
-  const Series& judged = cell.judged(series, workspace.denoised);
   workspace.seconds.resize(cell.methods.size());
   workspace.steps.resize(cell.methods.size());
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
     const auto& method = cell.methods[m];
     const auto start = std::chrono::steady_clock::now();
-    record.outcomes.push_back(run_method(method,
-                                         told_parameters(cell, method, calibration, series), series,
-                                         judged, workspace.track));
+    record.outcomes.push_back(quarantined([&] {
+      return run_method(method, told_parameters(cell, method, calibration, series), series, *judged,
+                        workspace.track);
+    }));
     workspace.seconds[m] +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     workspace.steps[m] += static_cast<double>(series.size());

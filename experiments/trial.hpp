@@ -17,6 +17,7 @@ struct Outcome {
   std::array<double, metric_count> metrics{};  ///< in the order of Metrics::ids(); NaN: no value
   std::array<std::uint32_t, status_names.size()> status_counts{};
   bool diverged = false;  ///< bias RMSE above `divergence_ratio` times that of no compensation
+  std::string thrown;     ///< what the method threw; then there is nothing else
 
   std::uint32_t breakdowns() const;
 };
@@ -59,7 +60,9 @@ ParameterMap told_parameters(const Cell& cell, const Method& method, const Calib
 Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t trial,
                            Series& buffer);
 
-/// Trial number `trial` of a cell. `shared` is used unless the cell calibrates each trial.
+/// Trial number `trial` of a cell. `shared` is used unless the cell calibrates each trial. What a method
+/// throws is its outcome; what signal or calibration throw is the outcome of all. Only a lack of memory
+/// is thrown on.
 Record run_trial(const Cell& cell, const Calibration& shared, std::uint64_t seed,
                  std::uint32_t trial, Workspace& workspace);
 

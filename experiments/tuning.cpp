@@ -14,13 +14,19 @@ struct Signal {
   Series series, denoised;
 };
 
+/// Where tuning signals begin under the calibration's seed, whatever the number of trials: above trial
+/// 0 where that is the only calibration, above every trial where each has its own.
+std::uint32_t first_tuning_trial(const Cell& cell) {
+  return cell.calibration.each_trial ? 4'000'000'000U : 1000U;
+}
+
 /// Signals under the calibration's seed, beyond the trials that calibrations use.
 std::vector<Signal> tuning_signals(const Cell& cell, std::uint64_t seed) {
   std::vector<Signal> signals(cell.tuning.trials);
   Scenario scenario = cell.scenario;
   if (cell.tuning.undisturbed) scenario.compass.disturbances.clear();
   tbb::parallel_for(std::size_t{0}, signals.size(), [&](std::size_t i) {
-    synthesise(scenario, calibration_noise(seed, cell.trials + static_cast<std::uint32_t>(i)),
+    synthesise(scenario, calibration_noise(seed, first_tuning_trial(cell) + static_cast<std::uint32_t>(i)),
                signals[i].series);
     (void)cell.judged(signals[i].series, signals[i].denoised);
   });

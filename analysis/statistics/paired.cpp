@@ -9,21 +9,29 @@ namespace gyrostat {
 
 PairedDifference paired_difference(std::span<const double> a, std::span<const double> b,
                                    std::size_t family) {
-  PairedDifference result;
+  std::size_t count = 0;
   double sum = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double d = a[i] - b[i];
     if (std::isnan(d)) continue;
     sum += d;
-    ++result.count;
+    ++count;
   }
-  if (result.count < 2) return result;
-  const double n = static_cast<double>(result.count);
-  result.mean = sum / n;
+  const double mean = sum / static_cast<double>(count);
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const double d = a[i] - b[i] - result.mean;
+    const double d = a[i] - b[i] - mean;
     if (!std::isnan(d)) squares += d * d;
   }
+  return paired_difference(count, mean, squares, family);
+}
+
+PairedDifference paired_difference(std::size_t count, double mean, double squares,
+                                   std::size_t family) {
+  PairedDifference result;
+  result.count = count;
+  if (count < 2) return result;
+  const double n = static_cast<double>(count);
+  result.mean = mean;
   const double std = std::sqrt(squares / (n - 1.0));
   const double error = std / std::sqrt(n);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 namespace gyrostat {
@@ -23,6 +24,11 @@ double student_t_quantile(double confidence, double degrees_of_freedom) {
   return boost::math::quantile(t, 0.5 + confidence / 2.0);
 }
 
+std::pair<double, double> spread(double squares, double n) {
+  const double std = std::sqrt(squares / (n - 1.0));
+  return {std, student_t_quantile(0.95, n - 1.0) * std / std::sqrt(n)};
+}
+
 Summary summarise(std::span<const double> values) {
   std::vector<double> present;
   std::copy_if(values.begin(), values.end(), std::back_inserter(present),
@@ -35,10 +41,7 @@ Summary summarise(std::span<const double> values) {
   for (const double v : present) sum += v;
   summary.mean = sum / n;
   for (const double v : present) squares += (v - summary.mean) * (v - summary.mean);
-  if (present.size() > 1) {
-    summary.std = std::sqrt(squares / (n - 1.0));
-    summary.half_width_95 = student_t_quantile(0.95, n - 1.0) * summary.std / std::sqrt(n);
-  }
+  if (present.size() > 1) std::tie(summary.std, summary.half_width_95) = spread(squares, n);
   std::sort(present.begin(), present.end());
   summary.median = quantile(present, 0.5);
   for (double& v : present) v = std::abs(v);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "core/types.hpp"
 
@@ -25,5 +26,9 @@ Summary summarise(std::span<const double> values);
 
 /// Two-sided critical value of Student's t with `degrees_of_freedom` >= 1.
 double student_t_quantile(double confidence, double degrees_of_freedom);
+
+/// Standard deviation and half width of the mean's 95 % interval, from the sum of squares about the
+/// mean of n > 1 values.
+std::pair<double, double> spread(double squares, double n);
 
 }  // namespace gyrostat

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <condition_variable>
-#include <mutex>
 
 namespace gyrostat::cli {
 
@@ -20,34 +19,47 @@ Progress::~Progress() {
   if (is_terminal_) out_ << '\n' << std::flush;
 }
 
+void Progress::set(std::size_t finished) { finished_.store(finished, std::memory_order_relaxed); }
+
+void Progress::set(std::size_t finished, std::string line) {
+  const std::lock_guard lock(mutex_);
+  line_ = std::move(line);
+  set(finished);
+}
+
 void Progress::watch(const std::stop_token& stop) {
   std::mutex mutex;
   std::condition_variable_any wake;
   std::unique_lock lock(mutex);
   while (!stop.stop_requested()) {
-    draw(finished_.load(std::memory_order_relaxed));
+    draw();
     wake.wait_for(lock, stop, std::chrono::milliseconds(200), [] { return false; });
   }
-  draw(finished_.load(std::memory_order_relaxed));
+  draw();
 }
 
-void Progress::draw(std::size_t finished) {
-  const double elapsed =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  const double rate = elapsed > 0.0 ? static_cast<double>(finished) / elapsed : 0.0;
-  const double left = rate > 0.0 ? static_cast<double>(total_ - finished) / rate : 0.0;
-  const auto counts = fmt::format("{}/{} trials, {:.0f} trials/s, {:.0f} s left", finished, total_,
-                                  rate, left);
+void Progress::draw() {
+  std::unique_lock lock(mutex_);
+  const std::size_t finished = finished_.load(std::memory_order_relaxed);
+  std::string line = line_;
+  lock.unlock();
+  if (line.empty()) {
+    const double elapsed =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double rate = elapsed > 0.0 ? static_cast<double>(finished) / elapsed : 0.0;
+    const double left = rate > 0.0 ? static_cast<double>(total_ - finished) / rate : 0.0;
+    line = fmt::format("{}/{} trials, {:.0f} trials/s, {:.0f} s left", finished, total_, rate, left);
+  }
   if (is_terminal_) {
     const std::size_t filled = 30 * finished / total_;
-    out_ << fmt::format("\r{} [{:#<{}}{:.<{}}] {}\x1b[K", name_, "", filled, "", 30 - filled, counts)
+    out_ << fmt::format("\r{} [{:#<{}}{:.<{}}] {}\x1b[K", name_, "", filled, "", 30 - filled, line)
          << std::flush;
     return;
   }
   const std::size_t tenths = 10 * finished / total_;
   if (tenths == tenths_) return;
   tenths_ = tenths;
-  out_ << name_ << ": " << counts << '\n' << std::flush;
+  out_ << name_ << ": " << line << '\n' << std::flush;
 }
 
 }  // namespace gyrostat::cli

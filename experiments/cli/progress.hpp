@@ -2,14 +2,16 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
+#include <mutex>
 #include <ostream>
 #include <string>
 #include <thread>
 
 namespace gyrostat::cli {
 
-/// Tells how far a cell is: a bar with rate and time left on a terminal, a plain line every tenth
-/// elsewhere. Draws from its own thread, so that trials never wait for it.
+/// Tells how far a cell is: a bar on a terminal, a plain line every tenth elsewhere. Draws from its own
+/// thread, so that trials never wait for it.
 class Progress {
  public:
   Progress(std::ostream& out, bool is_terminal, std::string name, std::size_t total);
@@ -17,11 +19,14 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void set(std::size_t finished) { finished_.store(finished, std::memory_order_relaxed); }
+  /// So many trials are done; the rest of the line is rate and time left.
+  void set(std::size_t finished);
+  /// The same, with the line said by the caller.
+  void set(std::size_t finished, std::string line);
 
  private:
   void watch(const std::stop_token& stop);
-  void draw(std::size_t finished);
+  void draw();
 
   std::ostream& out_;
   bool is_terminal_;
@@ -29,6 +34,8 @@ class Progress {
   std::size_t total_;
   std::size_t tenths_ = 0;
   std::atomic<std::size_t> finished_{0};
+  std::mutex mutex_;
+  std::string line_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::jthread thread_;
 };

@@ -1,70 +1,201 @@
+#include <cstdlib>
 #include <filesystem>
 
 #include "experiments/atomic_file.hpp"
+#include "experiments/build.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/progress.hpp"
+#include "experiments/cli/stopper.hpp"
 #include "experiments/cli/verbs.hpp"
 #include "experiments/error_tables.hpp"
 #include "experiments/outcome_file.hpp"
+#include "experiments/run_log.hpp"
+#include "experiments/stored_run.hpp"
+#include "experiments/study_store.hpp"
+#include "experiments/time_of_day.hpp"
 
 namespace gyrostat::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
+constexpr const char* examples = R"(Examples:
+  gyrostat run STUDY.json                   to runs/STUDY; the same again goes on where it ended
+  gyrostat run STUDY.json --trials 100000   adds trials to those that are there
+  gyrostat run STUDY.json --until 07:00     stops in good order, and goes on the next evening
+  gyrostat run STUDY.json --shard 2/8       one of eight parts; gyrostat merge puts them together
+Exit codes: 0 complete, 1 error, 2 usage, 3 failures over the budget, 4 stopped, to be resumed)";
+
 struct RunArguments {
-  std::string study;
-  std::string out;
+  std::string study, out, shard, until;
   FormatOption format;
   int threads = 0;
   std::uint32_t trials = 0;
+  double failure_budget = -1.0;
+  bool mix = false, set_aside = false;
 };
 
-int run(const RunArguments& arguments, Console& console) {
-  const auto format = arguments.format.get();
+Study study_of(const RunArguments& arguments) {
   Study study = read_study(arguments.study);
-  if (arguments.trials > 0)
-    for (auto& cell : study.cells)
-      cell.trials = cell.recording ? std::min(cell.trials, arguments.trials) : arguments.trials;
+  if (arguments.trials > 0) set_trials(study, arguments.trials);
+  if (arguments.failure_budget >= 0.0) study.failure_budget = arguments.failure_budget;
+  return study;
+}
 
-  const std::filesystem::path folder =
-      arguments.out.empty() ? std::filesystem::path("runs") /
-                                  std::filesystem::path(arguments.study).stem()
-                            : std::filesystem::path(arguments.out);
-  make_result_folder(folder);
+Shard shard_of(const RunArguments& arguments) {
+  if (!arguments.shard.empty()) return parse_shard(arguments.shard);
+  return slurm_shard([](const char* name) { return std::getenv(name); }).value_or(Shard{});
+}
 
-  std::vector<Table> tables, timings;
-  std::vector<CellResult> results;
-  for (const auto& cell : study.cells) {
-    if (console.stop) break;
-    {
-      Progress progress(console.log, console.log_is_terminal, cell.name, cell.trials);
-      results.push_back(run_cell(cell, study.seed,
-                                 {.threads = arguments.threads,
-                                  .stop = &console.stop,
-                                  .progress = [&](std::size_t done) { progress.set(done); }}));
-    }
-    if (cell.needs_calibration()) tables.push_back(calibration_table(cell, results.back()));
-    if (auto tuning = tuning_table(cell, results.back()); !tuning.rows.empty())
-      tables.push_back(std::move(tuning));
-    for (auto& table : error_tables(cell, results.back())) tables.push_back(std::move(table));
-    timings.push_back(timing_table(cell, results.back()));
+fs::path folder_of(const RunArguments& arguments, const Study& study, const Shard& shard) {
+  if (!arguments.out.empty()) return arguments.out;
+  const auto folder = fs::path("runs") / study.name();
+  return shard.count == 1 ? folder : folder / shard.folder();
+}
+
+/// A study on its way through the store.
+class Run {
+ public:
+  Run(const RunArguments& arguments, Console& console)
+      : console_(console),
+        format_(arguments.format.get()),
+        study_(study_of(arguments)),
+        shard_(shard_of(arguments)),
+        folder_(folder_of(arguments, study_, shard_)),
+        threads_(arguments.threads) {
+    if (!arguments.until.empty()) until_ = next_time_of_day(arguments.until, std::time(nullptr));
+    make_result_folder(folder_);
+    store_.emplace(open_study_store(folder_, study_,
+                                    arguments.set_aside ? Mismatch::set_aside
+                                    : arguments.mix     ? Mismatch::mix
+                                                        : Mismatch::refuse));
+    log_.emplace(folder_ / "log.jsonl");
   }
 
-  console.out << render(tables, format) << std::flush;
-  if (format == Format::text) console.out << '\n' << render(timings, format);
-  write_outcomes(folder / "outcomes.csv.gz", study, results);
-  write_atomically(folder / "tables.json", render(tables, Format::json));
-  write_atomically(folder / "tables.md", render(tables, Format::markdown));
-  console.log << fmt::format("results: {} (tables.md, tables.json, outcomes.csv.gz)\n",
-                             folder.string());
-  if (!console.stop) return complete;
-  console.log << "stopped early: the tables are of the trials that were done\n";
-  return stopped;
-}
+  int operator()() {
+    try {
+      return run();
+    } catch (const std::exception& failure) {
+      log_->write("error", {{"what", failure.what()}});
+      throw;
+    }
+  }
+
+ private:
+  int run() {
+    const auto build = this_build();
+    log_->write("start", {{"study", study_.name()}, {"digest", study_.digest}, {"build", build.version},
+                          {"compiler", build.compiler}, {"flags", build.flags},
+                          {"machine", this_machine()}, {"shard", shard_.index},
+                          {"shards", shard_.count}, {"trials", study_.trials()}});
+    if (shard_.count > 1)
+      console_.log << fmt::format("shard {} of {}\n", shard_.index, shard_.count);
+    Stopper stopper(console_, until_);
+    auto states = read_states();
+    for (std::uint32_t c = 0; c < study_.cells.size() && !stopper.flag(); ++c)
+      run_cell(c, states[c], stopper);
+    write_results();
+    return end(stopper);
+  }
+
+  /// Reads, and so checks, all that the store holds before anything is added to it.
+  std::vector<CellState> read_states() {
+    std::vector<CellState> states;
+    for (std::uint32_t c = 0; c < study_.cells.size(); ++c) {
+      states.emplace_back(*store_, study_.cells[c], c, shard_);
+      failed_ += store_->failed_trials(c, study_.cells[c].trials);
+    }
+    return states;
+  }
+
+  void run_cell(std::uint32_t index, CellState& state, Stopper& stopper) {
+    const auto& cell = study_.cells[index];
+    const auto prepared = prepare_cell(cell, study_.seed, threads_);
+    std::vector<double> nanoseconds;
+    if (state.missing() > 0) {
+      Progress progress(console_.log, console_.log_is_terminal, cell.name, state.trials());
+      const auto failed_before = failed_;
+      auto logged = std::chrono::steady_clock::now();
+      const auto watch = [&](CellProgress now) {
+        now.failed = failed_ = failed_before + now.failed;
+        progress.set(now.finished, to_text(now));
+        store_->note_progress(to_json(now).dump());
+        if (over_budget()) stopper.stop("more failures than the budget allows");
+        constexpr auto log_every = std::chrono::seconds(10);
+        if (const auto time = std::chrono::steady_clock::now(); time - logged >= log_every) {
+          logged = time;
+          log_->write("progress", to_json(now));
+        }
+      };
+      nanoseconds = run_missing(*store_, prepared, index, study_.seed, state,
+                                {.threads = threads_, .stop = &stopper.flag(), .progress = {}}, watch);
+    }
+    log_->write("cell", {{"cell", cell.name}, {"failed", failed_}});
+    summarise(index, prepared, nanoseconds);
+  }
+
+  void summarise(std::uint32_t index, const PreparedCell& prepared,
+                 const std::vector<double>& nanoseconds) {
+    const auto& cell = study_.cells[index];
+    const auto summary = summarise_cell(cell, [&](const auto& visit) {
+      store_->for_each_trial(index, cell.trials, [&](const Store::TrialView& trial) {
+        visit(trial.calibrated, trial.outcomes);
+      });
+    });
+    if (cell.needs_calibration())
+      tables_.push_back(calibration_table(cell, prepared.calibration, summary));
+    if (auto tuning = tuning_table(cell, prepared.tuned); !tuning.rows.empty())
+      tables_.push_back(std::move(tuning));
+    for (auto& table : error_tables(cell, summary)) tables_.push_back(std::move(table));
+    if (!nanoseconds.empty()) timings_.push_back(timing_table(cell, nanoseconds));
+  }
+
+  void write_results() {
+    console_.out << render(tables_, format_) << std::flush;
+    if (format_ == Format::text && !timings_.empty()) console_.out << '\n' << render(timings_, format_);
+    write_outcomes(folder_ / "outcomes.csv.gz", *store_);
+    write_atomically(folder_ / "tables.json", render(tables_, Format::json));
+    write_atomically(folder_ / "tables.md", render(tables_, Format::markdown));
+  }
+
+  bool over_budget() const {
+    return static_cast<double>(failed_) > study_.failure_budget * static_cast<double>(study_.trials());
+  }
+
+  int end(const Stopper& stopper) {
+    if (failed_ > 0)
+      console_.log << fmt::format("{} trials failed; gyrostat status {} --failures has their addresses\n",
+                                  failed_, folder_.string());
+    console_.log << fmt::format("results: {} (tables.md, tables.json, outcomes.csv.gz)\n",
+                                folder_.string());
+    const int code = over_budget() ? over_failure_budget : stopper.flag() ? stopped : complete;
+    log_->write("end", {{"exit_code", code}, {"failed", failed_}});
+    if (code == over_failure_budget)
+      console_.log << fmt::format("failures over the budget: {} of {} trials, allowed are {:g} %\n",
+                                  failed_, study_.trials(), 100.0 * study_.failure_budget);
+    if (code == stopped)
+      console_.log << stopper.reason() << ": the tables are of the trials that were done, and the same "
+                                          "command goes on from them\n";
+    return code;
+  }
+
+  Console& console_;
+  Format format_;
+  Study study_;
+  Shard shard_;
+  fs::path folder_;
+  int threads_;
+  std::optional<std::time_t> until_;
+  std::optional<Store> store_;
+  std::optional<RunLog> log_;
+  std::vector<Table> tables_, timings_;
+  std::uint32_t failed_ = 0;
+};
 
 }  // namespace
 
 void add_run(CLI::App& program, Console& console, int& exit_code) {
-  auto* verb = program.add_subcommand("run", "run a study: thousands of trials of every filter");
+  auto* verb = program.add_subcommand("run", "run a study, or go on with it where it ended");
   auto arguments = std::make_shared<RunArguments>();
   verb->add_option("study", arguments->study, "study file (JSON)")->required();
   verb->add_option("--out", arguments->out, "folder for the results (default: runs/<study>)");
@@ -72,8 +203,20 @@ void add_run(CLI::App& program, Console& console, int& exit_code) {
       ->check(CLI::Range(1, 1024));
   verb->add_option("--trials", arguments->trials, "trials of every cell, instead of the study's")
       ->check(CLI::Range(1U, 4294967295U));
+  verb->add_option("--shard", arguments->shard,
+                   "run only the trials of part i of n (in a Slurm job array: the task's own)");
+  verb->add_option("--until", arguments->until, "stop in good order at this time of day, as 07:00");
+  verb->add_option("--failure-budget", arguments->failure_budget,
+                   "share of the trials that may fail, instead of the study's")
+      ->check(within(0.0, 1.0));
+  auto* mix = verb->add_flag("--mix", arguments->mix,
+                             "go on in a folder begun by another build or before the study was changed");
+  verb->add_flag("--set-aside", arguments->set_aside,
+                 "keep the outcomes that are there under another name and begin anew")
+      ->excludes(mix);
   arguments->format.add_to(verb);
-  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+  verb->footer(examples);
+  verb->callback([arguments, &console, &exit_code] { exit_code = Run(*arguments, console)(); });
 }
 
 }  // namespace gyrostat::cli

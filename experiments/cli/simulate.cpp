@@ -13,18 +13,9 @@ struct SimulateArguments {
   std::uint32_t trial = 0;
 };
 
-const Cell& cell_named(const Study& study, const std::string& name) {
-  std::vector<std::string> names;
-  for (const auto& cell : study.cells) {
-    if (name.empty() || cell.name == name) return cell;
-    names.push_back(cell.name);
-  }
-  throw InputError("--cell", unknown_name("cell", name, names));
-}
-
 int run(const SimulateArguments& arguments, Console& console) {
   const Study study = read_study(arguments.study);
-  const Cell& cell = cell_named(study, arguments.cell);
+  const Cell& cell = cell_named(study, arguments.cell, "--cell");
   require_writable(arguments.out, arguments.study);
   Series series;
   synthesise(cell.scenario, {study.seed, arguments.trial}, series);

@@ -15,10 +15,16 @@ struct Console {
   const std::atomic<bool>& stop;   ///< set by Ctrl-C
 };
 
-enum ExitCode { complete = 0, error = 1, usage = 2, stopped = 4 };
+enum ExitCode { complete = 0, error = 1, usage = 2, over_failure_budget = 3, stopped = 4 };
 
 /// Each adds its verb to the program. A verb that was called leaves its exit code in `exit_code`.
 void add_run(CLI::App& program, Console& console, int& exit_code);
+void add_export(CLI::App& program, Console& console, int& exit_code);
+void add_replay(CLI::App& program, Console& console, int& exit_code);
+void add_status(CLI::App& program, Console& console, int& exit_code);
+void add_merge(CLI::App& program, Console& console, int& exit_code);
+void add_slurm(CLI::App& program, Console& console, int& exit_code);
+void add_plan(CLI::App& program, Console& console, int& exit_code);
 void add_fit(CLI::App& program, Console& console, int& exit_code);
 void add_apply(CLI::App& program, Console& console, int& exit_code);
 void add_simulate(CLI::App& program, Console& console, int& exit_code);

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/statistics/paired.hpp"
+#include "analysis/statistics/summary.hpp"
+#include "experiments/study.hpp"
+
+namespace gyrostat {
+
+/// What the tables say of one method of a cell.
+struct MethodSummary {
+  std::vector<Summary> metrics;  ///< by metric; only those that tables show have values
+  std::size_t diverged = 0, broken_down = 0, breakdown_steps = 0, thrown = 0;
+  PairedDifference difference;   ///< in the judging metric, from the best method
+};
+
+struct CellSummary {
+  std::size_t finished = 0;
+  std::size_t unconverged = 0;  ///< trials whose own calibration did not converge
+  std::size_t best = 0;         ///< of all but the oracle, the smallest mean of the judging metric
+  std::vector<MethodSummary> methods;
+
+  const Summary& of(std::size_t method, std::string_view metric) const;
+};
+
+/// The metric that methods of a cell are compared by: the bias error where the truth is known.
+std::string_view judging_metric(const Cell& cell);
+
+/// Metrics that have a table of errors, in the tables' order.
+std::vector<std::string_view> error_metrics(const Cell& cell);
+
+/// Hands every finished trial of a cell to `visit`, in order, each time it is called: whether its
+/// calibration converged, and its outcomes as the store has them.
+using TrialSource = std::function<void(
+    const std::function<void(bool calibrated, std::span<const double> outcomes)>& visit)>;
+
+/// Three passes over the trials, or a few more for millions of them; memory does not grow with their
+/// number. The statistics are those of `summarise` and `paired_difference`, to the bit.
+CellSummary summarise_cell(const Cell& cell, const TrialSource& trials);
+
+}  // namespace gyrostat

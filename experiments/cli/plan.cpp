@@ -1,0 +1,121 @@
+#include "experiments/plan.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "experiments/cli/options.hpp"
+#include "experiments/cli/verbs.hpp"
+
+namespace gyrostat::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* examples = R"(Examples:
+  gyrostat plan STUDY.json                    how long a run will take here, and how much disk
+  gyrostat plan STUDY.json --trials 1000000
+  gyrostat plan STUDY.json --shards 100       how long each of 100 shards will take)";
+
+struct PlanArguments {
+  std::string study;
+  FormatOption format;
+  PilotOptions pilot;
+  std::uint32_t trials = 0;
+  int shards = 1;
+};
+
+/// A folder that goes when the plan is made.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (fs::temp_directory_path() / "gyrostat_plan_XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error(name + ": cannot be created");
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string duration(double seconds) {
+  const auto s = static_cast<std::int64_t>(std::llround(seconds));
+  if (seconds < 10.0) return fmt::format("{:.1f} s", seconds);
+  if (s < 120) return fmt::format("{} s", s);
+  if (s < 7200) return fmt::format("{} min {} s", s / 60, s % 60);
+  if (s < 172800) return fmt::format("{} h {} min", s / 3600, s / 60 % 60);
+  return fmt::format("{} d {} h", s / 86400, s / 3600 % 24);
+}
+
+Table plan_table(const Study& study, const std::vector<CellPlan>& plans, const PlanArguments& arguments) {
+  Table table{.title = study.title,
+              .columns = {{"cell", ""}, {"trials", ""}, {"filters", ""}, {"samples", ""}, {"steps", ""},
+                          {"a trial", "ms"}, {"time", "s"}, {"disk", "MB"}, {"pilot trials", ""}},
+              .rows = {}, .notes = {}};
+  double seconds = 0.0, bytes = 0.0, steps = 0.0;
+  for (std::size_t c = 0; c < plans.size(); ++c) {
+    const auto& [cell, plan] = std::tie(study.cells[c], plans[c]);
+    const double time = plan.preparation_s + (plan.trials_s + plan.results_s) / arguments.shards;
+    seconds += time;
+    bytes += plan.bytes();
+    steps += plan.steps;
+    table.rows.push_back({cell.name, std::int64_t{cell.trials},
+                          static_cast<std::int64_t>(cell.methods.size()),
+                          static_cast<std::int64_t>(cell.scenario.sampling.samples()), plan.steps,
+                          1e3 * plan.trials_s / cell.trials, time, 1e-6 * plan.bytes(),
+                          std::int64_t{plan.pilot_trials}});
+  }
+  table.rows.push_back({"all", static_cast<std::int64_t>(study.trials()), TableCell(), TableCell(), steps,
+                        TableCell(), seconds, 1e-6 * bytes, TableCell()});
+  const auto shards = arguments.shards > 1 ? fmt::format(" for each of {} shards", arguments.shards) : "";
+  table.notes.push_back(fmt::format("predicted run time {}{}, measured on the first trials of each cell, "
+                                    "on this machine as busy as it is now",
+                                    duration(seconds), shards));
+  table.notes.push_back(fmt::format("disk {:.3g} GB in all: store and outcomes.csv.gz", 1e-9 * bytes));
+  return table;
+}
+
+int run(const PlanArguments& arguments, Console& console) {
+  const auto format = arguments.format.get();
+  Study study = read_study(arguments.study);
+  if (arguments.trials > 0) set_trials(study, arguments.trials);
+  const ScratchFolder scratch;
+  std::vector<CellPlan> plans;
+  for (std::size_t c = 0; c < study.cells.size() && !console.stop; ++c)
+    plans.push_back(plan_cell(study, c, scratch.path(), arguments.pilot));
+  const auto table = plan_table(study, plans, arguments);
+  console.out << render({&table, 1}, format);
+  return console.stop ? stopped : complete;
+}
+
+}  // namespace
+
+void add_plan(CLI::App& program, Console& console, int& exit_code) {
+  auto* verb = program.add_subcommand("plan", "how long a study will run and how much disk it takes");
+  auto arguments = std::make_shared<PlanArguments>();
+  verb->add_option("study", arguments->study, "study file (JSON)")->required();
+  verb->add_option("--trials", arguments->trials, "trials of every cell, instead of the study's")
+      ->check(CLI::Range(1U, 4294967295U));
+  verb->add_option("--threads", arguments->pilot.threads, "threads of the run (default: all)")
+      ->check(CLI::Range(1, 1024));
+  verb->add_option("--shards", arguments->shards, "parts that the study is run in")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  verb->add_option("--pilot", arguments->pilot.seconds, "seconds for which each cell is tried")
+      ->check(within(0.01, 3600.0))
+      ->capture_default_str();
+  arguments->format.add_to(verb);
+  verb->footer(examples);
+  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+}
+
+}  // namespace gyrostat::cli

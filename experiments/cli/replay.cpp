@@ -1,0 +1,121 @@
+#include <bit>
+#include <filesystem>
+
+#include "experiments/address.hpp"
+#include "experiments/cli/options.hpp"
+#include "experiments/cli/verbs.hpp"
+#include "experiments/runner.hpp"
+#include "experiments/study_store.hpp"
+
+namespace gyrostat::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* examples = R"(Examples:
+  gyrostat status runs/STUDY --failures                    the addresses of what failed
+  gyrostat replay STUDY:ramp:17:sr_ukf                     its outcome, from the study in runs/STUDY
+  gyrostat replay STUDY:ramp:17:sr_ukf --steps > steps.csv every step of it
+  gyrostat replay STUDY:ramp:17:sr_ukf --study STUDY.json  without a run)";
+
+struct ReplayArguments {
+  std::string address, study, store;
+  FormatOption format;
+  bool steps = false;
+};
+
+fs::path store_of(const ReplayArguments& arguments) {
+  return arguments.store.empty() ? fs::path("runs") / study_of_address(arguments.address)
+                                 : fs::path(arguments.store);
+}
+
+Study study_of(const ReplayArguments& arguments) {
+  if (!arguments.study.empty()) return read_study(arguments.study);
+  const auto folder = store_of(arguments);
+  if (!fs::exists(folder / Store::file_name))
+    throw InputError(folder.string(), "there is no run here; name its folder with --store, or the study "
+                                      "file with --study");
+  return stored_study(Store::open(folder));
+}
+
+std::string number(double value) { return std::isnan(value) ? "" : fmt::format("{:.17g}", value); }
+
+void print_steps(const Series& series, const Track& track, std::ostream& out) {
+  out << "t_s,gyro_dps,estimate_dps,estimate_variance,innovation_dps,innovation_variance,status\n";
+  for (std::size_t i = 0; i < track.status.size(); ++i)
+    out << fmt::format("{},{},{},{},{},{},{}\n", number(series.t_s[i]), number(series.gyro_dps[i]),
+                       number(track.estimate_dps[i]), number(track.estimate_variance[i]),
+                       number(track.innovation_dps[i]), number(track.innovation_variance[i]),
+                       name_of(track.status[i]));
+}
+
+Table outcome_table(const std::string& address, const Outcome& outcome) {
+  Table table{.title = address, .columns = {{"metric", ""}, {"value", ""}}, .rows = {}, .notes = {}};
+  const auto ids = Metrics::ids();
+  for (std::size_t m = 0; m < metric_count; ++m)
+    table.rows.push_back({ids[m], gyrostat::cell(outcome.metrics[m])});
+  for (std::size_t s = 0; s < status_names.size(); ++s)
+    table.rows.push_back({"steps: " + std::string(status_names[s]), std::int64_t{outcome.status_counts[s]}});
+  table.rows.push_back({"diverged", outcome.diverged ? "yes" : "no"});
+  if (!outcome.thrown.empty()) table.notes.push_back("threw: " + outcome.thrown);
+  return table;
+}
+
+/// Whether the store has this very outcome; nothing to say where it has none.
+std::string compared(const Store& store, const TrialAddress& at, const std::vector<double>& replayed) {
+  std::string verdict;
+  store.for_each_trial(static_cast<std::uint32_t>(at.cell), at.trial + 1, [&](const auto& trial) {
+    if (trial.trial != at.trial) return;
+    const bool same = std::equal(
+        trial.outcomes.begin(), trial.outcomes.end(), replayed.begin(), replayed.end(),
+        [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); });
+    verdict = same ? "the same outcome, to the bit, as in the store"
+                   : "the store has another outcome: was it made by another build?";
+  });
+  return verdict;
+}
+
+int run(const ReplayArguments& arguments, Console& console) {
+  const auto format = arguments.format.get();
+  const Study study = study_of(arguments);
+  const auto at = parse_address(arguments.address, study);
+  const auto prepared = prepare_cell(study.cells[at.cell], study.seed, 0);
+  const auto& cell = prepared.cell;
+  Workspace workspace;
+  const auto record = run_trial(cell, prepared.calibration, study.seed, at.trial, workspace);
+  const auto& outcome = record.outcomes[at.method];
+  if (arguments.steps) {
+    if (!outcome.thrown.empty()) throw std::runtime_error(arguments.address + ": " + outcome.thrown);
+    Cell alone = cell;
+    alone.methods = {cell.methods[at.method]};
+    run_trial(alone, prepared.calibration, study.seed, at.trial, workspace);
+    print_steps(workspace.series, workspace.track, console.out);
+    return complete;
+  }
+  auto table = outcome_table(arguments.address, outcome);
+  if (const auto folder = store_of(arguments); fs::exists(folder / Store::file_name)) {
+    const auto row = row_of(static_cast<std::uint32_t>(at.cell), at.trial, record);
+    for (const auto& failure : row.failures)
+      if (failure.method == at.method) table.notes.push_back("in quarantine: " + failure.reason);
+    const auto verdict = compared(Store::open(folder), at, row.outcomes);
+    if (!verdict.empty()) table.notes.push_back(verdict);
+  }
+  console.out << render({&table, 1}, format);
+  return complete;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& program, Console& console, int& exit_code) {
+  auto* verb = program.add_subcommand("replay", "run one filter in one trial of a study again");
+  auto arguments = std::make_shared<ReplayArguments>();
+  verb->add_option("address", arguments->address, "study:cell:trial:filter")->required();
+  verb->add_option("--study", arguments->study, "study file (default: the study that the run keeps)");
+  verb->add_option("--store", arguments->store, "folder of the run (default: runs/<study>)");
+  verb->add_flag("--steps", arguments->steps, "print every step as CSV");
+  arguments->format.add_to(verb);
+  verb->footer(examples);
+  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+}
+
+}  // namespace gyrostat::cli

@@ -1,0 +1,77 @@
+#include "experiments/slurm.hpp"
+
+#include <filesystem>
+
+#include "experiments/atomic_file.hpp"
+#include "experiments/cli/options.hpp"
+#include "experiments/cli/verbs.hpp"
+#include "experiments/study.hpp"
+
+namespace gyrostat::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* examples = R"(Examples:
+  gyrostat slurm STUDY.json --shards 100 --threads 4 --time 02:00:00
+  sbatch STUDY.sbatch
+  gyrostat merge runs/STUDY runs/STUDY/shard_* && gyrostat run STUDY.json
+Without Slurm, with GNU parallel:
+  parallel gyrostat run STUDY.json --threads 1 --shard {}/8 ::: 1 2 3 4 5 6 7 8)";
+
+struct SlurmArguments {
+  SlurmJob job;
+  std::string file;
+  std::uint32_t trials = 0;
+};
+
+int run(SlurmArguments arguments, Console& console) {
+  auto& job = arguments.job;
+  const Study study = read_study(job.study);
+  job.name = study.name();
+  job.study = fs::absolute(job.study).lexically_normal().string();
+  job.folder = fs::absolute(job.folder.empty() ? fs::path("runs") / job.name : fs::path(job.folder))
+                   .lexically_normal()
+                   .string();
+  job.program = fs::read_symlink("/proc/self/exe").string();
+  if (arguments.trials > 0) job.options = fmt::format("--trials {}", arguments.trials);
+  if (job.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-") !=
+      std::string::npos)
+    throw InputError(job.study, "a job is named as its study file: letters, digits, '_', '.' and '-' only");
+  const auto file = arguments.file.empty() ? job.name + ".sbatch" : arguments.file;
+  write_atomically(file, sbatch_file(job));
+  console.log << fmt::format("{}: {} tasks of {} trials in all; send it with sbatch {}\n", file, job.shards,
+                             study.trials(), file);
+  return complete;
+}
+
+}  // namespace
+
+void add_slurm(CLI::App& program, Console& console, int& exit_code) {
+  auto* verb = program.add_subcommand("slurm", "write a Slurm job array that runs a study in shards");
+  auto arguments = std::make_shared<SlurmArguments>();
+  auto& job = arguments->job;
+  const auto time_limit = CLI::Validator(
+      [](const std::string& text) {
+        return !text.empty() && text.find_first_not_of("0123456789:-") == std::string::npos
+                   ? std::string{}
+                   : "'" + text + "' is no time limit; as 02:00:00 or 1-12:00:00";
+      },
+      "TIME");
+  verb->add_option("study", job.study, "study file (JSON)")->required();
+  verb->add_option("--shards", job.shards, "tasks of the array")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  verb->add_option("--threads", job.threads, "threads of each task")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  verb->add_option("--time", job.time, "time limit of a task, as 02:00:00")->check(time_limit);
+  verb->add_option("--trials", arguments->trials, "trials of every cell, instead of the study's")
+      ->check(CLI::Range(1U, 4294967295U));
+  verb->add_option("--out", job.folder, "folder that all tasks see (default: runs/<study>)");
+  verb->add_option("--file", arguments->file, "file to write (default: <study>.sbatch)");
+  verb->footer(examples);
+  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+}
+
+}  // namespace gyrostat::cli

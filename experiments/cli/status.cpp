@@ -1,0 +1,92 @@
+#include "experiments/address.hpp"
+#include "experiments/cli/options.hpp"
+#include "experiments/cli/verbs.hpp"
+#include "results/store.hpp"
+
+namespace gyrostat::cli {
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  gyrostat status runs/STUDY               how far it is, while it runs or afterwards
+  watch gyrostat status runs/STUDY
+  gyrostat status runs/STUDY --failures    addresses of all trials that failed, for gyrostat replay)";
+
+struct StatusArguments {
+  std::string folder;
+  bool failures = false;
+  FormatOption format;
+};
+
+Table cells_table(const Store& store, const Manifest& manifest) {
+  Table table{.title = fmt::format("{}: seed {}, digest {}", manifest.name, manifest.seed, manifest.digest),
+              .columns = {{"cell", ""}, {"finished", ""}, {"trials", ""}, {"failed", ""}},
+              .rows = {}, .notes = {}};
+  for (std::uint32_t c = 0; c < manifest.cells.size(); ++c) {
+    const auto& cell = manifest.cells[c];
+    table.rows.push_back({cell.name, std::int64_t{std::min(cell.finished, cell.trials)},
+                          std::int64_t{cell.trials}, std::int64_t{store.failed_trials(c, cell.trials)}});
+  }
+  return table;
+}
+
+/// "ramp: 10/40, 3 trials/s, 10 s left, widest ± 0.01 (kf)", of what a session noted last.
+std::string last_words(const Session& session) {
+  const auto p = Json::parse(session.progress, nullptr, false);
+  if (!p.is_object() || !p.contains("cell")) return "–";
+  auto text = fmt::format("{}: {}/{}, {:.1f} trials/s, {:.0f} s left", p.value("cell", ""),
+                          p.value("finished", 0), p.value("trials", 0), p.value("trials_per_s", 0.0),
+                          p.value("left_s", 0.0));
+  if (p.contains("widest"))
+    text += fmt::format(", widest ± {:.2g} ({})", p["widest"].value("half_width", 0.0),
+                        p["widest"].value("method", ""));
+  return text;
+}
+
+Table sessions_table(const Store& store) {
+  Table table{.title = "sessions",
+              .columns = {{"started", "UTC"}, {"process", ""}, {"trials", ""}, {"last batch", ""}, {"build", ""},
+                          {"compiler", ""}, {"flags", ""}, {"machine", ""}},
+              .rows = {}, .notes = {}};
+  for (const auto& session : store.sessions())
+    table.rows.push_back({session.started, session.process, session.trials, last_words(session), session.build.version,
+                          session.build.compiler, session.build.flags, session.machine});
+  return table;
+}
+
+Table failures_table(const Store& store, const Manifest& manifest) {
+  Table table{.title = "failures", .columns = {{"address", ""}, {"reason", ""}}, .rows = {}, .notes = {}};
+  store.for_each_failure([&](const Failure& failure) {
+    const auto& cell = manifest.cells.at(failure.cell);
+    table.rows.push_back({address_text(manifest.name, cell.name, failure.trial,
+                                       cell.methods.at(failure.method)),
+                          failure.reason});
+  });
+  return table;
+}
+
+int run(const StatusArguments& arguments, Console& console) {
+  const auto format = arguments.format.get();
+  const Store store = Store::open(arguments.folder);
+  const auto manifest = store.manifest();
+  std::vector<Table> tables;
+  if (arguments.failures)
+    tables = {failures_table(store, manifest)};
+  else
+    tables = {cells_table(store, manifest), sessions_table(store)};
+  console.out << render(tables, format);
+  return complete;
+}
+
+}  // namespace
+
+void add_status(CLI::App& program, Console& console, int& exit_code) {
+  auto* verb = program.add_subcommand("status", "how far a run is, who made it, and what failed");
+  auto arguments = std::make_shared<StatusArguments>();
+  verb->add_option("folder", arguments->folder, "folder of a run, as runs/<study>")->required();
+  verb->add_flag("--failures", arguments->failures, "the trials that failed, with their addresses");
+  arguments->format.add_to(verb);
+  verb->footer(examples);
+  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+}
+
+}  // namespace gyrostat::cli

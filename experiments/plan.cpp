@@ -1,0 +1,104 @@
+#include "experiments/plan.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "experiments/error_tables.hpp"
+#include "experiments/outcome_file.hpp"
+#include "experiments/stored_run.hpp"
+#include "experiments/study_store.hpp"
+
+namespace gyrostat {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The cell alone, with nothing tuned.
+Study pilot_of(const Study& study, std::size_t index) {
+  Study pilot = study;
+  pilot.cells = {study.cells[index]};
+  for (auto& method : pilot.cells[0].methods) method.tune.clear();
+  return pilot;
+}
+
+double tuning_seconds(const Cell& cell, const std::vector<double>& nanoseconds_per_step, int threads) {
+  const double steps = static_cast<double>(cell.scenario.sampling.samples()) * cell.tuning.trials;
+  double seconds = 0.0;
+  for (std::size_t m = 0; m < cell.methods.size(); ++m)
+    if (!cell.methods[m].tune.empty())
+      seconds += 1e-9 * nanoseconds_per_step[m] * steps * (cell.tuning.evaluations + 1);
+  return seconds / threads;
+}
+
+/// What a trial takes in the store's pages of 16 KiB.
+double stored_bytes(const Cell& cell) {
+  constexpr double page = 16384.0, overhead = 32.0;
+  const double row = 8.0 * static_cast<double>(cell.methods.size() * outcome_columns().size()) + overhead;
+  return row < page ? page / std::floor(page / row) : page * std::ceil(row / page);
+}
+
+}  // namespace
+
+CellPlan plan_cell(const Study& study, std::size_t index, const fs::path& folder,
+                   const PilotOptions& options) {
+  const Cell& cell = study.cells[index];
+  const int threads =
+      options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+  const Study pilot = pilot_of(study, index);
+  CellPlan plan;
+  plan.steps = static_cast<double>(cell.scenario.sampling.samples()) *
+               static_cast<double>(cell.methods.size()) * cell.trials;
+
+  const Stopwatch preparation;
+  const auto prepared = prepare_cell(pilot.cells[0], study.seed, options.threads);
+  plan.preparation_s = preparation.seconds();
+
+  const auto place = folder / std::to_string(index);
+  fs::create_directories(place);
+  Store store = open_study_store(place, pilot, Mismatch::refuse);
+  CellState state(store, pilot.cells[0], 0, {});
+  std::atomic<bool> stop{false};
+  RunOptions run{.threads = options.threads, .stop = &stop, .progress = {}};
+  const auto warm = static_cast<std::uint32_t>(std::min<std::uint64_t>(threads, cell.trials));
+  run_trials(prepared, study.seed, run, [&](std::uint32_t trial) { return trial < warm; },
+             [](std::uint32_t, Record&&) {});
+  const Stopwatch trials;
+  run.progress = [&](std::size_t done) {
+    if (done >= warm && trials.seconds() >= options.seconds) stop = true;
+  };
+  const auto nanoseconds =
+      run_missing(store, prepared, 0, study.seed, state, run, [](const CellProgress&) {});
+  plan.trials_s = trials.seconds();
+
+  const Stopwatch results;
+  const auto summary = summarise_cell(pilot.cells[0], [&](const auto& visit) {
+    store.for_each_trial(0, cell.trials, [&](const Store::TrialView& trial) {
+      visit(trial.calibrated, trial.outcomes);
+    });
+  });
+  write_outcomes(place / "outcomes.csv.gz", store);
+  plan.results_s = results.seconds();
+
+  plan.pilot_trials = static_cast<std::uint32_t>(summary.finished);
+  const double share = static_cast<double>(cell.trials) / plan.pilot_trials;
+  plan.trials_s *= share;
+  plan.results_s *= share;
+  plan.preparation_s += tuning_seconds(cell, nanoseconds, threads);
+  plan.store_bytes = stored_bytes(cell) * cell.trials;
+  plan.export_bytes = static_cast<double>(fs::file_size(place / "outcomes.csv.gz")) * share;
+  return plan;
+}
+
+}  // namespace gyrostat
