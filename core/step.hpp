@@ -4,6 +4,7 @@
 #include <concepts>
 #include <string_view>
 
+#include "core/numerics/lanes.hpp"
 #include "core/types.hpp"
 
 namespace gyrostat {
@@ -26,6 +27,35 @@ inline constexpr std::string_view name_of(Status status) {
 }
 
 inline constexpr bool is_breakdown(Status status) { return status > Status::no_measurement; }
+template <class S>
+auto is_breakdown(const S& status) {
+  return status.code > S(Status::no_measurement).code;
+}
+
+/// The status of a step on T: one, or on a pack one a lane, held as the numbers of a pack so that
+/// masks can set them.
+template <class T>
+struct StatusOf {
+  using type = Status;
+};
+template <class T>
+  requires requires { T::lanes; }
+struct StatusOf<T> {
+  struct type {
+    T code;
+    type(Status status = Status::ok) : code(static_cast<double>(status)) {}  // NOLINT
+  };
+};
+
+/// Where the mask holds the status is `value`.
+template <class S>
+void set_status(S& status, bool mask, Status value) {
+  if (mask) status = value;
+}
+template <class S, class M>
+void set_status(S& status, const M& mask, Status value) {
+  status.code = select(mask, S(value).code, status.code);
+}
 
 /// What a filter is given at one sample. `true_rate_dps` and `true_drift_dps` exist in simulation
 /// only and are for the oracle.
@@ -47,11 +77,11 @@ struct Step {
   T estimate_variance{no_value};
   T innovation_dps{no_value};
   T innovation_variance{no_value};
-  Status status = Status::ok;
+  typename StatusOf<T>::type status = Status::ok;
 };
 
 template <class T>
-bool is_missing(const T& value) {
+Mask<T> is_missing(const T& value) {
   using std::isnan;
   return isnan(value);
 }

@@ -19,8 +19,8 @@ class Kf {
   explicit Kf(const Parameters& p) : model_(p), state_(ModelL<T>::initial(p)) {}
 
   void predict() {
-    propagate(state_, model_.F);
-    state_.covariance += model_.Q;
+    propagate_companion(state_, model_.first);
+    state_.covariance(0, 0) += model_.q;
   }
 
   /// z in dps, or NaN for a missing sample.

@@ -20,8 +20,7 @@ class KfMa {
   explicit KfMa(const Parameters& p) : model_(p), state_(ModelExact<T>::initial(p)) {}
 
   void predict() {
-    propagate(state_, model_.F);
-    state_.covariance += model_.Q;
+    model_.predict(state_);
   }
 
   /// z in dps, or NaN for a missing sample.

@@ -59,9 +59,9 @@ class SrRsukf {
       "square-root risk-sensitive unscented Kalman filter on model NL";
   static constexpr Needs needs{};
 
-  explicit SrRsukf(const Parameters& p) : filter_(p), mu_(p.diagonal()) {}
+  explicit SrRsukf(const Parameters& p) : filter_(p), risk_(p.diagonal()) {}
 
-  Step<T> step(const Sample<T>& sample) { return nl_cycle<T>(filter_, mu_, sample.gyro_dps); }
+  Step<T> step(const Sample<T>& sample) { return nl_cycle<T>(filter_, sample.gyro_dps, &risk_); }
 
   const NlUnscented<T>& state() const { return filter_; }
   LearnedParameters learned() const
@@ -72,7 +72,7 @@ class SrRsukf {
 
  private:
   NlUnscented<T> filter_;
-  Vector<T, 7> mu_;
+  NlRisk<T> risk_;
 };
 
 }  // namespace gyrostat::filters

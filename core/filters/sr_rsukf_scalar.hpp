@@ -35,16 +35,16 @@ class SrRsukfScalar {
   static constexpr Needs needs{};
 
   explicit SrRsukfScalar(const Parameters& p)
-      : filter_(p), mu_(Vector<T, 7>::Constant(p.mu_scalar)) {}
+      : filter_(p), risk_(Vector<T, 7>::Constant(p.mu_scalar)) {}
 
-  Step<T> step(const Sample<T>& sample) { return nl_cycle<T>(filter_, mu_, sample.gyro_dps); }
+  Step<T> step(const Sample<T>& sample) { return nl_cycle<T>(filter_, sample.gyro_dps, &risk_); }
 
   const NlUnscented<T>& state() const { return filter_; }
   LearnedParameters learned() const requires std::same_as<T, double> { return filter_.learned(); }
 
  private:
   NlUnscented<T> filter_;
-  Vector<T, 7> mu_;
+  NlRisk<T> risk_;
 };
 
 }  // namespace gyrostat::filters

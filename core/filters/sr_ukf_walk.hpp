@@ -50,7 +50,7 @@ class SrUkfWalk {
 
   Step<T> step(const Sample<T>& sample) {
     filter_.walk_parameters(walk_std_);
-    return nl_cycle<T>(filter_, std::nullopt, sample.gyro_dps);
+    return nl_cycle<T>(filter_, sample.gyro_dps);
   }
 
   const NlUnscented<T>& state() const { return filter_; }
