@@ -81,10 +81,10 @@ class NlUnscented {
     Vector<T, coupled> q;
     unrolled<coupled>(
         [&]<int j>() { q(j) = ModelNl<T>::curvature(at(0, j), at(1, j), at(2, j)); });
-    const T drive = ModelNl<T>::drive(delta_(0), delta_(1));
     const T x = mean_(0);
-    const Mask<T> exists = companion_root(root_, ModelNl<T>::gradient(mean_),
-                                          T(drive + transform_.template variance<coupled>(q)));
+    const Mask<T> exists = companion_root<T>(root_, ModelNl<T>::gradient(mean_),
+                                             ModelNl<T>::drive(delta_(0), delta_(1)),
+                                             transform_.template variance<coupled>(q));
     mean_(0) = (T(1.0) + mean_(2)) * x - mean_(2) * mean_(1) + transform_.template shift<coupled>(q);
     mean_(1) = x;
     return exists;

@@ -5,16 +5,18 @@
 namespace gyrostat {
 
 /// Root of the time update of three states of which the first becomes the combination `first` of all
-/// three plus noise of variance `noise`, the second the old first, and the third stays: the lower
-/// triangle of the rows (u, sqrt noise), (l00, 0, 0, 0), (l20, l21, l22, 0) with u = first^T L, by one
+/// three plus noise of variance `drive` + `excess`, the second the old first, and the third stays: the lower
+/// triangle of the rows (u, w), (l00, 0, 0, 0), (l20, l21, l22, 0) with u = first^T L and w^2 the noise, by one
 /// rotation of columns 1, 2 and the noise's and one of columns 0 and 1. No difference of squares is
 /// taken, so nothing is lost near a singular covariance. A row without a remainder leaves its column
 /// to the next, as in `lower_root`.
 ///
-/// `noise` may be negative (sigma points with a negative central weight); where the covariance is then
-/// not positive definite, false, and `root` is of no use.
+/// `drive` comes from noise that is a state of its own beside these three; `excess` may be negative
+/// (sigma points with a negative central weight). Where the covariance of the three and the noise is
+/// then not positive definite, false, and `root` is of no use.
 template <class T>
-[[nodiscard]] Mask<T> companion_root(Matrix<T, 3>& root, const Vector<T, 3>& first, const T& noise) {
+[[nodiscard]] Mask<T> companion_root(Matrix<T, 3>& root, const Vector<T, 3>& first,
+                                     const T& drive, const T& excess) {
   using std::sqrt;
   const auto positive_root = [](const T& v) { return select(v > T(0.0), T(sqrt(v)), T(0.0)); };
   const T l00 = root(0, 0), l20 = root(2, 0), l21 = root(2, 1), l22 = root(2, 2);
@@ -22,9 +24,10 @@ template <class T>
   const T u1 = first(1) * root(1, 1) + first(2) * l21;
   const T u2 = first(2) * l22;
 
-  const T turned = u1 * u1 + u2 * u2 + noise, whole = u0 * u0 + turned;
+  const T noise = drive + excess, linear = u1 * u1 + u2 * u2;
+  const T turned = linear + noise, whole = u0 * u0 + turned;
   const T along = l21 * u1 + l22 * u2, across = l21 * u2 - l22 * u1, tail = l21 * l21 + l22 * l22;
-  const T rest = across * across + noise * tail;
+  const T squared = across * across, rest = squared + noise * tail;
   const Mask<T> turns = turned > T(0.0), remains = whole > T(0.0);
 
   const T w = positive_root(turned), norm = positive_root(whole);
@@ -37,7 +40,7 @@ template <class T>
   root(2, 0) = c * l20 + s * shared;
   root(2, 1) = s * l20 - c * shared;
   root(2, 2) = positive_root(select(turns, rest, tail)) * per_w;
-  return noise >= T(0.0) || (turns && rest > T(0.0));
+  return excess >= T(0.0) || (linear + excess > T(0.0) && squared + excess * tail > T(0.0));
 }
 
 }  // namespace gyrostat
