@@ -27,10 +27,6 @@ inline constexpr std::string_view name_of(Status status) {
 }
 
 inline constexpr bool is_breakdown(Status status) { return status > Status::no_measurement; }
-template <class S>
-auto is_breakdown(const S& status) {
-  return status.code > S(Status::no_measurement).code;
-}
 
 /// The status of a step on T: one, or on a pack one a lane, held as the numbers of a pack so that
 /// masks can set them.
@@ -55,6 +51,13 @@ void set_status(S& status, bool mask, Status value) {
 template <class S, class M>
 void set_status(S& status, const M& mask, Status value) {
   status.code = select(mask, S(value).code, status.code);
+}
+
+/// Where the status is a breakdown.
+inline bool broken(Status status) { return is_breakdown(status); }
+template <class S>
+auto broken(const S& status) {
+  return status.code > S(Status::no_measurement).code;
 }
 
 /// What a filter is given at one sample. `true_rate_dps` and `true_drift_dps` exist in simulation
@@ -87,12 +90,14 @@ Mask<T> is_missing(const T& value) {
 }
 
 /// How a filter that carries phi, delta1 and delta2 as unknowns holds them.
-struct LearnedParameters {
-  double phi = no_value;
-  double phi_std = no_value;
-  double delta1_dps = no_value;
-  double delta2_dps = no_value;
+template <class T>
+struct Learned {
+  T phi{no_value};
+  T phi_std{no_value};
+  T delta1_dps{no_value};
+  T delta2_dps{no_value};
 };
+using LearnedParameters = Learned<double>;
 
 /// The channels that a filter cannot do without.
 struct Needs {

@@ -15,6 +15,7 @@ class Kf {
   using Parameters = RandomErrorParameters<T>;
   static constexpr std::string_view title = "Kalman filter on model L";
   static constexpr Needs needs{};
+  static constexpr bool packs_trials = true;
 
   explicit Kf(const Parameters& p) : model_(p), state_(ModelL<T>::initial(p)) {}
 

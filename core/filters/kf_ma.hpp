@@ -16,6 +16,7 @@ class KfMa {
   using Parameters = RandomErrorParameters<T>;
   static constexpr std::string_view title = "Kalman filter that carries a_k (MA-exact)";
   static constexpr Needs needs{};
+  static constexpr bool packs_trials = true;
 
   explicit KfMa(const Parameters& p) : model_(p), state_(ModelExact<T>::initial(p)) {}
 

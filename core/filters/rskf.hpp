@@ -35,6 +35,7 @@ class Rskf {
   using Parameters = RskfParameters<T>;
   static constexpr std::string_view title = "risk-sensitive Kalman filter on model L";
   static constexpr Needs needs{};
+  static constexpr bool packs_trials = true;
 
   explicit Rskf(const Parameters& p)
       : model_(p), state_(ModelL<T>::initial(p)), mu_(p.mu_x, p.mu_x_previous) {}
@@ -52,7 +53,7 @@ class Rskf {
   Step<T> step(const Sample<T>& sample) {
     const Mask<T> inflated = predict();
     Step<T> step = update(sample.gyro_dps);
-    set_status(step.status, !inflated && !is_breakdown(step.status), Status::risk_breakdown);
+    set_status(step.status, !inflated && !broken(step.status), Status::risk_breakdown);
     return step;
   }
 

@@ -13,6 +13,7 @@ class SrUkf {
   using Parameters = NlParameters<T>;
   static constexpr std::string_view title = "square-root unscented Kalman filter on model NL";
   static constexpr Needs needs{};
+  static constexpr bool packs_trials = true;
 
   explicit SrUkf(const Parameters& p) : filter_(p) {}
 
@@ -21,11 +22,7 @@ class SrUkf {
   }
 
   const NlUnscented<T>& state() const { return filter_; }
-  LearnedParameters learned() const
-    requires std::same_as<T, double>
-  {
-    return filter_.learned();
-  }
+  Learned<T> learned() const { return filter_.learned(); }
 
  private:
   NlUnscented<T> filter_;

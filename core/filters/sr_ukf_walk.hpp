@@ -44,6 +44,7 @@ class SrUkfWalk {
   static constexpr std::string_view title =
       "square-root unscented Kalman filter on model NL with walking parameters";
   static constexpr Needs needs{};
+  static constexpr bool packs_trials = true;
 
   explicit SrUkfWalk(const Parameters& p)
       : filter_(p), walk_std_(p.walk_phi_std, p.walk_delta1_std_dps, p.walk_delta2_std_dps) {}
@@ -54,7 +55,7 @@ class SrUkfWalk {
   }
 
   const NlUnscented<T>& state() const { return filter_; }
-  LearnedParameters learned() const requires std::same_as<T, double> { return filter_.learned(); }
+  Learned<T> learned() const { return filter_.learned(); }
 
  private:
   NlUnscented<T> filter_;

@@ -24,6 +24,7 @@ class Stf {
   using Parameters = StfParameters<T>;
   static constexpr std::string_view title = "strong tracking Kalman filter on model L";
   static constexpr Needs needs{};
+  static constexpr bool packs_trials = true;
 
   explicit Stf(const Parameters& p) : model_(p), fading_(p), state_(ModelL<T>::initial(p)) {}
 

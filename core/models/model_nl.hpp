@@ -36,6 +36,7 @@ struct InitialParameterStates {
 ///   drives them.
 template <class T>
 struct ModelNl {
+  static constexpr int states = 5;
   static constexpr int augmented = 7;
   static constexpr int coupled = 3;
   using State = Vector<T, augmented>;

@@ -151,10 +151,10 @@ class NlUnscented {
 
   T estimate() const { return mean_(0); }
   T variance() const { return root_(0, 0) * root_(0, 0); }
-  LearnedParameters learned() const
-    requires std::same_as<T, double>
-  {
-    return {mean_(2), root_.row(2).norm(), delta_(0), delta_(1)};
+  Learned<T> learned() const {
+    using std::sqrt;
+    const Vector<T, coupled> row = root_.row(2).transpose();
+    return {mean_(2), sqrt(ordered_dot<T, coupled>(row, row)), delta_(0), delta_(1)};
   }
   /// Of all seven states, after a noise reset.
   State mean() const {
