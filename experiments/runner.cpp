@@ -33,20 +33,28 @@ CellResult run_cell(const Cell& cell, std::uint64_t seed, const RunOptions& opti
   result.tuned = tune_methods(cell, result.calibration, seed);
   const Cell fixed = with_tuned(cell, result.tuned);
 
-  tbb::enumerable_thread_specific<Workspace> workspaces;
+  tbb::enumerable_thread_specific<std::vector<Workspace>> workspaces;
   std::atomic<std::size_t> finished{0};
-  tbb::parallel_for(std::uint32_t{0}, cell.trials, [&](std::uint32_t trial) {
+  const std::uint32_t packs = (cell.trials + options.lanes - 1) / options.lanes;
+  tbb::parallel_for(std::uint32_t{0}, packs, [&](std::uint32_t pack) {
     if (options.stop && options.stop->load(std::memory_order_relaxed)) return;
-    result.trials[trial] = run_trial(fixed, result.calibration, seed, trial, workspaces.local());
-    const std::size_t done = ++finished;
-    if (options.progress) options.progress(done);
+    std::vector<std::uint32_t> trials;
+    for (auto trial = pack * options.lanes;
+         trial < cell.trials && trials.size() < options.lanes; ++trial)
+      trials.push_back(trial);
+    auto records = run_trial_pack(fixed, result.calibration, seed, trials, workspaces.local());
+    for (std::size_t l = 0; l < trials.size(); ++l) {
+      result.trials[trials[l]] = std::move(records[l]);
+      const std::size_t done = ++finished;
+      if (options.progress) options.progress(done);
+    }
   });
 
   result.nanoseconds_per_step.resize(cell.methods.size());
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
     double seconds = 0.0, steps = 0.0;
-    for (const auto& workspace : workspaces) {
-      if (workspace.steps.empty()) continue;
+    for (const auto& lanes : workspaces) {
+      const auto& workspace = lanes.front();
       seconds += workspace.seconds[m];
       steps += workspace.steps[m];
     }

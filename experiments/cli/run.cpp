@@ -16,6 +16,7 @@ struct RunArguments {
   FormatOption format;
   int threads = 0;
   std::uint32_t trials = 0;
+  std::uint32_t lanes = default_lanes;
 };
 
 int run(const RunArguments& arguments, Console& console) {
@@ -40,6 +41,7 @@ int run(const RunArguments& arguments, Console& console) {
       results.push_back(run_cell(cell, study.seed,
                                  {.threads = arguments.threads,
                                   .stop = &console.stop,
+                                  .lanes = arguments.lanes,
                                   .progress = [&](std::size_t done) { progress.set(done); }}));
     }
     if (cell.needs_calibration()) tables.push_back(calibration_table(cell, results.back()));
@@ -72,6 +74,8 @@ void add_run(CLI::App& program, Console& console, int& exit_code) {
       ->check(CLI::Range(1, 1024));
   verb->add_option("--trials", arguments->trials, "trials of every cell, instead of the study's")
       ->check(CLI::Range(1U, 4294967295U));
+  verb->add_option("--lanes", arguments->lanes, "trials side by side: 1, 2, 4 or 8 (the same results)")
+      ->check(CLI::IsMember(possible_lanes));
   arguments->format.add_to(verb);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
