@@ -8,6 +8,7 @@
 #include "core/packed/kernels.hpp"
 #include "core/packed/normals.hpp"
 #include "core/packed/target.hpp"
+#include "experiments/benchmarks/counted.hpp"
 #include "experiments/benchmarks/eigen_sr_ukf.hpp"
 #include "experiments/benchmarks/peak.hpp"
 #include "experiments/runner.hpp"
@@ -56,10 +57,26 @@ void eigen_yardstick(benchmark::State& state, bool risk) {
   per(state, "s_per_trial_step", samples);
 }
 
-/// The filter as a study runs it one trial at a time: from a series into a track.
+/// Additions, multiplications, divisions and square roots of a step, on average over the signal.
 template <class F>
+double operations_per_step(const Series& series) {
+  F filter{typename F::Parameters{}};
+  Counted::operations = 0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    Sample<Counted> sample;
+    sample.gyro_dps = series.gyro_dps[i];
+    sample.true_rate_dps = series.rate_ref_dps[i];
+    sample.true_drift_dps = series.thermal_bias_dps[i];
+    filter.step(sample);
+  }
+  return static_cast<double>(Counted::operations) / static_cast<double>(series.size());
+}
+
+/// The filter as a study runs it one trial at a time: from a series into a track.
+template <class F, class OnCounted>
 void one_trial(benchmark::State& state) {
   const auto series = signal(0);
+  state.counters["operations_per_step"] = operations_per_step<OnCounted>(series);
   Track track;
   for (auto _ : state) {
     run_filter(F{typename F::Parameters{}}, series, track);
@@ -186,7 +203,8 @@ const bool registered = [] {
   Filters::for_each([&](auto plugin) {
     using F = typename decltype(plugin)::type;
     if constexpr (requires { F::packs_trials; }) {
-      RegisterBenchmark(("filter/" + std::string(plugin.id) + "/one").c_str(), one_trial<F>);
+      RegisterBenchmark(("filter/" + std::string(plugin.id) + "/one").c_str(),
+                        one_trial<F, typename decltype(plugin)::template on<Counted>>);
       for (const auto* kernels : available_kernels())
         for (const auto& kernel : kernels->filters)
           if (kernel.filter == plugin.id)
