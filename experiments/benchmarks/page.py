@@ -21,7 +21,7 @@ def least(runs):
     for run in runs:
         if run.get("run_type") != "iteration":
             continue
-        name = re.sub(r"/(repeats:\d+|real_time)", "", run["name"])
+        name = re.sub(r"/(repeats:\d+|real_time|process_time)", "", run["name"])
         for counter in ("s_per_trial_step", "s_per_deviate", "s_per_trial", "operations_per_s", "operations_per_step"):
             if counter in run:
                 key = (name, counter)
