@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <vector>
 
 namespace gyrostat {
 
@@ -17,7 +18,11 @@ HeadingExcursion heading_excursion(const Series& series, const Track& track) {
 }
 
 TrackErrors track_errors(const Series& series, const Track& track) {
-  const auto over_time = [&](const auto& error) { return error_moments(series.size(), error); };
+  std::vector<double> values(series.size());  // each error is computed once and read twice
+  const auto over_time = [&](const auto& error) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = error(i);
+    return error_moments(values.size(), [&](std::size_t i) { return values[i]; });
+  };
   TrackErrors errors;
   errors.rate = over_time([&](std::size_t i) { return rate_error_dps(series, track, i); });
   errors.nis = over_time([&](std::size_t i) {

@@ -3,8 +3,9 @@
 #include <Random123/philox.h>
 
 #include <array>
-#include <cmath>
-#include <numbers>
+
+#include "core/packed/kernels.hpp"
+#include "core/packed/normals.hpp"
 
 namespace gyrostat {
 namespace {
@@ -27,16 +28,13 @@ r123::Philox4x32::ctr_type words(std::uint64_t seed, std::uint64_t stream_hash,
 
 double to_unit(std::uint32_t word) { return (word + 0.5) * 0x1p-32; }
 
-std::array<double, 4> normals(const r123::Philox4x32::ctr_type& w) {
-  std::array<double, 4> out{};
-  for (std::size_t pair = 0; pair < 2; ++pair) {
-    const double radius = std::sqrt(-2.0 * std::log(to_unit(w[2 * pair])));
-    const double angle = 2.0 * std::numbers::pi * to_unit(w[2 * pair + 1]);
-    out[2 * pair] = radius * std::cos(angle);
-    out[2 * pair + 1] = radius * std::sin(angle);
-  }
-  return out;
+NormalAddress address(std::uint64_t seed, std::uint64_t stream_hash, std::uint32_t trial) {
+  const auto low = [](std::uint64_t v) { return static_cast<std::uint32_t>(v); };
+  return {{low(seed), low(seed >> 32U)}, trial, {low(stream_hash), low(stream_hash >> 32U)}};
 }
+
+/// Where no more is known of the processor than what the whole program is compiled for.
+struct Baseline;
 
 }  // namespace
 
@@ -44,15 +42,28 @@ NormalStream::NormalStream(std::uint64_t seed, std::uint32_t trial, std::string_
     : seed_(seed), stream_hash_(fnv1a(stream)), trial_(trial) {}
 
 double NormalStream::normal(std::uint64_t sample) const {
-  return normals(words(seed_, stream_hash_, trial_, sample / 4))[sample % 4];
+  std::array<double, 4> four{};
+  NormalBlocks<Baseline, 1>::normals(address(seed_, stream_hash_, trial_),
+                                     static_cast<std::uint32_t>(sample / 4), four.data());
+  return four[sample % 4];
 }
 
 void NormalStream::fill(std::uint64_t first, std::span<double> out) const {
-  std::size_t i = 0;
-  while (i < out.size()) {
+  constexpr std::size_t chunk = 4 * normal_blocks;
+  const auto normals = available_kernels().back()->normals;
+  const NormalAddress at = address(seed_, stream_hash_, trial_);
+  for (std::size_t i = 0; i < out.size();) {
     const std::uint64_t sample = first + i;
-    const auto four = normals(words(seed_, stream_hash_, trial_, sample / 4));
-    for (std::size_t lane = sample % 4; lane < 4 && i < out.size(); ++lane) out[i++] = four[lane];
+    const auto block = static_cast<std::uint32_t>(sample / 4);
+    const std::size_t skipped = sample % 4;
+    if (skipped == 0 && out.size() - i >= chunk) {
+      normals(at, block, &out[i]);
+      i += chunk;
+      continue;
+    }
+    std::array<double, chunk> some{};
+    normals(at, block, some.data());
+    for (std::size_t j = skipped; j < chunk && i < out.size(); ++j) out[i++] = some[j];
   }
 }
 

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <string_view>
 
+#include "core/numerics/lanes.hpp"
 #include "core/types.hpp"
 
 namespace gyrostat {
@@ -27,6 +28,38 @@ inline constexpr std::string_view name_of(Status status) {
 
 inline constexpr bool is_breakdown(Status status) { return status > Status::no_measurement; }
 
+/// The status of a step on T: one, or on a pack one a lane, held as the numbers of a pack so that
+/// masks can set them.
+template <class T>
+struct StatusOf {
+  using type = Status;
+};
+template <class T>
+  requires requires { T::lanes; }
+struct StatusOf<T> {
+  struct type {
+    T code;
+    type(Status status = Status::ok) : code(static_cast<double>(status)) {}  // NOLINT
+  };
+};
+
+/// Where the mask holds the status is `value`.
+template <class S>
+void set_status(S& status, bool mask, Status value) {
+  if (mask) status = value;
+}
+template <class S, class M>
+void set_status(S& status, const M& mask, Status value) {
+  status.code = select(mask, S(value).code, status.code);
+}
+
+/// Where the status is a breakdown.
+inline bool broken(Status status) { return is_breakdown(status); }
+template <class S>
+auto broken(const S& status) {
+  return status.code > S(Status::no_measurement).code;
+}
+
 /// What a filter is given at one sample. `true_rate_dps` and `true_drift_dps` exist in simulation
 /// only and are for the oracle.
 template <class T>
@@ -47,22 +80,24 @@ struct Step {
   T estimate_variance{no_value};
   T innovation_dps{no_value};
   T innovation_variance{no_value};
-  Status status = Status::ok;
+  typename StatusOf<T>::type status = Status::ok;
 };
 
 template <class T>
-bool is_missing(const T& value) {
+Mask<T> is_missing(const T& value) {
   using std::isnan;
   return isnan(value);
 }
 
 /// How a filter that carries phi, delta1 and delta2 as unknowns holds them.
-struct LearnedParameters {
-  double phi = no_value;
-  double phi_std = no_value;
-  double delta1_dps = no_value;
-  double delta2_dps = no_value;
+template <class T>
+struct Learned {
+  T phi{no_value};
+  T phi_std{no_value};
+  T delta1_dps{no_value};
+  T delta2_dps{no_value};
 };
+using LearnedParameters = Learned<double>;
 
 /// The channels that a filter cannot do without.
 struct Needs {

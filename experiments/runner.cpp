@@ -48,23 +48,31 @@ std::vector<double> run_trials(const PreparedCell& prepared, std::uint64_t seed,
                                const std::function<void(std::uint32_t trial, Record&&)>& take) {
   const auto limit = thread_limit(options.threads);
   const auto& cell = prepared.cell;
-  tbb::enumerable_thread_specific<Workspace> workspaces;
-  std::atomic<std::size_t> finished{0};
-  std::atomic<std::uint32_t> next{0};
-  tbb::parallel_for(std::uint32_t{0}, cell.trials, [&](std::uint32_t /*turn*/) {
-    const auto trial = next++;  // so that trials begin in order, and what is finished has few gaps
+  std::vector<std::uint32_t> trials;
+  for (std::uint32_t trial = 0; trial < cell.trials; ++trial)
+    if (wanted(trial)) trials.push_back(trial);
+  tbb::enumerable_thread_specific<std::vector<Workspace>> workspaces;
+  std::atomic<std::size_t> finished{0}, next{0};
+  const std::size_t packs = (trials.size() + options.lanes - 1) / options.lanes;
+  tbb::parallel_for(std::size_t{0}, packs, [&](std::size_t /*turn*/) {
+    // So that trials begin in order, and what is finished has few gaps.
+    const std::size_t first = options.lanes * next++;
     if (options.stop && options.stop->load(std::memory_order_relaxed)) return;
-    if (!wanted(trial)) return;
-    take(trial, run_trial(cell, prepared.calibration, seed, trial, workspaces.local()));
-    const std::size_t done = ++finished;
-    if (options.progress) options.progress(done);
+    const auto pack = std::span(trials).subspan(
+        first, std::min<std::size_t>(options.lanes, trials.size() - first));
+    auto records = run_trial_pack(cell, prepared.calibration, seed, pack, workspaces.local());
+    for (std::size_t l = 0; l < pack.size(); ++l) {
+      take(pack[l], std::move(records[l]));
+      const std::size_t done = ++finished;
+      if (options.progress) options.progress(done);
+    }
   });
 
   std::vector<double> nanoseconds_per_step(cell.methods.size());
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
     double seconds = 0.0, steps = 0.0;
-    for (const auto& workspace : workspaces) {
-      if (workspace.steps.empty()) continue;
+    for (const auto& lanes : workspaces) {
+      const auto& workspace = lanes.front();
       seconds += workspace.seconds[m];
       steps += workspace.steps[m];
     }

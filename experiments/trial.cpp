@@ -39,8 +39,12 @@ void track_method(const Method& method, const ParameterMap& parameters, const Se
 
 Outcome run_method(const Method& method, const ParameterMap& parameters, const Series& series,
                    const Series& judged, Track& track) {
-  Outcome outcome;
   track_method(method, parameters, series, track);
+  return judge_track(series, judged, track);
+}
+
+Outcome judge_track(const Series& series, const Series& judged, const Track& track) {
+  Outcome outcome;
   const TrackErrors errors = track_errors(judged, track);
   std::size_t m = 0;
   Metrics::for_each([&](auto plugin) {

@@ -48,6 +48,9 @@ void track_method(const Method& method, const ParameterMap& parameters, const Se
 Outcome run_method(const Method& method, const ParameterMap& parameters, const Series& series,
                    const Series& judged, Track& track);
 
+/// What a track over `series` comes to, judged against `judged`.
+Outcome judge_track(const Series& series, const Series& judged, const Track& track);
+
 /// Noise of signals that the trials of a study never see: for calibration and tuning.
 Noise calibration_noise(std::uint64_t seed, std::uint32_t trial);
 

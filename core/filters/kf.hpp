@@ -15,12 +15,13 @@ class Kf {
   using Parameters = RandomErrorParameters<T>;
   static constexpr std::string_view title = "Kalman filter on model L";
   static constexpr Needs needs{};
+  static constexpr bool packs_trials = true;
 
   explicit Kf(const Parameters& p) : model_(p), state_(ModelL<T>::initial(p)) {}
 
   void predict() {
-    propagate(state_, model_.F);
-    state_.covariance += model_.Q;
+    propagate_companion(state_, model_.first);
+    state_.covariance(0, 0) += model_.q;
   }
 
   /// z in dps, or NaN for a missing sample.

@@ -16,12 +16,12 @@ class KfMa {
   using Parameters = RandomErrorParameters<T>;
   static constexpr std::string_view title = "Kalman filter that carries a_k (MA-exact)";
   static constexpr Needs needs{};
+  static constexpr bool packs_trials = true;
 
   explicit KfMa(const Parameters& p) : model_(p), state_(ModelExact<T>::initial(p)) {}
 
   void predict() {
-    propagate(state_, model_.F);
-    state_.covariance += model_.Q;
+    model_.predict(state_);
   }
 
   /// z in dps, or NaN for a missing sample.

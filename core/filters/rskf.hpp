@@ -35,14 +35,15 @@ class Rskf {
   using Parameters = RskfParameters<T>;
   static constexpr std::string_view title = "risk-sensitive Kalman filter on model L";
   static constexpr Needs needs{};
+  static constexpr bool packs_trials = true;
 
   explicit Rskf(const Parameters& p)
       : model_(p), state_(ModelL<T>::initial(p)), mu_(p.mu_x, p.mu_x_previous) {}
 
   /// Whether the risk update exists; the prediction stands without it otherwise.
-  bool predict() {
-    propagate(state_, model_.F);
-    state_.covariance += model_.Q;
+  Mask<T> predict() {
+    propagate_companion(state_, model_.first);
+    state_.covariance(0, 0) += model_.q;
     return inflate_covariance<T, 2>(state_.covariance, mu_);
   }
 
@@ -50,9 +51,9 @@ class Rskf {
   Step<T> update(const T& z) { return update_first(state_, model_.R, z); }
 
   Step<T> step(const Sample<T>& sample) {
-    const bool inflated = predict();
+    const Mask<T> inflated = predict();
     Step<T> step = update(sample.gyro_dps);
-    if (!inflated && !is_breakdown(step.status)) step.status = Status::risk_breakdown;
+    set_status(step.status, !inflated && !broken(step.status), Status::risk_breakdown);
     return step;
   }
 

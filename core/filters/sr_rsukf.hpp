@@ -58,21 +58,18 @@ class SrRsukf {
   static constexpr std::string_view title =
       "square-root risk-sensitive unscented Kalman filter on model NL";
   static constexpr Needs needs{};
+  static constexpr bool packs_trials = true;
 
-  explicit SrRsukf(const Parameters& p) : filter_(p), mu_(p.diagonal()) {}
+  explicit SrRsukf(const Parameters& p) : filter_(p), risk_(p.diagonal()) {}
 
-  Step<T> step(const Sample<T>& sample) { return nl_cycle<T>(filter_, mu_, sample.gyro_dps); }
+  Step<T> step(const Sample<T>& sample) { return nl_cycle<T>(filter_, sample.gyro_dps, &risk_); }
 
   const NlUnscented<T>& state() const { return filter_; }
-  LearnedParameters learned() const
-    requires std::same_as<T, double>
-  {
-    return filter_.learned();
-  }
+  Learned<T> learned() const { return filter_.learned(); }
 
  private:
   NlUnscented<T> filter_;
-  Vector<T, 7> mu_;
+  NlRisk<T> risk_;
 };
 
 }  // namespace gyrostat::filters

@@ -13,19 +13,16 @@ class SrUkf {
   using Parameters = NlParameters<T>;
   static constexpr std::string_view title = "square-root unscented Kalman filter on model NL";
   static constexpr Needs needs{};
+  static constexpr bool packs_trials = true;
 
   explicit SrUkf(const Parameters& p) : filter_(p) {}
 
   Step<T> step(const Sample<T>& sample) {
-    return nl_cycle<T>(filter_, std::nullopt, sample.gyro_dps);
+    return nl_cycle<T>(filter_, sample.gyro_dps);
   }
 
   const NlUnscented<T>& state() const { return filter_; }
-  LearnedParameters learned() const
-    requires std::same_as<T, double>
-  {
-    return filter_.learned();
-  }
+  Learned<T> learned() const { return filter_.learned(); }
 
  private:
   NlUnscented<T> filter_;

@@ -32,7 +32,7 @@ class SrUkfMl {
     const auto model = learner_.model();
     filter_.set_noise(model.delta1_dps, model.delta2_dps, model.measurement_noise_std_dps);
     learner_.step(sample);
-    return nl_cycle<T>(filter_, std::nullopt, sample.gyro_dps);
+    return nl_cycle<T>(filter_, sample.gyro_dps);
   }
 
   const NlUnscented<T>& state() const { return filter_; }

@@ -44,17 +44,18 @@ class SrUkfWalk {
   static constexpr std::string_view title =
       "square-root unscented Kalman filter on model NL with walking parameters";
   static constexpr Needs needs{};
+  static constexpr bool packs_trials = true;
 
   explicit SrUkfWalk(const Parameters& p)
       : filter_(p), walk_std_(p.walk_phi_std, p.walk_delta1_std_dps, p.walk_delta2_std_dps) {}
 
   Step<T> step(const Sample<T>& sample) {
     filter_.walk_parameters(walk_std_);
-    return nl_cycle<T>(filter_, std::nullopt, sample.gyro_dps);
+    return nl_cycle<T>(filter_, sample.gyro_dps);
   }
 
   const NlUnscented<T>& state() const { return filter_; }
-  LearnedParameters learned() const requires std::same_as<T, double> { return filter_.learned(); }
+  Learned<T> learned() const { return filter_.learned(); }
 
  private:
   NlUnscented<T> filter_;

@@ -24,27 +24,29 @@ class Stf {
   using Parameters = StfParameters<T>;
   static constexpr std::string_view title = "strong tracking Kalman filter on model L";
   static constexpr Needs needs{};
+  static constexpr bool packs_trials = true;
 
   explicit Stf(const Parameters& p) : model_(p), fading_(p), state_(ModelL<T>::initial(p)) {}
 
   /// The process noise follows in `update`, since the fading factor waits for the innovation.
-  void predict() { propagate(state_, model_.F); }
+  void predict() { propagate_companion(state_, model_.first); }
 
-  /// z in dps, or NaN for a missing sample, which fades nothing.
+  /// z in dps, or NaN for a missing sample, which fades nothing. A measurement too large to fade by
+  /// is left out.
   Step<T> update(const T& z) {
     using std::isfinite;
-    T factor(1.0);
-    if (!is_missing(z)) {
-      const T innovation = z - state_.mean(0);
-      if (!isfinite(innovation * innovation)) return leave_out();
-      factor = fading_.next(innovation * innovation, model_.Q(0, 0), model_.R,
-                            state_.covariance(0, 0));
-    }
+    const T innovation = z - state_.mean(0);
+    const T squared = innovation * innovation;
+    const Mask<T> present = !is_missing(z), fades = isfinite(squared);
+    const T factor = fading_.next(squared, model_.q, model_.R, state_.covariance(0, 0));
     Gaussian<T, 2> faded = state_;
-    faded.covariance = factor * state_.covariance + model_.Q;
-    if (!is_sound(faded)) faded.covariance = state_.covariance + model_.Q;
-    state_ = faded;
-    return update_first(state_, model_.R, z);
+    faded.covariance *= factor;
+    faded.covariance(0, 0) += model_.q;
+    state_.covariance(0, 0) += model_.q;
+    state_ = select(is_sound(faded), faded, state_);
+    Step<T> step = update_first(state_, model_.R, select(fades, z, T(no_value)));
+    set_status(step.status, present && !fades, Status::not_finite);
+    return step;
   }
 
   Step<T> step(const Sample<T>& sample) {
@@ -55,14 +57,6 @@ class Stf {
   const Gaussian<T, 2>& state() const { return state_; }
 
  private:
-  /// The step without its measurement, which is too large to fade by.
-  Step<T> leave_out() {
-    state_.covariance += model_.Q;
-    Step<T> step = update_first(state_, model_.R, T(no_value));
-    step.status = Status::not_finite;
-    return step;
-  }
-
   ModelL<T> model_;
   FadingFactor<T> fading_;
   Gaussian<T, 2> state_;

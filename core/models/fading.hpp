@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/fields.hpp"
-#include "core/types.hpp"
+#include "core/numerics/lanes.hpp"
 
 namespace gyrostat {
 
@@ -39,20 +39,22 @@ class FadingFactor {
   /// The factor for this step; 1, and nothing learnt, for an innovation that is not finite. Traces of eps eps^T, H Q H^T, R and H F P F^T H^T, all in dps^2.
   T next(const T& innovation, const T& process, const T& measurement, const T& predicted) {
     using std::isfinite;
-    if (!isfinite(innovation)) return T(1.0);
+    const Mask<T> learns = isfinite(innovation);
     const T& rho = parameters_.forgetting;
-    spread_ = first_ ? innovation : (rho * spread_ + innovation) / (T(1.0) + rho);
-    first_ = false;
+    const T spread = select(first_, innovation, T((rho * spread_ + innovation) / (T(1.0) + rho)));
+    spread_ = select(learns, spread, spread_);
+    first_ = first_ && !learns;
     const T& least = parameters_.fading_factor;
-    if (parameters_.adaptive == T(0.0) || !(predicted > T(0.0))) return least;
     const T factor = (spread_ - process - parameters_.softening * measurement) / predicted;
-    return factor > least ? factor : least;
+    const Mask<T> fades =
+        parameters_.adaptive != T(0.0) && predicted > T(0.0) && factor > least;
+    return select(learns, select(fades, factor, least), T(1.0));
   }
 
  private:
   FadingParameters<T> parameters_;
   T spread_{0.0};
-  bool first_ = true;
+  Mask<T> first_ = true;
 };
 
 }  // namespace gyrostat

@@ -9,16 +9,14 @@ namespace gyrostat {
 /// and W = [a_k, a_{k-1}] taken as fresh noise at each step, z = x + v.
 template <class T>
 struct ModelL {
-  Matrix<T, 2> F;
-  Matrix<T, 2> Q;
+  Vector<T, 2> first;  ///< row 0 of F, which is in companion form
+  T q;                 ///< variance of the noise on x_k, all of Q = G G^T
   T R;
 
   explicit ModelL(const Arima111<T>& arima)
-      : R(arima.measurement_noise_std_dps * arima.measurement_noise_std_dps) {
-    F << T(1.0) + arima.phi, -arima.phi, T(1.0), T(0.0);
-    Q.setZero();
-    Q(0, 0) = arima.delta1_dps * arima.delta1_dps + arima.delta2_dps * arima.delta2_dps;
-  }
+      : first(T(1.0) + arima.phi, -arima.phi),
+        q(arima.delta1_dps * arima.delta1_dps + arima.delta2_dps * arima.delta2_dps),
+        R(arima.measurement_noise_std_dps * arima.measurement_noise_std_dps) {}
 
   static Gaussian<T, 2> initial(const InitialRandomError<T>& prior) {
     Gaussian<T, 2> state{{prior.initial_x_dps, prior.initial_x_previous_dps},
@@ -34,17 +32,25 @@ struct ModelL {
 /// driven by [delta1, 0, 1] a_k.
 template <class T>
 struct ModelExact {
-  Matrix<T, 3> F;
-  Matrix<T, 3> Q;
+  Vector<T, 3> first;  ///< row 0 of F
+  T delta1;
   T R;
 
   explicit ModelExact(const Arima111<T>& arima)
-      : R(arima.measurement_noise_std_dps * arima.measurement_noise_std_dps) {
-    F << T(1.0) + arima.phi, -arima.phi, -arima.delta2_dps,  //
-        T(1.0), T(0.0), T(0.0),                              //
-        T(0.0), T(0.0), T(0.0);
-    const Vector<T, 3> drive(arima.delta1_dps, T(0.0), T(1.0));
-    Q = drive * drive.transpose();
+      : first(T(1.0) + arima.phi, -arima.phi, -arima.delta2_dps),
+        delta1(arima.delta1_dps),
+        R(arima.measurement_noise_std_dps * arima.measurement_noise_std_dps) {}
+
+  /// x <- F x, P <- F P F^T + Q.
+  void predict(Gaussian<T, 3>& state) const {
+    const T previous = state.mean(0), variance = state.covariance(0, 0);
+    const T x = ordered_dot<T, 3>(first, state.mean);
+    Vector<T, 3> cross;
+    unrolled<3>([&]<int i>() { cross(i) = ordered_dot<T, 3>(state.covariance.col(i), first); });
+    state.mean << x, previous, T(0.0);
+    state.covariance << ordered_dot<T, 3>(first, cross) + delta1 * delta1, cross(0), delta1,  //
+        cross(0), variance, T(0.0),                                                         //
+        delta1, T(0.0), T(1.0);
   }
 
   static Gaussian<T, 3> initial(const InitialRandomError<T>& prior) {

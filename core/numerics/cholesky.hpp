@@ -1,50 +1,19 @@
 #pragma once
 
+#include "core/numerics/lanes.hpp"
 #include "core/types.hpp"
 
 namespace gyrostat {
 
 /// Zero, and constant where T carries derivatives.
 template <class T>
-bool vanishes(const T& value) {
+Mask<T> vanishing(const T& value) {
   if constexpr (requires { value.v.isZero(0.0); }) return value.a == 0.0 && value.v.isZero(0.0);
   else return value == T(0.0);
 }
-
-/// Lower triangular L (N x N) with L L^T = A A^T, by Householder reflections of A's rows
-/// (N x M, M >= N): the QR decomposition of A^T without its Q. A row without a remainder gets a
-/// zero diagonal and leaves its column of A to the next, so that L stays downdatable where A A^T
-/// is singular.
-template <class T, int N, int M>
-Matrix<T, N> lower_root(Matrix<T, N, M> a) {
-  using std::sqrt;
-  Matrix<T, N> root = Matrix<T, N>::Zero();
-  for (int k = 0, pivot = 0; k < N; ++k) {
-    T tail(0.0);
-    bool reduced = true;  // a zero whose derivative is none still turns the rows below
-    for (int j = pivot + 1; j < M; ++j) {
-      tail += a(k, j) * a(k, j);
-      reduced = reduced && vanishes(a(k, j));
-    }
-    const T squared = tail + a(k, pivot) * a(k, pivot);
-    if (squared == T(0.0)) continue;
-    if (!reduced) {
-      const T norm = sqrt(squared);
-      const T head = a(k, pivot) > T(0.0) ? a(k, pivot) + norm : a(k, pivot) - norm;
-      const T scale = T(2.0) / (tail + head * head);
-      for (int i = k + 1; i < N; ++i) {
-        T dot = a(i, pivot) * head;
-        for (int j = pivot + 1; j < M; ++j) dot += a(i, j) * a(k, j);
-        dot *= scale;
-        a(i, pivot) -= dot * head;
-        for (int j = pivot + 1; j < M; ++j) a(i, j) -= dot * a(k, j);
-      }
-      a(k, pivot) = a(k, pivot) > T(0.0) ? -norm : norm;
-    }
-    for (int i = k; i < N; ++i) root(i, k) = a(i, pivot);
-    ++pivot;
-  }
-  return root;
+template <class T>
+bool vanishes(const T& value) {
+  return all(vanishing(value));
 }
 
 /// Root of L L^T + v v^T by Givens rotations; L may be singular.
@@ -53,11 +22,12 @@ void update_root(Matrix<T, N>& root, Vector<T, N> v) {
   using std::sqrt;
   for (int k = 0; k < N; ++k) {
     const T squared = root(k, k) * root(k, k) + v(k) * v(k);
-    if (vanishes(v(k)) || squared == T(0.0)) continue;
+    const Mask<T> stays = vanishing(v(k)) || squared == T(0.0);
+    if (all(stays)) continue;
     const T diagonal = sqrt(squared);
-    const T c = root(k, k) / diagonal;
-    const T s = v(k) / diagonal;
-    root(k, k) = diagonal;
+    const T c = select(stays, T(1.0), T(root(k, k) / diagonal));
+    const T s = select(stays, T(0.0), T(v(k) / diagonal));
+    root(k, k) = select(stays, root(k, k), diagonal);
     for (int i = k + 1; i < N; ++i) {
       const T below = root(i, k);
       root(i, k) = c * below + s * v(i);
@@ -66,48 +36,54 @@ void update_root(Matrix<T, N>& root, Vector<T, N> v) {
   }
 }
 
-/// Root of L L^T - v v^T by hyperbolic rotations. False, with `root` untouched, where the
-/// difference is not positive definite (in v's directions, where L is singular).
-template <class T, int N>
-[[nodiscard]] bool downdate_root(Matrix<T, N>& root, Vector<T, N> v) {
+/// Root of (P^-1 - 2 mu e_i e_i^T)^-1 for P = L L^T. With l the row i of L that is
+/// L (I - 2 mu l l^T)^-1 L^T by the Sherman-Morrison formula, and the middle matrix has the lower root
+/// M_kk = sqrt(b_k / b_{k-1}), M_jk = 2 mu l_j l_k / sqrt(b_k b_{k-1}) with b_k = 1 - 2 mu
+/// sum_{j > k} l_j^2 (Gill, Golub, Murray and Saunders 1974, method C1). Exists where the answer is true,
+/// which is where 1 - 2 mu P_ii is positive; elsewhere `root` is of no use.
+template <int i, class T, int N>
+[[nodiscard]] Mask<T> inflate_along(Matrix<T, N>& root, const T& twice_mu) {
   using std::sqrt;
-  Matrix<T, N> down = root;
-  for (int k = 0; k < N; ++k) {
-    if (vanishes(v(k))) continue;
-    const T squared = (down(k, k) - v(k)) * (down(k, k) + v(k));
-    if (!(squared > T(0.0))) return false;
-    const T diagonal = sqrt(squared);
-    const T c = diagonal / down(k, k);
-    const T s = v(k) / down(k, k);
-    down(k, k) = diagonal;
-    for (int i = k + 1; i < N; ++i) {
-      down(i, k) = (down(i, k) - s * v(i)) / c;
-      v(i) = c * v(i) - s * down(i, k);
+  const Vector<T, i + 1> l = root.row(i).template head<i + 1>().transpose();
+  Vector<T, i + 1> b, per_root;  // b_k and 1 / sqrt(b_{k-1})
+  T rest(1.0);
+  unrolled<i + 1>([&]<int up>() {
+    constexpr int k = i - up;
+    b(k) = rest;
+    rest -= twice_mu * (l(k) * l(k));
+    per_root(k) = T(1.0) / sqrt(rest);
+  });
+  Vector<T, N> right = Vector<T, N>::Zero();  // sum_{j > k} L_row,j l_j
+  unrolled<i + 1>([&]<int up>() {
+    constexpr int k = i - up;
+    T diagonal = per_root(k), below = twice_mu * l(k) * per_root(k);
+    if constexpr (k < i) {
+      diagonal *= b(k) * per_root(k + 1);
+      below *= per_root(k + 1);
     }
-  }
-  root = down;
-  return true;
+    unrolled<N - k>([&]<int down>() {
+      constexpr int row = k + down;
+      const T entry = root(row, k);
+      root(row, k) = k < i && row > k ? T(entry * diagonal + below * right(row)) : T(entry * diagonal);
+      right(row) += entry * l(k);
+    });
+  });
+  return rest > T(0.0);
 }
 
-/// Root of (P^-1 - 2 diag(mu))^-1 for P = L L^T, mu >= 0: the risk-sensitive update [A eq. 15].
-///
-/// One element at a time, by the Sherman-Morrison formula: with p = P e_i,
-/// (P^-1 - 2 mu_i e_i e_i^T)^-1 = P + p p^T 2 mu_i / (1 - 2 mu_i P_ii). The paper inverts the root,
-/// downdates and inverts back; this form is the same matrix, needs no inverse, and stands for a
-/// singular P. False, with `root` untouched, where P^-1 - 2 mu is not positive definite.
+/// Root of (P^-1 - 2 diag(mu))^-1 for P = L L^T, mu >= 0: the risk-sensitive update [A eq. 15], one
+/// element at a time. The paper inverts the root, downdates and inverts back; this form is the same
+/// matrix, needs no inverse, and stands for a singular P. False, with `root` untouched, where P^-1 - 2
+/// mu is not positive definite.
 template <class T, int N>
-[[nodiscard]] bool inflate_root(Matrix<T, N>& root, const Vector<T, N>& mu) {
-  using std::sqrt;
+[[nodiscard]] Mask<T> inflate_root(Matrix<T, N>& root, const Vector<T, N>& mu) {
   Matrix<T, N> inflated = root;
-  for (int i = 0; i < N; ++i) {
-    if (mu(i) == T(0.0)) continue;
-    const Vector<T, N> p = inflated * inflated.row(i).transpose();
-    const T remaining = T(1.0) - T(2.0) * mu(i) * p(i);
-    if (!(remaining > T(0.0))) return false;
-    update_root<T, N>(inflated, p * sqrt(T(2.0) * mu(i) / remaining));
-  }
-  root = inflated;
-  return true;
+  Mask<T> exists = true;
+  unrolled<N>([&]<int i>() {
+    if (!vanishes(mu(i))) exists = inflate_along<i, T, N>(inflated, T(2.0) * mu(i)) && exists;
+  });
+  root = select(exists, inflated, root);
+  return exists;
 }
 
 }  // namespace gyrostat

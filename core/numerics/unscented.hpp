@@ -1,23 +1,36 @@
 #pragma once
 
-#include "core/types.hpp"
+#include "core/numerics/lanes.hpp"
 
 namespace gyrostat {
 
-/// Weights of the scaled unscented transform for n states (Wan and van der Merwe 2000, eq. 15):
-/// lambda = alpha^2 (n + kappa) - n, points at the mean and at mean +- spread * root columns.
+/// The scaled unscented transform (Wan and van der Merwe 2000, eq. 15) of n states by a function with
+/// one nonlinear component, and that quadratic, so that at each pair of points mean +- gamma L_i it
+/// departs from linearity by the same gamma^2 q_i, q_i its second-order part along column L_i.
+///
+/// With lambda = alpha^2 (n + kappa) - n, gamma^2 = n + lambda, W_i = 1 / (2 gamma^2) and W0^c = lambda /
+/// gamma^2 + 1 - alpha^2 + beta, the weighted sums over all 2n + 1 points come to: the mean is that of
+/// the central point plus q = sum q_i; the covariance is that of the linear part, to which the odd
+/// parts of the pairs add up, plus on the component itself
+///   sum 2 W_i (gamma^2 q_i - q)^2 + W0^c q^2 = gamma^2 sum q_i^2 + (beta - alpha^2) q^2.
 template <class T>
-struct UnscentedWeights {
-  T spread;             ///< gamma = sqrt(n + lambda)
-  T covariance_centre;  ///< W0^c, negative for a small alpha
-  T other;              ///< W_i, i = 1 ... 2n; W0^m is what is left to 1
+struct UnscentedQuadratic {
+  T pairs;   ///< gamma^2 = alpha^2 (n + kappa)
+  T centre;  ///< beta - alpha^2
 
-  UnscentedWeights(int n, const T& alpha, const T& beta, const T& kappa) {
-    using std::sqrt;
-    const T scale = alpha * alpha * (T(n) + kappa);
-    spread = sqrt(scale);
-    covariance_centre = T(2.0) - T(n) / scale - alpha * alpha + beta;
-    other = T(0.5) / scale;
+  UnscentedQuadratic(int n, const T& alpha, const T& beta, const T& kappa)
+      : pairs(alpha * alpha * (T(n) + kappa)), centre(beta - alpha * alpha) {}
+
+  /// What the q_i add to the component's mean.
+  template <int N>
+  static T shift(const Vector<T, N>& q) {
+    return ordered_dot<T, N>(q, Vector<T, N>::Ones());
+  }
+  /// What they add to its variance.
+  template <int N>
+  T variance(const Vector<T, N>& q) const {
+    const T mean = shift<N>(q);
+    return pairs * ordered_dot<T, N>(q, q) + centre * (mean * mean);
   }
 };
 

@@ -72,7 +72,7 @@ Cell bench_cell() {
   Cell cell;
   cell.name = "bench";
   for (const char* id : {"none", "kf", "stf", "sr_ukf", "sr_rsukf", "oracle"})
-    cell.methods.push_back({id, id, ParameterSource::truth, {}});
+    cell.methods.push_back({id, id, ParameterSource::truth, {}, {}});
   return cell;
 }
 

@@ -33,6 +33,7 @@ struct RunArguments {
   std::uint32_t trials = 0;
   double failure_budget = -1.0;
   bool mix = false, set_aside = false;
+  std::uint32_t lanes = default_lanes;
 };
 
 Study study_of(const RunArguments& arguments) {
@@ -62,7 +63,8 @@ class Run {
         study_(study_of(arguments)),
         shard_(shard_of(arguments)),
         folder_(folder_of(arguments, study_, shard_)),
-        threads_(arguments.threads) {
+        threads_(arguments.threads),
+        lanes_(arguments.lanes) {
     if (!arguments.until.empty()) until_ = next_time_of_day(arguments.until, std::time(nullptr));
     make_result_folder(folder_);
     store_.emplace(open_study_store(folder_, study_,
@@ -128,7 +130,7 @@ class Run {
         }
       };
       nanoseconds = run_missing(*store_, prepared, index, study_.seed, state,
-                                {.threads = threads_, .stop = &stopper.flag(), .progress = {}}, watch);
+                                {.threads = threads_, .stop = &stopper.flag(), .lanes = lanes_, .progress = {}}, watch);
     }
     log_->write("cell", {{"cell", cell.name}, {"failed", failed_}});
     summarise(index, prepared, nanoseconds);
@@ -185,6 +187,7 @@ class Run {
   Shard shard_;
   fs::path folder_;
   int threads_;
+  std::uint32_t lanes_;
   std::optional<std::time_t> until_;
   std::optional<Store> store_;
   std::optional<RunLog> log_;
@@ -214,6 +217,8 @@ void add_run(CLI::App& program, Console& console, int& exit_code) {
   verb->add_flag("--set-aside", arguments->set_aside,
                  "keep the outcomes that are there under another name and begin anew")
       ->excludes(mix);
+  verb->add_option("--lanes", arguments->lanes, "trials side by side: 1, 2, 4 or 8 (the same results)")
+      ->check(CLI::IsMember(possible_lanes));
   arguments->format.add_to(verb);
   verb->footer(examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = Run(*arguments, console)(); });

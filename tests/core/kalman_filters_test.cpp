@@ -303,7 +303,7 @@ TEST(Stf, AFixedFactorInflatesThePredictedCovarianceByIt) {
   Stf<double> stf(p);
   const ModelL<double> model(p);
   const auto P0 = ModelL<double>::initial(p).covariance;
-  const double expected = 2.5 * (model.F * P0 * model.F.transpose())(0, 0) + model.Q(0, 0) + model.R;
+  const double expected = 2.5 * model.first.dot(P0 * model.first) + model.q + model.R;
   EXPECT_DOUBLE_EQ(step(stf, 0.3).innovation_variance, expected);
 }
 

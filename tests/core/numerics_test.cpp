@@ -11,9 +11,13 @@
 #include "core/numerics/kalman.hpp"
 #include "core/numerics/unscented.hpp"
 #include "core/random.hpp"
+#include "tests/core/reference/dense_unscented.hpp"
 
 namespace gyrostat {
 namespace {
+
+using reference::downdate_root;
+using reference::lower_root;
 
 constexpr int n = 7;
 using Square = Matrix<double, n>;
@@ -336,16 +340,24 @@ TEST_F(Numerics, ASingularInnovationLeavesTheStateUntouched) {
   EXPECT_EQ(state.covariance, before.covariance);
 }
 
-TEST_F(Numerics, UnscentedWeightsReproduceMeanAndCovariance) {
-  for (const double alpha : {1e-3, 0.1, 1.0, 2.0})
-    for (const double kappa : {-4.0, 0.0, 3.0}) {
-      const UnscentedWeights<double> w(n, alpha, 2.0, kappa);
-      const double lambda = alpha * alpha * (n + kappa) - n;
-      EXPECT_NEAR(w.spread * w.spread, n + lambda, 1e-12 * (n + kappa));
-      EXPECT_NEAR(2.0 * w.other * w.spread * w.spread, 1.0, 1e-12);
-      const double centre = lambda / (n + lambda) + 1.0 - alpha * alpha + 2.0;
-      EXPECT_NEAR(w.covariance_centre, centre, 1e-9 * std::abs(centre));
-    }
+/// Against the weighted sums over the points themselves, at q_i that are anything.
+TEST_F(Numerics, TheQuadraticTransformIsTheSumOverAllSigmaPoints) {
+  for (const double alpha : {1e-2, 0.1, 1.0, 2.0})
+    for (const double beta : {0.0, 2.0})
+      for (const double kappa : {-4.0, 0.0, 3.0}) {
+        const reference::UnscentedWeights<double> w(n, alpha, beta, kappa);
+        const Column q = random<n, 1>();
+        const double pairs = w.spread * w.spread;
+        double mean = 0.0, variance = 0.0;
+        for (int i = 0; i < n; ++i) mean += 2.0 * w.other * pairs * q(i);
+        for (int i = 0; i < n; ++i)
+          variance += 2.0 * w.other * (pairs * q(i) - mean) * (pairs * q(i) - mean);
+        const double size = variance + std::abs(w.covariance_centre) * mean * mean;
+        variance += w.covariance_centre * mean * mean;
+        EXPECT_NEAR(mean, q.sum(), 1e-12);
+        EXPECT_NEAR((UnscentedQuadratic<double>(n, alpha, beta, kappa).variance<n>(q)), variance,
+                    1e-12 * (1.0 + size));
+      }
 }
 
 }  // namespace

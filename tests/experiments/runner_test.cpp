@@ -61,9 +61,10 @@ bool same_bits(const CellResult& a, const CellResult& b) {
                     });
 }
 
-CellResult run(const Cell& cell, int threads = 0) {
+CellResult run(const Cell& cell, int threads = 0, std::uint32_t lanes = default_lanes) {
   RunOptions options;
   options.threads = threads;
+  options.lanes = lanes;
   return run_cell(cell, 42, options);
 }
 
@@ -75,6 +76,21 @@ TEST(Runner, OneThreadAndEightGiveTheSameBits) {
     EXPECT_EQ(one.finished(), cell.trials);
     EXPECT_TRUE(same_bits(one, eight)) << "calibration each trial: " << each_trial;
   }
+}
+
+/// Every filter, packed or not; 24 trials fill packs of 8, 23 leave one that is not full.
+TEST(Runner, AnyNumberOfLanesGivesTheSameBits) {
+  for (const std::uint32_t trials : {24U, 23U})
+    for (const bool each_trial : {false, true}) {
+      auto cell = busy_cell();
+      cell.trials = trials;
+      cell.calibration.each_trial = each_trial;
+      const auto one = run(cell, 1, 1);
+      EXPECT_EQ(one.finished(), trials);
+      for (const std::uint32_t lanes : {2U, 4U, 8U})
+        for (const int threads : {1, 4})
+          EXPECT_TRUE(same_bits(one, run(cell, threads, lanes))) << lanes << ", " << threads;
+    }
 }
 
 TEST(Runner, RunningAgainGivesTheSameBits) {
@@ -115,11 +131,12 @@ TEST(Runner, AStoppedRunHoldsWholeTrialsOfTheUninterruptedOne) {
     std::atomic<bool> stop{false};
     RunOptions options;
     options.threads = threads;
+    options.lanes = 2;
     options.stop = &stop;
     options.progress = [&](std::size_t finished) { if (finished >= 5) stop = true; };
     const auto part = run_cell(cell, 42, options);
     EXPECT_GE(part.finished(), 5U);
-    EXPECT_LE(part.finished(), 5U + static_cast<std::size_t>(threads));
+    EXPECT_LE(part.finished(), 5U + options.lanes * static_cast<std::size_t>(threads));
     ASSERT_EQ(part.trials.size(), cell.trials);
     for (std::size_t trial = 0; trial < part.trials.size(); ++trial) {
       if (!part.trials[trial]) continue;

@@ -1,0 +1,8 @@
+#include "core/packed/target.hpp"
+#include "experiments/benchmarks/peak.hpp"
+
+namespace gyrostat {
+
+template double multiply_add_peak<targets::Avx2>(std::size_t, double, double);
+
+}  // namespace gyrostat
