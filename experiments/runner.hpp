@@ -25,7 +25,7 @@ std::vector<double> metric_values(const CellResult& result, std::size_t method, 
 struct RunOptions {
   int threads = 0;                           ///< 0: as many as the machine has
   const std::atomic<bool>* stop = nullptr;   ///< once true, running trials finish and no more start
-  std::uint32_t lanes = default_lanes;       ///< trials side by side; changes no byte of the result
+  std::uint32_t lanes = default_lanes();       ///< trials side by side; changes no byte of the result
   std::function<void(std::size_t finished)> progress;  ///< called from any thread
 };
 

@@ -112,6 +112,10 @@ std::vector<Record> run_together(const Cell& cell, const Calibration& shared, st
 
 }  // namespace
 
+std::uint32_t default_lanes() {
+  return static_cast<std::uint32_t>(available_kernels().back()->width);
+}
+
 std::vector<Record> run_trial_pack(const Cell& cell, const Calibration& shared, std::uint64_t seed,
                                    std::span<const std::uint32_t> trials,
                                    std::vector<Workspace>& workspaces) {

@@ -6,8 +6,8 @@
 
 namespace gyrostat {
 
-/// Trials that a machine runs best side by side: enough to fill a register and hide its latencies.
-inline constexpr std::uint32_t default_lanes = 8;
+/// Trials that this machine runs best side by side: as many as its widest registers hold.
+std::uint32_t default_lanes();
 
 /// The numbers of trials that may run side by side.
 inline constexpr std::array<std::uint32_t, 4> possible_lanes = {1, 2, 4, 8};

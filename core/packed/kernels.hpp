@@ -37,6 +37,7 @@ struct PackedFilter {
 /// What is compiled for one instruction set.
 struct Kernels {
   std::string_view target;
+  int width = 1;  ///< doubles in one of its registers
   std::span<const PackedFilter> filters;
   /// Normal deviates of `normal_blocks` blocks of four from block `first` on.
   void (*normals)(const NormalAddress& at, std::uint32_t first, double* out) = nullptr;

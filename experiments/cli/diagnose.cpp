@@ -5,6 +5,7 @@
 #include "experiments/diagnosis/diagnosis_json.hpp"
 #include "experiments/diagnosis/diagnosis_tables.hpp"
 #include "experiments/outcome_file.hpp"
+#include "experiments/study.hpp"
 
 namespace gyrostat::cli {
 namespace {
@@ -13,16 +14,22 @@ struct DiagnoseArguments {
   RecordingOption recording;
   SpanOption span;
   FormatOption format;
-  std::string json_out, html_out, scenario_out;
+  std::string json_out, html_out, scenario_out, claim;
   bool timing = false;
   gap::DiagnosisOptions options;
 };
 
-int run(const DiagnoseArguments& arguments, Console& console) {
+int run(DiagnoseArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const auto& file = arguments.recording.file;
   for (const auto& name : arguments.options.without)
     Effects::with("--without", "effect", name, [](auto) {});
+  if (!arguments.claim.empty()) {
+    const auto study = read_study(arguments.claim);
+    if (study.cells.front().scenario.effects.empty())
+      throw InputError(arguments.claim, "its scenario has no effects; there is nothing to judge");
+    arguments.options.claim = study.cells.front().scenario;
+  }
   for (const auto& out : {arguments.json_out, arguments.html_out, arguments.scenario_out})
     if (!out.empty()) require_writable(out, file);
   const auto read = read_recording(file, arguments.recording.axis);
@@ -61,6 +68,8 @@ void add_diagnose(CLI::App& program, Console& console, int& exit_code) {
   verb->add_flag("--timing", arguments->timing, "say where the time went");
   arguments->format.add_to(verb);
   verb->add_option("--without", arguments->options.without, "leave these effects out of the catalogue")->delimiter(',');
+  verb->add_option("--claim", arguments->claim,
+                   "judge the effects of this study (as --scenario writes it) instead of looking for causes");
   verb->add_option("--seed", arguments->options.seed, "of all simulated noise")->capture_default_str();
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }

@@ -33,7 +33,7 @@ struct RunArguments {
   std::uint32_t trials = 0;
   double failure_budget = -1.0;
   bool mix = false, set_aside = false;
-  std::uint32_t lanes = default_lanes;
+  std::uint32_t lanes = default_lanes();
 };
 
 Study study_of(const RunArguments& arguments) {

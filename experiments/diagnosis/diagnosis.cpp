@@ -65,6 +65,7 @@ class Work {
   Contender judged(const std::string& effect, const Scenario& scenario, std::size_t replicas,
                    double ceiling);
   void attribute();
+  void judge_claim();
   void measure_shrinkage();
   void keep_bands();
   void look_ahead();
@@ -277,6 +278,29 @@ void Work::attribute() {
   if (unexplained) result_.verdict_set.insert(result_.verdict_set.begin(), "unknown");
 }
 
+/// The claimed effects, one after another, beside the claimed random error.
+void Work::judge_claim() {
+  Scenario scenario = result_.baseline;
+  scenario.random_error = options_.claim->random_error;
+  for (const auto& effect : options_.claim->effects) {
+    const std::string name(Effects::id_of(effect));
+    tell("judging " + name, 0.6);
+    scenario.effects.push_back(effect);
+    const double from = added_.empty() ? baseline_score_.value : added_.back().score.value;
+    added_.push_back(judged(name, scenario, options_.candidate_replicas, std::numeric_limits<double>::infinity()));
+    const auto& c = added_.back();
+    Cause cause{.effect = name, .scenario = scenario, .log_score = c.score.value - from};
+    cause.recovered = cause.log_score / std::max(1e-9, c.score.expected - from);
+    cause.probability = 1.0;
+    result_.causes.push_back(cause);
+    held_out_scores_.push_back(held_out_scoring_->of(c.replicas[1]));
+    result_.verdict_set.push_back(name);
+  }
+  result_.enriched = added_.back().scenario;
+  result_.verdict = added_.front().effect;
+  result_.claimed = true;
+}
+
 void Work::measure_shrinkage() {
   const auto& instrument = simulator_.instrument(Part::held_out);
   const auto before = held_out_scoring_->of(baseline_replicas_[1]);
@@ -340,7 +364,8 @@ void Work::look_ahead() {
 Diagnosis Work::run() {
   describe(evidence_.recording);
   localise();
-  attribute();
+  if (options_.claim) judge_claim();
+  else attribute();
   measure_shrinkage();
   keep_bands();
   took("shrinkage");
@@ -370,6 +395,8 @@ Diagnosis diagnose(const Series& recording, const DiagnosisOptions& options,
   const auto first = std::find_if(z.begin(), z.end(), [](double v) { return !is_missing(v); });
   if (std::all_of(first, z.end(), [&](double v) { return is_missing(v) || v == *first; }))
     throw InputError("recording", "gyro_dps never changes; there is nothing to diagnose");
+  if (options.claim && options.claim->effects.empty())
+    throw InputError("claim", "its scenario has no effects; there is nothing to judge");
   return Work(recording, options, progress).run();
 }
 

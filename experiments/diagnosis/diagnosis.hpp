@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace gyrostat::gap {
 struct DiagnosisOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> without;  ///< effects left out of the catalogue
+  /// Effects and random error found elsewhere, to be judged here instead of looking for causes.
+  std::optional<Scenario> claim;
   std::size_t baseline_replicas = 100;
   std::size_t candidate_replicas = 32;
   std::size_t shortlist = 5;
@@ -64,6 +67,7 @@ struct Diagnosis {
   double p_before = 1.0, p_after = 1.0;  ///< of the train part
   std::vector<Cause> causes;             ///< most probable first
   std::string verdict = "none";
+  bool claimed = false;                  ///< the causes were given, not found
   std::vector<std::string> verdict_set;
   std::vector<Step> steps;
   std::vector<Shortfall> not_assessable;

@@ -35,6 +35,11 @@ std::string in_words(const Diagnosis& d, const std::string& name) {
                           d.causes.front().effect, 100.0 * d.causes.front().recovered);
     return text + '\n';
   }
+  const auto gap = fmt::format(
+      " On the held-out part the gap goes from {:.3g} to {:.3g}: {:.0f} % closed (95 %: {:.0f} to {:.0f} %).", d.gap_before,
+      d.gap_after, 100.0 * d.closed, 100.0 * d.closed_low, 100.0 * d.closed_high);
+  if (d.claimed)
+    return text + fmt::format("Claimed: {}.{}\n", fmt::join(d.verdict_set, ", then "), gap);
   const auto& cause = d.causes.front();
   text += fmt::format("The recording leaves the simulator (p = {:.2g}). Cause: {} ({}; probability {:.2f}).", d.p_before,
                       cause.effect, parameters_in_words(cause.scenario.effects.back()), cause.probability);
@@ -42,8 +47,7 @@ std::string in_words(const Diagnosis& d, const std::string& name) {
     for (std::size_t k = 2; k < d.steps.size(); ++k) text += fmt::format(" Then: {}.", d.steps[k].added);
   if (const auto others = others_of(d); !others.empty())
     text += fmt::format(" This recording cannot rule out: {}.", others);
-  text += fmt::format(" On the held-out part the gap goes from {:.3g} to {:.3g}: {:.0f} % closed (95 %: {:.0f} to {:.0f} %).",
-                      d.gap_before, d.gap_after, 100.0 * d.closed, 100.0 * d.closed_low, 100.0 * d.closed_high);
+  text += gap;
   if (!d.next.what.empty())
     text += fmt::format(" To tell {} from {}: {} (right in {:.0f} % of simulated recordings).", d.next.first,
                         d.next.second, d.next.what, 100.0 * d.next.expected_power);

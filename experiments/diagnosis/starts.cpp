@@ -475,8 +475,13 @@ std::vector<Start> start(SensorBandwidth, const Evidence& e) {
 }
 
 std::vector<Start> start(DeadZone, const Evidence& e) {
-  return cleaned(e, shaped(e, Trace::rate, DeadZone{}, &DeadZone::half_width_dps,
-                                 0.001 * fastest(e), 0.5 * fastest(e)));
+  std::vector<Start> found;
+  for (const double lost : {0.0, 1.0}) {
+    const auto effect = shaped(e, Trace::rate, DeadZone{.lost_beyond = lost}, &DeadZone::half_width_dps,
+                               0.001 * fastest(e), 0.5 * fastest(e));
+    found.push_back({effect, rest_without(e, effect)});
+  }
+  return found;
 }
 
 std::vector<Start> start(Saturation, const Evidence& e) {

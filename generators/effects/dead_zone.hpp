@@ -11,10 +11,12 @@
 
 namespace gyrostat::effects {
 
-/// Rates about zero are not sensed (IEEE Std 528, dead band): up to the half width the rate is 0,
-/// beyond it the rate itself.
+/// Rates about zero are not sensed (IEEE Std 528, dead band): up to the half width the rate is 0.
+/// Beyond it is the rate itself, as behind a threshold, or the rate less the half width, as behind a
+/// mechanical play, or between.
 struct DeadZone {
   double half_width_dps = 0.5;
+  double lost_beyond = 0.0;
 
   static constexpr std::string_view title = "small rates are not sensed";
   static constexpr Stage stage = Stage::electronics;
@@ -25,15 +27,20 @@ struct DeadZone {
     return std::array{
         Field{"half_width_dps", &P::half_width_dps, "dps", ranges::non_negative,
               "largest rate that is not sensed"},
+        Field{"lost_beyond", &P::lost_beyond, "1", ranges::fraction,
+              "share of the half width that larger rates lose"},
     };
   }
 
   static constexpr DeadZone absent() { return {.half_width_dps = 0.0}; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
-    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i)
-      if (std::abs(series.rate_ref_dps[i]) <= half_width_dps)
-        series.gyro_dps[i] -= series.rate_ref_dps[i];
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
+      const double rate = series.rate_ref_dps[i];
+      series.gyro_dps[i] -= std::abs(rate) <= half_width_dps
+                                ? rate
+                                : std::copysign(lost_beyond * half_width_dps, rate);
+    }
   }
 };
 

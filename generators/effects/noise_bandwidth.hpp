@@ -29,7 +29,7 @@ struct NoiseBandwidth {
     return std::array{
         Field{"cutoff_hz", &P::cutoff_hz, "Hz", ranges::positive,
               "frequency at which each pole has taken 3 dB"},
-        Field{"poles", &P::poles, "1", Range{.from = 1, .to = most_poles}, "how many poles, rounded"},
+        Field{"poles", &P::poles, "1", Range{.from = 1, .to = most_poles, .whole = true}, "how many poles"},
     };
   }
 

@@ -492,6 +492,7 @@ TEST(BadInput, Diagnosis) {
   expect_refused(folder, {"diagnose", "short.csv"}, {"short.csv", "10 samples", "at least 1000"});
   expect_refused(folder, {"diagnose", "rec.csv", "--without", "outlier"}, {"outlier", "outliers"});
   expect_refused(folder, {"diagnose", "rec.csv", "--format", "html"}, {"html"});
+  expect_refused(folder, {"diagnose", "rec.csv", "--claim", "absent.json"}, {"absent.json"});
   expect_refused(folder, {"diagnose", "rec.csv", "--json", "nowhere/out.json"}, {"nowhere"});
   expect_refused(folder, {"diagnose", "rec.csv", "--json", "out.json", "--scenario", "nowhere/s.json"}, {"nowhere"});
 }

@@ -61,7 +61,7 @@ bool same_bits(const CellResult& a, const CellResult& b) {
                     });
 }
 
-CellResult run(const Cell& cell, int threads = 0, std::uint32_t lanes = default_lanes) {
+CellResult run(const Cell& cell, int threads = 0, std::uint32_t lanes = default_lanes()) {
   RunOptions options;
   options.threads = threads;
   options.lanes = lanes;

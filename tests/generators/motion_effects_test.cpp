@@ -72,6 +72,11 @@ TEST(DeadZone, HidesRatesUpToItsHalfWidth) {
             (std::vector<double>{0.0, 0.0, 0.0, 0.51, -0.51, 8.0}));
 }
 
+TEST(DeadZone, MayTakeItsHalfWidthFromLargerRates) {
+  EXPECT_EQ(sensed(effects::DeadZone{.half_width_dps = 0.5, .lost_beyond = 1.0}, {0.5, -0.5, 0.75, -8.0}),
+            (std::vector{0.0, 0.0, 0.25, -7.5}));
+}
+
 TEST(DeadZone, LeavesBiasAndNoiseWhereTheyWere) {
   auto series = silent(even_times(2, 100.0));
   series.rate_ref_dps = {0.25, 0.0};

@@ -110,6 +110,22 @@ TEST(Diagnosis, TheHeldOutPartChangesNeitherFitNorChoice) {
   EXPECT_NE(left["gap"]["before"], right["gap"]["before"]);
 }
 
+TEST(Diagnosis, JudgesACauseThatWasFoundElsewhere) {
+  Scenario s = still();
+  s.effects = {effects::Outliers{0.005, 0.5}};
+  const auto judged = [&](const effects::Outliers& claimed) {
+    DiagnosisOptions options;
+    options.claim = s;
+    options.claim->effects = {claimed};
+    return diagnose(recorded(s, 31, false), options);
+  };
+  const auto right = judged({0.005, 0.5}), wrong = judged({0.0001, 0.1});
+  EXPECT_TRUE(right.claimed);
+  EXPECT_EQ(right.verdict, "outliers");
+  EXPECT_GT(right.closed, 0.8);
+  EXPECT_LT(wrong.closed, 0.3);
+}
+
 TEST(Diagnosis, IsTheSameForAnyNumberOfThreads) {
   Scenario s = moving();
   s.effects = {effects::ScaleFactor{0.01}};
