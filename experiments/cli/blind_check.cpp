@@ -12,12 +12,14 @@ namespace {
 struct BlindCheckArguments {
   std::string file;
   std::string folder;
+  std::uint32_t recordings = 0;
   FormatOption format;
 };
 
 int run(const BlindCheckArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
-  const auto check = gap::read_blind_check(arguments.file);
+  auto check = gap::read_blind_check(arguments.file);
+  if (arguments.recordings > 0) check.recordings = arguments.recordings;
   const std::filesystem::path folder =
       arguments.folder.empty() ? std::filesystem::path("runs") / std::filesystem::path(arguments.file).stem()
                                : std::filesystem::path(arguments.folder);
@@ -37,6 +39,8 @@ void add_blind_check(CLI::App& program, Console& console, int& exit_code) {
   auto arguments = std::make_shared<BlindCheckArguments>();
   verb->add_option("check", arguments->file, "blind check file (JSON)")->required();
   verb->add_option("--out", arguments->folder, "folder of recordings, labels and diagnoses (default: runs/<name>)");
+  verb->add_option("--recordings", arguments->recordings, "of each effect and strength, instead of the file's")
+      ->check(CLI::Range(1U, 4294967295U));
   arguments->format.add_to(verb);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }

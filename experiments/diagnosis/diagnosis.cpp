@@ -339,7 +339,8 @@ void Work::keep_bands() {
               .before_spread = {}, .after = {}, .after_spread = {}};
     for (Eigen::Index i = lens.first; i < lens.first + lens.count; ++i) {
       const auto& at = instrument.at()[static_cast<std::size_t>(i)];
-      band.at.push_back(0.5 * (at.from + at.to));
+      const bool open = at.to > 1e8;  // "so much and more"
+      band.at.push_back(open ? at.from : 0.5 * (at.from + at.to));
       band.observed.push_back(observed_[1][i]);
       band.before.push_back(held_out_->mean()[i]);
       band.before_spread.push_back(held_out_->spread()[i]);

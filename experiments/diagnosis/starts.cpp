@@ -268,6 +268,7 @@ std::vector<Start> start(BiasSteps, const Evidence& e) {
 /// The frequency with the largest peak over its surroundings, and the power above them.
 struct Peak {
   double frequency_hz = 0.0, power = 0.0, width_hz = 0.0, excess = 0.0;
+  double floor = 0.0;  ///< density of the surroundings
 };
 
 Peak highest_peak(const Spectrum& spectrum) {
@@ -295,7 +296,7 @@ Peak highest_peak(const Spectrum& spectrum) {
         weight += above;
       }
       best = {spectrum.resolution_hz * (weight > 0.0 ? centre / weight : static_cast<double>(k)),
-              excess * spectrum.resolution_hz, spectrum.resolution_hz * bins, significance};
+              excess * spectrum.resolution_hz, spectrum.resolution_hz * bins, significance, floor};
     }
   }
   return best;
@@ -364,15 +365,36 @@ std::vector<Start> start(Sinusoidal, const Evidence& e) {
   return found;
 }
 
+/// The resonance of the same peak and power about the peak: a Lorentzian's power is pi / 2 times its
+/// height times its width.
+Vibration resonance(const Spectrum& spectrum, const Peak& peak) {
+  const auto& s = spectrum.density;
+  const auto low = static_cast<std::size_t>(std::max(1.0, (peak.frequency_hz - peak.width_hz) / spectrum.resolution_hz));
+  const auto high = std::min(s.size() - 1, static_cast<std::size_t>((peak.frequency_hz + peak.width_hz) / spectrum.resolution_hz));
+  std::size_t top = low;
+  double height = 0.0, power = 0.0;
+  for (std::size_t k = low; k < high; ++k) {
+    const double around = (s[k - 1] + s[k] + s[k + 1]) / 3.0 - peak.floor;
+    power += std::max(0.0, s[k] - peak.floor) * spectrum.resolution_hz;
+    if (around > height) height = around, top = k;
+  }
+  if (height <= 0.0) return {std::sqrt(peak.power), peak.frequency_hz, peak.width_hz};
+  return {std::sqrt(power), static_cast<double>(top) * spectrum.resolution_hz,
+          2.0 * power / (std::numbers::pi * height)};
+}
+
 std::vector<Start> start(Vibration, const Evidence& e) {
   std::vector<Start> found;
   const auto peak = highest_peak(e.scene.spectra[0]);
   const double white = e.baseline.random_error.measurement_noise_std_dps;
   if (peak.frequency_hz <= 0.0 || peak.power <= 0.0) return with_noise_of(e, Vibration{0.5 * white, 5.0, 1.0});
+  std::vector<Vibration> shapes = {resonance(e.scene.spectra[0], peak)};
   for (const double width : {0.4, 1.0})
-    found.push_back({Vibration{std::sqrt(1.3 * peak.power), peak.frequency_hz, width * peak.width_hz},
-                     with_white(e,
-                                std::sqrt(std::max(0.1 * white * white, white * white - peak.power)))});
+    shapes.push_back({std::sqrt(1.3 * peak.power), peak.frequency_hz, width * peak.width_hz});
+  for (const auto& shape : shapes) {
+    const double rest = white * white - shape.std_dps * shape.std_dps;
+    found.push_back({shape, with_white(e, std::sqrt(std::max(0.1 * white * white, rest)))});
+  }
   return found;
 }
 
