@@ -169,11 +169,19 @@ Scenario refine(const Simulator& simulator, Scenario scenario, const Eigen::Vect
 }
 
 Rest fit_rest(const Conditions& conditions, const Scene& scene) {
-  const auto& drift = scene.drift;
+  // Ordinary least squares: it keeps the level right whatever an effect does to the weights.
+  auto slow = conditions.drift(scene.drift);
+  for (std::size_t k = 0; k < slow.size(); ++k) slow[k] += scene.slow_dps[k];
+  const Eigen::VectorXd values = conditions.train_values(slow);
+  const Eigen::MatrixXd regressors = conditions.train_regressors();
+  Eigen::MatrixXd design(values.size(), regressors.cols() > 0 ? 3 : 1);
+  design.col(0).setOnes();
+  if (regressors.cols() > 0) design.rightCols(2) = regressors.leftCols(2);
+  const Eigen::VectorXd drift = design.colPivHouseholderQr().solve(values);
   Rest rest{.random_error = fit_allan_components(conditions, scene, SlowComponent::none).random_error,
             .thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = drift[0]}};
   if (drift.size() > 1)
-    rest.thermal_drift = {.a_dps_per_C = drift[1], .b_dps_s_per_C = drift[2] + drift[3],
+    rest.thermal_drift = {.a_dps_per_C = drift[1], .b_dps_s_per_C = drift[2],
                           .c_dps = drift[0] - drift[1] * conditions.slow_temperature_C().front()};
   return rest;
 }
