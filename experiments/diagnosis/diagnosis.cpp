@@ -34,9 +34,54 @@ struct Contender {
   ReplicaReadings replicas;
   LogScore score;
   std::size_t parameters = 0;
-  double ceiling = 0.0;  ///< of the score: more is not the effect's
-  double foretold = 0.0; ///< the score without the ceiling
+  double before = 0.0;     ///< the score of what it was added to
+  double baseline = 0.0;   ///< the baseline's score
+  double most_gain = 0.0;  ///< more is not the effect's
+  bool misnamed = false;   ///< its parameters are not what its name says
+
+  double gain() const {
+    return std::min(score.value - before, most_gain) - (misnamed ? 1e6 : 0.0);
+  }
 };
+
+/// Share of the log score beyond `from` that a simulator has of what a true one would have.
+double recovered(const Contender& c, double from) {
+  return (c.score.value - from) / std::max(1e-9, c.score.expected - from);
+}
+
+bool same_walk(const Arima111<double>& a, const Arima111<double>& b) {
+  return a.phi == b.phi && a.delta1_dps == b.delta1_dps && a.delta2_dps == b.delta2_dps;
+}
+
+bool same_drift(const ThermalDrift<double>& a, const ThermalDrift<double>& b) {
+  return a.a_dps_per_C == b.a_dps_per_C && a.b_dps_s_per_C == b.b_dps_s_per_C && a.c_dps == b.c_dps;
+}
+
+/// The base with a start's effect. A first effect has what is left beside it as its random error and
+/// drift. A further one is tried with the base's, too, and with a random walk that is its own: the
+/// base's may have stood in for it.
+std::vector<Scenario> with_start(const Scenario& baseline, const Scenario& base, const Start& start) {
+  std::vector<Scenario> tried;
+  const auto add = [&](const Arima111<double>& random_error, const ThermalDrift<double>& drift) {
+    Scenario scenario = base;
+    scenario.random_error = random_error;
+    scenario.thermal_drift = drift;
+    scenario.effects.push_back(start.effect);
+    tried.push_back(scenario);
+  };
+  const auto& rest = start.rest;
+  if (base.effects.empty()) {
+    add(rest.random_error, rest.thermal_drift);
+    return tried;
+  }
+  add(base.random_error, base.thermal_drift);
+  if (same_walk(rest.random_error, baseline.random_error)) return tried;
+  auto own_walk = rest.random_error;
+  own_walk.measurement_noise_std_dps = base.random_error.measurement_noise_std_dps;
+  add(own_walk, base.thermal_drift);
+  if (!same_drift(rest.thermal_drift, base.thermal_drift)) add(own_walk, rest.thermal_drift);
+  return tried;
+}
 
 class Work {
  public:
@@ -61,9 +106,11 @@ class Work {
   void describe(const Series& recording);
   void localise();
   std::vector<Where> departures_of(const Ensemble& ensemble) const;
+  void find_starts();
   std::vector<Contender> contend(const Scenario& base, const std::vector<std::string>& taken);
+  double score_of(const ReplicaReadings& of, std::size_t replicas) const;
   Contender judged(const std::string& effect, const Scenario& scenario, std::size_t replicas,
-                   double ceiling);
+                   double most_gain);
   void attribute();
   void judge_claim();
   void measure_shrinkage();
@@ -78,7 +125,7 @@ class Work {
   std::unique_ptr<Ensemble> train_, held_out_;
   std::unique_ptr<Scoring> scoring_, held_out_scoring_;
   ReplicaReadings baseline_replicas_;
-  LogScore baseline_score_;
+  std::vector<std::pair<std::string, std::vector<Start>>> starts_;  ///< of every assessable effect
   std::vector<Contender> added_;   ///< accepted, in order
   std::vector<LogScore> held_out_scores_;  ///< of result_.causes, in their order
   Diagnosis result_;
@@ -132,95 +179,102 @@ void Work::localise() {
                                          baseline_replicas_[1], Eigen::MatrixXd());
   scoring_ = std::make_unique<Scoring>(*train_, observed_[0]);
   held_out_scoring_ = std::make_unique<Scoring>(*held_out_, observed_[1]);
-  baseline_score_ = scoring_->of(baseline_replicas_[0]);
 
   result_.p_before = train_->p_value(observed_[0]);
   result_.where = departures_of(*train_);
   took("localisation");
 }
 
+/// By its first replicas. Few replicas tell a mean and a spread less well and score lower, so two
+/// simulators are compared by as many of the same noise.
+double Work::score_of(const ReplicaReadings& of, std::size_t replicas) const {
+  return scoring_->of(of[0].leftCols(std::min(of[0].cols(), static_cast<Eigen::Index>(replicas)))).value;
+}
+
+/// A scenario whose last effect has just been added.
 Contender Work::judged(const std::string& effect, const Scenario& scenario, std::size_t replicas,
-                       double ceiling) {
+                       double most_gain) {
   Contender c{.effect = effect, .scenario = scenario,
               .replicas = simulator_.ensemble(scenario, 0, replicas), .score = {}};
   c.score = scoring_->of(c.replicas[0]);
-  c.ceiling = ceiling;
-  c.foretold = c.score.value;
-  c.score.value = std::min(c.score.value, ceiling);
-  if (!is_what_it_is_called(scenario.effects.back(), simulator_.conditions())) c.score.value -= 1e6;
+  c.baseline = score_of(baseline_replicas_, replicas);
+  c.before = added_.empty() ? c.baseline : score_of(added_.back().replicas, replicas);
+  c.most_gain = most_gain;
+  c.misnamed = !is_what_it_is_called(scenario.effects.back(), simulator_.conditions());
   for (const auto& any : scenario.effects) c.parameters += free_parameters(any).size();
   return c;
 }
 
-std::vector<Contender> Work::contend(const Scenario& base, const std::vector<std::string>& taken) {
-  const double from = added_.empty() ? baseline_score_.value : added_.back().score.value;
+void Work::find_starts() {
   std::vector<Effects::Any> assessable;
   for (const auto& effect : catalogue()) {
-    const auto id = Effects::id_of(effect);
-    const auto among = [&](const auto& names) { return std::find(names.begin(), names.end(), id) != names.end(); };
-    if (!among(options_.without) && !among(taken) &&
+    const auto& without = options_.without;
+    if (std::find(without.begin(), without.end(), Effects::id_of(effect)) == without.end() &&
         why_not_assessable(effect, simulator_.conditions()).empty())
       assessable.push_back(effect);
   }
-  std::vector<std::vector<Start>> first(assessable.size());
-  tbb::parallel_for(std::size_t{0}, assessable.size(),
-                    [&](std::size_t k) { first[k] = starts(assessable[k], evidence_); });
+  starts_.resize(assessable.size());
+  tbb::parallel_for(std::size_t{0}, assessable.size(), [&](std::size_t k) {
+    starts_[k] = {std::string(Effects::id_of(assessable[k])), starts(assessable[k], evidence_)};
+  });
   took("starts");
+}
 
+std::vector<Contender> Work::contend(const Scenario& base, const std::vector<std::string>& taken) {
   std::vector<Contender> screened;
-  for (std::size_t k = 0; k < assessable.size(); ++k) {
-    tell(fmt::format("trying {}", Effects::id_of(assessable[k])),
-         0.2 + 0.3 * static_cast<double>(k) / static_cast<double>(assessable.size()));
+  double done = 0.0;
+  for (const auto& [effect, its_starts] : starts_) {
+    done += 1.0 / static_cast<double>(starts_.size());
+    if (std::find(taken.begin(), taken.end(), effect) != taken.end()) continue;
+    tell(fmt::format("trying {}", effect), 0.2 + 0.3 * done);
     std::vector<Contender> tried;
-    for (const auto& start : first[k]) {
-      Scenario scenario = base;
-      if (taken.empty()) {
-        scenario.random_error = start.rest.random_error;
-        scenario.thermal_drift = start.rest.thermal_drift;
-      }
-      scenario.effects.push_back(start.effect);
-      tried.push_back(judged(std::string(Effects::id_of(assessable[k])), scenario, screening_replicas,
-                             from + start.most_gain));
-    }
+    for (const auto& start : its_starts)
+      for (const auto& scenario : with_start(result_.baseline, base, start))
+        tried.push_back(judged(effect, scenario, screening_replicas, start.most_gain));
     if (tried.empty()) continue;
     screened.push_back(*std::max_element(tried.begin(), tried.end(), [](const auto& a, const auto& b) {
-      return a.score.value < b.score.value;
+      return a.gain() < b.gain();
     }));
   }
   for (const auto& c : screened)
-    result_.screening.emplace_back(c.effect, c.score.value - baseline_score_.value);
+    result_.screening.emplace_back(c.effect, c.gain());
   took("screening");
 
   std::sort(screened.begin(), screened.end(),
-            [](const auto& a, const auto& b) { return a.score.value > b.score.value; });
-  const double leader = screened.empty() ? 0.0 : screened.front().score.value;
-  const double reach = std::max(15.0, 0.4 * (leader - baseline_score_.value));
+            [](const auto& a, const auto& b) { return a.gain() > b.gain(); });
+  const double leader = screened.empty() ? 0.0 : screened.front().gain();
+  const double reach = std::max(15.0, 0.4 * (leader + (screened.empty() ? 0.0 : screened.front().before - screened.front().baseline)));
   std::size_t kept = 0;
   while (kept < std::min(screened.size(), options_.shortlist) &&
-         (kept < 2 || screened[kept].score.value > leader - reach))
+         (kept < 2 || screened[kept].gain() > leader - reach))
     ++kept;
   screened.resize(kept);
   for (std::size_t k = 0; k < screened.size(); ++k) {
     tell(fmt::format("fitting {}", screened[k].effect),
          0.5 + 0.4 * static_cast<double>(k) / static_cast<double>(screened.size()));
-    const auto fitted = refine(simulator_, screened[k].scenario, observed_[0],
-                               scoring_->spread(screened[k].replicas[0]), 3, fit_replicas);
-    screened[k] = judged(screened[k].effect, fitted, options_.candidate_replicas, screened[k].ceiling);
+    const auto& start = screened[k];
+    const auto fitted = judged(start.effect,
+                               refine(simulator_, start.scenario, observed_[0],
+                                      scoring_->spread(start.replicas[0]), 3, fit_replicas),
+                               screening_replicas, start.most_gain);
+    const auto& better = fitted.gain() > start.gain() ? fitted : start;
+    screened[k] = judged(better.effect, better.scenario, options_.candidate_replicas, better.most_gain);
   }
   std::sort(screened.begin(), screened.end(), [](const auto& a, const auto& b) {
-    return a.score.value - a.score.penalty(a.parameters) > b.score.value - b.score.penalty(b.parameters);
+    return a.gain() - a.score.penalty(a.parameters) > b.gain() - b.score.penalty(b.parameters);
   });
   took("fitting");
   return screened;
 }
 
 void Work::attribute() {
+  find_starts();
   const auto ranked = contend(result_.baseline, {});
   std::vector<double> scores;
-  for (const auto& c : ranked) scores.push_back(c.score.value - c.score.penalty(c.parameters));
+  for (const auto& c : ranked) scores.push_back(c.gain() - c.score.penalty(c.parameters));
   const bool significant = result_.p_before <= options_.significance;
-  const bool gained = !ranked.empty() && scores.front() - baseline_score_.value >
-                                             (significant ? needed_gain_of_gap : needed_gain);
+  const bool gained =
+      !ranked.empty() && scores.front() > (significant ? needed_gain_of_gap : needed_gain);
   if (!gained) {
     result_.verdict = significant ? "unknown" : "none";
     if (result_.verdict == "unknown") result_.verdict_set = {"unknown"};
@@ -232,33 +286,34 @@ void Work::attribute() {
   for (std::size_t k = 0; k < ranked.size(); ++k) {
     const auto& c = ranked[k];
     Cause cause{.effect = c.effect, .scenario = c.scenario,
-                .log_score = scores[k] - baseline_score_.value};
-    cause.recovered = (c.foretold - baseline_score_.value) /
-                      std::max(1e-9, c.score.expected - baseline_score_.value);
+                .log_score = scores[k]};
+    cause.recovered = recovered(c, c.baseline);
     cause.probability = std::exp((scores[k] - best) / Scoring::temperature) / total;
     result_.causes.push_back(cause);
     held_out_scores_.push_back(held_out_scoring_->of(c.replicas[1]));
   }
   added_.push_back(ranked.front());
   const double by_chance = static_cast<double>(catalogue().size()) *
-                           std::exp(-(best - baseline_score_.value) / Scoring::temperature);
+                           std::exp(-best / Scoring::temperature);
   result_.p_before = std::min(result_.p_before, by_chance);
 
-  // More effects, while the log score gains what a true cause would.
-  const int most = result_.samples <= 200'000 ? options_.most_effects : std::min(options_.most_effects, 2);
+  // More effects, while the log score gains what a true cause would. In a long recording, where
+  // trying takes time, only while something is seen to be left.
+  const bool is_long = result_.samples > 200'000;
+  const int most = is_long ? std::min(options_.most_effects, 2) : options_.most_effects;
   while (static_cast<int>(added_.size()) < most) {
     const auto& last = added_.back();
-    if (last.score.deficit() < 4.0) break;
+    if (is_long && last.score.deficit() < 4.0) break;
     std::vector<std::string> taken;
     for (const auto& c : added_) taken.push_back(c.effect);
     const auto next = contend(last.scenario, taken);
     if (next.empty()) break;
     const auto& c = next.front();
-    const double gain = c.score.value - last.score.value - c.score.penalty(c.parameters - last.parameters);
+    const double gain = c.gain() - c.score.penalty(c.parameters - last.parameters);
     if (gain < std::max(needed_gain, 0.12 * (last.score.expected - last.score.value))) break;
     added_.push_back(c);
     Cause cause{.effect = c.effect, .scenario = c.scenario, .log_score = gain};
-    cause.recovered = (c.score.value - last.score.value) / std::max(1e-9, c.score.expected - last.score.value);
+    cause.recovered = recovered(c, c.before);
     cause.probability = 1.0 - 1.0 / (1.0 + std::exp(std::min(50.0, gain / Scoring::temperature)));
     result_.causes.push_back(cause);
     held_out_scores_.push_back(held_out_scoring_->of(c.replicas[1]));
@@ -266,13 +321,11 @@ void Work::attribute() {
   result_.enriched = added_.back().scenario;
 
   const auto& final = added_.back();
-  const double recovered = (final.foretold - baseline_score_.value) /
-                           std::max(1e-9, final.score.expected - baseline_score_.value);
-  const double deficit = (final.score.expected - final.foretold) / final.score.spread;
-  const bool unexplained = recovered < needed_recovery && deficit > 4.0;
+  const double share = recovered(final, final.baseline);
+  const bool unexplained = share < needed_recovery && final.score.deficit() > 4.0;
   result_.verdict = unexplained ? "unknown" : result_.causes.front().effect;
   if (unexplained)
-    for (auto& cause : result_.causes) cause.probability *= std::clamp(recovered, 0.0, 1.0);
+    for (auto& cause : result_.causes) cause.probability *= std::clamp(share, 0.0, 1.0);
   for (const auto& cause : result_.causes)
     if (cause.probability >= member_probability) result_.verdict_set.push_back(cause.effect);
   if (unexplained) result_.verdict_set.insert(result_.verdict_set.begin(), "unknown");
@@ -286,11 +339,10 @@ void Work::judge_claim() {
     const std::string name(Effects::id_of(effect));
     tell("judging " + name, 0.6);
     scenario.effects.push_back(effect);
-    const double from = added_.empty() ? baseline_score_.value : added_.back().score.value;
     added_.push_back(judged(name, scenario, options_.candidate_replicas, std::numeric_limits<double>::infinity()));
     const auto& c = added_.back();
-    Cause cause{.effect = name, .scenario = scenario, .log_score = c.score.value - from};
-    cause.recovered = cause.log_score / std::max(1e-9, c.score.expected - from);
+    Cause cause{.effect = name, .scenario = scenario, .log_score = c.gain()};
+    cause.recovered = recovered(c, c.before);
     cause.probability = 1.0;
     result_.causes.push_back(cause);
     held_out_scores_.push_back(held_out_scoring_->of(c.replicas[1]));
