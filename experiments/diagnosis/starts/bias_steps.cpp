@@ -24,7 +24,8 @@ std::vector<Jump> jumps_over(const Evidence& e, std::size_t reach, double& clear
   for (const auto& span : e.simulator.conditions().slow_spans(Part::train)) {
     if (span.size() < 2 * reach) continue;
     double before = 0.0, after = 0.0;
-    for (std::size_t k = 0; k < reach; ++k) before += slow[span.first + k], after += slow[span.first + reach + k];
+    for (std::size_t k = 0; k < reach; ++k)
+      before += slow[span.first + k], after += slow[span.first + reach + k];
     for (std::size_t i = span.first + reach;; ++i) {
       differences.push_back({i, (after - before) / static_cast<double>(reach)});
       if (i + reach >= span.last) break;
@@ -35,12 +36,15 @@ std::vector<Jump> jumps_over(const Evidence& e, std::size_t reach, double& clear
   std::vector<double> sizes;
   for (const auto& d : differences) sizes.push_back(std::abs(d.size_dps));
   const double deviation = quantile(sizes, 0.5) / 0.6744897501960817;
-  std::sort(differences.begin(), differences.end(),
-            [](const Jump& a, const Jump& b) { return std::abs(a.size_dps) > std::abs(b.size_dps); });
+  std::sort(differences.begin(), differences.end(), [](const Jump& a, const Jump& b) {
+    return std::abs(a.size_dps) > std::abs(b.size_dps);
+  });
   std::vector<Jump> found;
   for (const auto& d : differences) {
     if (std::abs(d.size_dps) < 6.0 * deviation || found.size() == 200) break;
-    const auto near = [&](const Jump& other) { return std::max(d.at, other.at) - std::min(d.at, other.at) < 2 * reach; };
+    const auto near = [&](const Jump& other) {
+      return std::max(d.at, other.at) - std::min(d.at, other.at) < 2 * reach;
+    };
     if (std::none_of(found.begin(), found.end(), near)) found.push_back(d);
   }
   clearness = found.empty() ? 0.0 : std::abs(found.front().size_dps) / deviation;
@@ -71,7 +75,8 @@ std::vector<Start> start(BiasSteps, const Evidence& e) {
     double square = 0.0;
     for (const auto& jump : seen) {
       square += jump.size_dps * jump.size_dps;
-      for (std::size_t i = jump.at * conditions.cluster(); i < rest.size(); ++i) rest.gyro_dps[i] -= jump.size_dps;
+      for (std::size_t i = jump.at * conditions.cluster(); i < rest.size(); ++i)
+        rest.gyro_dps[i] -= jump.size_dps;
     }
     rest.heading_deg.clear();
     const auto count = static_cast<double>(seen.size());
@@ -84,7 +89,8 @@ std::vector<Start> start(BiasSteps, const Evidence& e) {
   arima.delta1_dps *= 0.1;
   arima.delta2_dps *= 0.1;
   for (const double steps : {3.0, 12.0, 50.0})
-    found.push_back({BiasSteps{steps, std::sqrt(an_hour / steps)}, {arima, e.baseline.thermal_drift}});
+    found.push_back(
+        {BiasSteps{steps, std::sqrt(an_hour / steps)}, {arima, e.baseline.thermal_drift}});
   return found;
 }
 

@@ -15,17 +15,22 @@ template <class Iron>
 Iron iron(const Evidence& e) {
   const auto columns = signatures(e, Trace::heading, {Iron{0.1, 0.0}, Iron{0.1, 90.0}});
   const Eigen::VectorXd found = 0.1 * match(columns, trace_of(e, Trace::heading)).amplitudes;
-  return {std::hypot(found[0], found[1]), std::atan2(found[1], found[0]) * 180.0 / std::numbers::pi};
+  return {std::hypot(found[0], found[1]),
+          std::atan2(found[1], found[0]) * 180.0 / std::numbers::pi};
 }
 
 }  // namespace
 
-std::vector<Start> start(HardIron, const Evidence& e) { return with_noise_of(e, iron<HardIron>(e)); }
-std::vector<Start> start(SoftIron, const Evidence& e) { return with_noise_of(e, iron<SoftIron>(e)); }
+std::vector<Start> start(HardIron, const Evidence& e) {
+  return with_noise_of(e, iron<HardIron>(e));
+}
+std::vector<Start> start(SoftIron, const Evidence& e) {
+  return with_noise_of(e, iron<SoftIron>(e));
+}
 
 std::vector<Start> start(CompassLag, const Evidence& e) {
   return cleaned(e, shaped(e, Trace::heading, CompassLag{}, &CompassLag::time_constant_s,
-                                 0.5 * e.simulator.conditions().interval_s(), 30.0));
+                           0.5 * e.simulator.conditions().interval_s(), 30.0));
 }
 
 std::vector<Start> start(MagneticBursts, const Evidence& e) {
@@ -50,9 +55,11 @@ std::vector<Start> start(MagneticBursts, const Evidence& e) {
   }
   const double interval_s = conditions.slow_interval_s();
   const double hours = static_cast<double>(sizes.size()) * interval_s / 3600.0;
-  if (hit == 0.0) return with_noise_of(e, MagneticBursts{5.0 / std::max(hours, 0.1), 20.0, 2.0 * limit});
-  return with_noise_of(e, MagneticBursts{bursts / hours, std::max(hit * interval_s / bursts, interval_s),
-                                         std::sqrt(square / hit)});
+  if (hit == 0.0)
+    return with_noise_of(e, MagneticBursts{5.0 / std::max(hours, 0.1), 20.0, 2.0 * limit});
+  return with_noise_of(
+      e, MagneticBursts{bursts / hours, std::max(hit * interval_s / bursts, interval_s),
+                        std::sqrt(square / hit)});
 }
 
 }  // namespace gyrostat::gap

@@ -21,7 +21,8 @@ std::array<double, 3> through_poles(double pole, int poles) {
   }
   std::array<double, 3> covariance{};
   for (std::size_t lag = 0; lag < 3; ++lag)
-    for (std::size_t i = lag; i < response.size(); ++i) covariance[lag] += response[i] * response[i - lag];
+    for (std::size_t i = lag; i < response.size(); ++i)
+      covariance[lag] += response[i] * response[i - lag];
   return covariance;
 }
 
@@ -37,12 +38,10 @@ std::vector<Start> start(Quantization, const Evidence& e) {
   const double least = std::max(1.5 * e.simulator.resolution_dps(), 1e-12);
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i] - sorted[i - 1] > least) gaps.push_back(sorted[i] - sorted[i - 1]);
-  const double lsb = gaps.size() > 2 && gaps.size() < sorted.size() / 5
-                         ? quantile(gaps, 0.2)
-                         : e.white_std_dps;
+  const double lsb =
+      gaps.size() > 2 && gaps.size() < sorted.size() / 5 ? quantile(gaps, 0.2) : e.white_std_dps;
   const double rest = e.white_std_dps * e.white_std_dps - lsb * lsb / 12.0;
-  return {{Quantization{lsb}, with_white(e,
-                                        std::sqrt(std::max(rest, 0.01 * lsb * lsb)))}};
+  return {{Quantization{lsb}, with_white(e, std::sqrt(std::max(rest, 0.01 * lsb * lsb)))}};
 }
 
 std::vector<Start> start(Outliers, const Evidence& e) {
@@ -62,9 +61,11 @@ std::vector<Start> start(Outliers, const Evidence& e) {
     const double mean = count > 0.0 ? square / count : 36.0 * deviation * deviation;
     const double std = std::sqrt(std::max(mean - 2.0 * white * white, white * white)) * 0.8;
     const double seen = std::erfc(limit * deviation / (std * std::numbers::sqrt2));
-    found.push_back({Outliers{std::clamp(0.5 * count / static_cast<double>(sizes.size()) /
-                                             std::max(seen, 0.05), 1e-6, 0.5), std},
-                     with_white(e, white)});
+    found.push_back(
+        {Outliers{std::clamp(0.5 * count / static_cast<double>(sizes.size()) / std::max(seen, 0.05),
+                             1e-6, 0.5),
+                  std},
+         with_white(e, white)});
   }
   return found;
 }
@@ -87,9 +88,10 @@ std::vector<Start> start(NoiseBandwidth, const Evidence& e) {
       ((2.0 * r[1] - r[0] - r[2]) / (2.0 * (r[0] - r[1])) < lagged / square ? low : high) = pole;
     }
     const auto r = through_poles(low, poles);
-    found.push_back({NoiseBandwidth{-std::log(low) * rate_hz / (2.0 * std::numbers::pi), 1.0 * poles},
-                     with_white(e, std::sqrt(square / static_cast<double>(steps.size()) /
-                                             (2.0 * (r[0] - r[1]))))});
+    found.push_back(
+        {NoiseBandwidth{-std::log(low) * rate_hz / (2.0 * std::numbers::pi), 1.0 * poles},
+         with_white(
+             e, std::sqrt(square / static_cast<double>(steps.size()) / (2.0 * (r[0] - r[1]))))});
   }
   return found;
 }
@@ -100,7 +102,8 @@ std::vector<Start> start(NoiseTemperature, const Evidence& e) {
   for (int pass = 0; pass < 2; ++pass)
     for (const auto& span : e.simulator.conditions().spans(Part::train))
       for (std::size_t i = span.first + 1; i < span.last; ++i) {
-        const double v = 0.5 * std::pow(e.scene.rate_error_dps[i] - e.scene.rate_error_dps[i - 1], 2);
+        const double v =
+            0.5 * std::pow(e.scene.rate_error_dps[i] - e.scene.rate_error_dps[i - 1], 2);
         if (pass == 0) {
           sum += v;
           mean_T += T[i];

@@ -29,7 +29,8 @@ std::vector<Start> slow_starts(const Evidence& e, SlowComponent component, const
 }  // namespace
 
 std::vector<Start> start(BiasInstability, const Evidence& e) {
-  return slow_starts(e, SlowComponent::flicker, [](const auto& fit) { return BiasInstability{fit.slow_std_dps}; });
+  return slow_starts(e, SlowComponent::flicker,
+                     [](const auto& fit) { return BiasInstability{fit.slow_std_dps}; });
 }
 
 std::vector<Start> start(GaussMarkov, const Evidence& e) {

@@ -22,14 +22,17 @@ Peak highest_peak(const Spectrum& spectrum) {
   const auto& s = spectrum.density;
   if (s.size() < 24) return best;
   for (std::size_t reach : {std::size_t{1}, std::size_t{4}, std::size_t{16}, std::size_t{64}}) {
-    for (std::size_t k = 3 + reach; k + reach < s.size(); k += std::max<std::size_t>(1, reach / 2)) {
+    for (std::size_t k = 3 + reach; k + reach < s.size();
+         k += std::max<std::size_t>(1, reach / 2)) {
       const std::size_t low = k > 6 * reach ? k - 6 * reach : 1;
       const std::size_t high = std::min(s.size(), k + 6 * reach + 1);
       std::vector<double> around;
       double inside = 0.0;
       for (std::size_t j = low; j < high; ++j)
-        if (j + reach < k || j > k + reach) around.push_back(s[j]);
-        else inside += s[j];
+        if (j + reach < k || j > k + reach)
+          around.push_back(s[j]);
+        else
+          inside += s[j];
       const double floor = quantile(around, 0.5);
       const double bins = static_cast<double>(2 * reach + 1);
       const double excess = inside - floor * bins;
@@ -60,7 +63,8 @@ std::complex<double> line_at(const std::vector<double>& values, const std::vecto
     mean /= static_cast<double>(span.size());
     std::complex<double> turn = std::polar(1.0, angle * static_cast<double>(span.first));
     const auto step = std::polar(1.0, angle);
-    for (std::size_t i = span.first; i < span.last; ++i, turn *= step) sum += (values[i] - mean) * turn;
+    for (std::size_t i = span.first; i < span.last; ++i, turn *= step)
+      sum += (values[i] - mean) * turn;
     count += static_cast<double>(span.size());
   }
   return 2.0 * sum / count;
@@ -69,17 +73,21 @@ std::complex<double> line_at(const std::vector<double>& values, const std::vecto
 /// Whether the line is the motion's own, scaled, rectified or delayed.
 bool follows_motion(const Evidence& e, const Sinusoidal& sine) {
   if (!e.simulator.conditions().has_motion()) return false;
-  const auto motion = signatures(e, Trace::rate, {ScaleFactor{1.0}, ScaleAsymmetry{1.0},
-                                                  SensorBandwidth{0.05 * e.simulator.conditions().rate_hz()}});
+  const auto motion = signatures(e, Trace::rate,
+                                 {ScaleFactor{1.0}, ScaleAsymmetry{1.0},
+                                  SensorBandwidth{0.05 * e.simulator.conditions().rate_hz()}});
   return match(motion, signatures(e, Trace::rate, {sine}).col(0)).unexplained < 0.5;
 }
 
-/// The resonance of the same peak and power about the peak: a Lorentzian's power is pi / 2 times its
-/// height times its width.
+/// The resonance of the same peak and power about the peak: a Lorentzian's power is pi / 2 times
+/// its height times its width.
 Vibration resonance(const Spectrum& spectrum, const Peak& peak) {
   const auto& s = spectrum.density;
-  const auto low = static_cast<std::size_t>(std::max(1.0, (peak.frequency_hz - peak.width_hz) / spectrum.resolution_hz));
-  const auto high = std::min(s.size() - 1, static_cast<std::size_t>((peak.frequency_hz + peak.width_hz) / spectrum.resolution_hz));
+  const auto low = static_cast<std::size_t>(
+      std::max(1.0, (peak.frequency_hz - peak.width_hz) / spectrum.resolution_hz));
+  const auto high = std::min(
+      s.size() - 1,
+      static_cast<std::size_t>((peak.frequency_hz + peak.width_hz) / spectrum.resolution_hz));
   std::size_t top = low;
   double height = 0.0, power = 0.0;
   for (std::size_t k = low; k < high; ++k) {
@@ -120,8 +128,8 @@ std::vector<Start> start(Sinusoidal, const Evidence& e) {
     }
     const auto line = line_at(values, spans, best, interval_s);
     const double half = slow ? 0.5 * (conditions.slow_interval_s() - conditions.interval_s()) : 0.0;
-    const double phase = (std::arg(line) + 0.5 * std::numbers::pi) * 180.0 / std::numbers::pi -
-                         360.0 * best * half;
+    const double phase =
+        (std::arg(line) + 0.5 * std::numbers::pi) * 180.0 / std::numbers::pi - 360.0 * best * half;
     const double x = std::numbers::pi * best * interval_s;
     const double lost = slow && x > 0.0 ? std::sin(x) / x : 1.0;
     const Sinusoidal sine{std::abs(line) / lost, best, wrap_degrees(phase)};
@@ -135,7 +143,8 @@ std::vector<Start> start(Vibration, const Evidence& e) {
   std::vector<Start> found;
   const auto peak = highest_peak(e.scene.spectra[0]);
   const double white = e.baseline.random_error.measurement_noise_std_dps;
-  if (peak.frequency_hz <= 0.0 || peak.power <= 0.0) return with_noise_of(e, Vibration{0.5 * white, 5.0, 1.0});
+  if (peak.frequency_hz <= 0.0 || peak.power <= 0.0)
+    return with_noise_of(e, Vibration{0.5 * white, 5.0, 1.0});
   std::vector<Vibration> shapes = {resonance(e.scene.spectra[0], peak)};
   for (const double width : {0.4, 1.0})
     shapes.push_back({std::sqrt(1.3 * peak.power), peak.frequency_hz, width * peak.width_hz});

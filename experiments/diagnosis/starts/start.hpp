@@ -28,7 +28,8 @@ std::vector<Start> cleaned(const Evidence& e, const E& effect) {
   return {Start{effect, rest_without(e, effect)}};
 }
 
-/// First parameters from the recording; an effect without an estimate below starts from its defaults.
+/// First parameters from the recording; an effect without an estimate below starts from its
+/// defaults.
 template <class E>
 std::vector<Start> start(const E& effect, const Evidence& e) {
   return with_noise_of(e, effect);
