@@ -20,12 +20,13 @@ using Json = nlohmann::ordered_json;
 
 /// One object of an input file, read key by key. Every mistake is an InputError that names file and
 /// JSON path; `finish` reports keys that nobody asked for, with the nearest that were. Where there are
-/// `mistakes` to gather them in, reading goes on with the fallback; else the first one is thrown.
+/// `mistakes` to gather them in, reading goes on with the fallback; else the first one is thrown, as is
+/// in any case what is no object at all.
 class JsonObject {
  public:
   JsonObject(const Json& value, std::string place, Mistakes* mistakes = nullptr)
-      : value_(value.is_object() ? value : no_keys()), place_(std::move(place)), mistakes_(mistakes) {
-    if (!value.is_object()) complain(place_, "an object {...} is needed here");
+      : value_(value), place_(std::move(place)), mistakes_(mistakes) {
+    if (!value_.is_object()) throw InputError(place_, "an object {...} is needed here");
   }
 
   bool has(const std::string& key) {
@@ -157,11 +158,6 @@ class JsonObject {
  private:
   void know(const std::string& key) {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
-  }
-
-  static const Json& no_keys() {
-    static const Json none = Json::object();
-    return none;
   }
 
   const Json& value_;

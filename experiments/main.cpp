@@ -78,7 +78,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& mistake) {
-    std::cerr << "gyrostat: " << mistake.what() << "; see gyrostat --help\n";
+    const auto verbs = program.get_subcommands();
+    std::cerr << "gyrostat: " << mistake.what() << "; see gyrostat "
+              << (verbs.empty() ? "" : verbs.front()->get_name() + " ") << "--help\n";
     return cli::usage;
   } catch (const InputError& mistake) {
     std::istringstream lines(mistake.what());

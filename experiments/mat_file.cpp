@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "experiments/atomic_file.hpp"
+#include "experiments/mat_integrity.hpp"
 #include "experiments/recording.hpp"
 
 namespace gyrostat {
@@ -127,8 +128,10 @@ struct Temporary {
 };
 
 void write_variables(mat_t* file, std::span<const CsvColumn> columns) {
+  // Cells are not compressed: matio 1.5.23 then states wrong lengths for them.
   const auto write = [&](const Variable& variable) {
-    if (!variable || Mat_VarWrite(file, variable.get(), MAT_COMPRESSION_ZLIB) != 0)
+    const auto packing = variable && variable->class_type == MAT_C_CELL ? MAT_COMPRESSION_NONE : MAT_COMPRESSION_ZLIB;
+    if (!variable || Mat_VarWrite(file, variable.get(), packing) != 0)
       throw std::runtime_error("the MATLAB file cannot be written");
   };
   std::vector<std::string> used;
@@ -176,8 +179,10 @@ bool is_mat_file(const fs::path& path) { return path.extension() == ".mat"; }
 MatColumns read_mat(const fs::path& path) {
   const auto place = path.string();
   if (!fs::exists(path)) throw InputError(place, "cannot be read: No such file or directory");
-  const File file(fs::is_regular_file(path) ? Mat_Open(place.c_str(), MAT_ACC_RDONLY) : nullptr);
-  if (!file) throw InputError(place, "is no MATLAB file that can be read; allowed: versions 4 to 7.3");
+  if (!fs::is_regular_file(path)) throw InputError(place, "is no file");
+  require_whole_mat(path);
+  const File file(Mat_Open(place.c_str(), MAT_ACC_RDONLY));
+  if (!file) throw InputError(place, "cannot be read as a MATLAB file");
   MatColumns columns;
   while (Variable variable{Mat_VarReadNext(file.get())}) add_variable(*variable, "", columns);
   if (columns.names.empty())

@@ -10,7 +10,7 @@ namespace gyrostat {
 
 struct CsvColumn;
 
-/// The vectors of a MATLAB file, versions 4 to 7.3.
+/// The vectors of a MATLAB file, version 5 or 7.3.
 struct MatColumns {
   std::vector<std::string> names;
   std::vector<std::vector<double>> values;

@@ -75,7 +75,8 @@ std::string choose_axis(std::string_view axis, const Names& names, const Names& 
   if (contains(found, axis)) return std::string(axis);
   if (found.empty()) throw_missing(gyro_name(axis), unknown, header);
   if (axis.empty() && found.size() == 1) return found.front();
-  const auto allowed = fmt::format("'{}'", fmt::join(found, "', '"));
+  const auto allowed = found == Names{""} ? "no --axis, for there is one gyro column, gyro_dps"
+                                          : fmt::format("'{}'", fmt::join(found, "', '"));
   throw InputError(header, axis.empty()
                                ? "there are several gyro columns; choose one with --axis " + allowed
                                : fmt::format("--axis '{}': column '{}' is missing; allowed: {}",

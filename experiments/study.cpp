@@ -37,11 +37,12 @@ typename List::Any read_plugin(JsonObject object, const std::string& chooser,
 Compass read_compass(JsonObject object) {
   Compass compass;
   object.fields(compass);
-  for (const auto& [value, place] : object.list("disturbances")) {
-    JsonObject entry = object.at(*value, place);
-    entry.fields(compass.disturbances.emplace_back());
-    entry.finish();
-  }
+  for (const auto& entry : object.list("disturbances"))
+    object.attempt([&] {
+      JsonObject disturbance = object.at(*entry.first, entry.second);
+      disturbance.fields(compass.disturbances.emplace_back());
+      disturbance.finish();
+    });
   object.finish();
   return compass;
 }
@@ -181,7 +182,8 @@ Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) 
     cell.trials = static_cast<std::uint32_t>(object.number("trials", 1000, study_ranges::trials, "trials"));
     object.with_child("scenario", [&](JsonObject& scenario) { cell.scenario = read_scenario(scenario, folder); });
     object.with_child("calibration", [&](JsonObject& plan) { cell.calibration = read_calibration(plan); });
-    cell.tuning = read_tuning(object.child("tuning").value_or(object.at(no_keys, object.place())));
+    cell.tuning = read_tuning(object.at(no_keys, object.place()));
+    object.with_child("tuning", [&](JsonObject& plan) { cell.tuning = read_tuning(plan); });
     object.with_child("assumed", [&](JsonObject& factors) { cell.assumed = read_assumed(factors); });
     cell.denoise = object.number("denoise", 0, ranges::flag, "1") != 0.0;
     const auto source = object.named("parameters_from", "calibration", source_for_all);
