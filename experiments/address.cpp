@@ -11,12 +11,15 @@ namespace {
 
 constexpr const char* form = "an address is study:cell:trial:filter";
 
-std::uint32_t trial_number(const std::string& text, const std::string& address) {
-  std::uint32_t trial = 0;
+std::uint32_t trial_number(const std::string& text, const Cell& cell, const std::string& address) {
+  std::uint64_t trial = 0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), trial);
   if (failure != std::errc() || end != text.data() + text.size())
     throw InputError(address, fmt::format("'{}' is no trial number; {}", text, form));
-  return trial;
+  if (trial >= cell.trials)
+    throw InputError(address, fmt::format("trial {} is out of range; allowed: 0 to {}, the trials of cell "
+                                          "'{}'", trial, cell.trials - 1, cell.name));
+  return static_cast<std::uint32_t>(trial);
 }
 
 std::size_t method_named(const std::string& name, const Cell& cell, const std::string& address) {
@@ -47,9 +50,7 @@ TrialAddress parse_address(const std::string& address, const Study& study) {
   const auto middle = last == std::string::npos || last == 0 ? std::string::npos : rest.rfind(':', last - 1);
   if (middle == std::string::npos) throw InputError(address, form);
   const auto& cell = cell_named(study, rest.substr(0, middle), address);
-  const auto trial = trial_number(rest.substr(middle + 1, last - middle - 1), address);
-  if (cell.recording && trial >= cell.trials)
-    throw InputError(address, fmt::format("the recording has trials 0 to {}", cell.trials - 1));
+  const auto trial = trial_number(rest.substr(middle + 1, last - middle - 1), cell, address);
   return {static_cast<std::size_t>(&cell - study.cells.data()),
           method_named(rest.substr(last + 1), cell, address), trial};
 }

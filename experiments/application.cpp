@@ -96,10 +96,12 @@ Table allan_table(const Series& judged, const std::vector<Track>& tracks,
 }  // namespace
 
 std::vector<Method> read_application_config(const std::string& path) {
-  const Json json = read_json(path);
-  JsonObject object(json, path + ":");
+  Mistakes mistakes;
+  const Json json = read_json(path, &mistakes);
+  JsonObject object(json, path + ":", &mistakes);
   auto methods = read_methods(object, "filters", ParameterSource::defaults);
   object.finish();
+  mistakes.raise();
   if (methods.empty()) throw InputError(path, "\"filters\" is missing or empty");
   return methods;
 }
@@ -168,7 +170,7 @@ void write_application(const std::filesystem::path& path, const Series& series,
     columns.push_back({id + "_innovation_variance", track.innovation_variance, {}});
     columns.push_back({id + "_status", {}, statuses[m]});
   }
-  write_csv(path, columns);
+  write_columns(path, columns);
 }
 
 }  // namespace gyrostat

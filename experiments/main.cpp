@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "experiments/cli/verbs.hpp"
@@ -67,6 +68,8 @@ int main(int argc, char** argv) {
   cli::add_blind_check(program, console, exit_code);
   cli::add_list(program, console, exit_code);
   cli::add_validate(program, console, exit_code);
+  cli::add_schema(program, console, exit_code);
+  cli::add_completion(program, console, exit_code);
 
   try {
     check_verb(program, argc, argv);
@@ -75,10 +78,13 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& mistake) {
-    std::cerr << "gyrostat: " << mistake.what() << "; see gyrostat --help\n";
+    const auto verbs = program.get_subcommands();
+    std::cerr << "gyrostat: " << mistake.what() << "; see gyrostat "
+              << (verbs.empty() ? "" : verbs.front()->get_name() + " ") << "--help\n";
     return cli::usage;
   } catch (const InputError& mistake) {
-    std::cerr << "gyrostat: " << mistake.what() << '\n';
+    std::istringstream lines(mistake.what());
+    for (std::string line; std::getline(lines, line);) std::cerr << "gyrostat: " << line << '\n';
     return cli::usage;
   } catch (const std::exception& failure) {
     std::cerr << "gyrostat: " << failure.what() << '\n';

@@ -40,22 +40,33 @@ std::map<std::string, SearchRange> read_tune(JsonObject object, const std::strin
       const std::string name(field.name);
       const auto bounds = object.list(name);
       if (bounds.empty()) continue;
-      if (bounds.size() != 2)
-        throw InputError(object.place_of(name), "two bounds [low, high] are needed here");
       const auto bound = [&](std::size_t i) {
         return JsonObject::checked_number(*bounds[i].first, bounds[i].second, field.range,
                                           field.unit);
       };
-      tune[name] = {bound(0), bound(1), field.range.whole};
-      if (!(tune[name].low < tune[name].high))
-        throw InputError(object.place_of(name), "the lower bound is not below the upper");
+      object.attempt([&] {
+        if (bounds.size() != 2)
+          throw InputError(object.place_of(name), "two bounds [low, high] are needed here");
+        tune[name] = {bound(0), bound(1), field.range.whole};
+        if (!(tune[name].low < tune[name].high))
+          throw InputError(object.place_of(name), "the lower bound is not below the upper");
+      });
     }
   });
   object.finish();
   return tune;
 }
 
-Method read_method(const Json& value, const std::string& place, ParameterSource fallback) {
+std::string method_id(const std::string& name, const std::string& place) {
+  auto id = plain_name(name, place);
+  if (id.find_first_of(",:") != std::string::npos)
+    throw InputError(place, "'" + id + "' cannot head a column or end an address: no commas, no colons");
+  return id;
+}
+
+/// A method by its filter's name alone, or as an `object`.
+Method read_method(const JsonObject& parent, const Json& value, const std::string& place,
+                   ParameterSource fallback) {
   Method method;
   if (value.is_string()) {
     method.filter = method.id = value.get<std::string>();
@@ -63,25 +74,22 @@ Method read_method(const Json& value, const std::string& place, ParameterSource 
     Filters::with(place, "filter", method.filter, [](auto) {});
     return method;
   }
-  JsonObject object(value, place);
+  JsonObject object = parent.at(value, place);
   const auto id = object.text("id", "");
   method.filter = object.has("filter") || id.empty() ? object.required_text("filter") : id;
   Filters::with(object.place_of("filter"), "filter", method.filter, [](auto) {});
-  method.id = plain_name(object.text("id", method.filter), object.place_of("id"));
-  if (method.id.find_first_of(",:") != std::string::npos)
-    throw InputError(object.place_of("id"),
-                     "'" + method.id + "' cannot head a column or end an address: no commas, no colons");
+  method.id = object.named("id", method.filter, method_id);
   method.source = source_of(method.filter, fallback);
   if (object.has("parameters_from") && fallback == ParameterSource::defaults)
-    throw InputError(object.place_of("parameters_from"),
-                     "'" + object.text("parameters_from", "") +
-                         "' is not to be had here; give the parameters themselves");
-  if (object.has("parameters_from"))
-    method.source =
-        parameter_source_named(object.text("parameters_from", ""), object.place_of("parameters_from"));
-  if (auto parameters = object.child("parameters"))
-    method.overrides = read_overrides(*parameters, method.filter);
-  if (auto tune = object.child("tune")) method.tune = read_tune(*tune, method.filter);
+    object.complain(object.place_of("parameters_from"),
+                    "'" + object.text("parameters_from", "") +
+                        "' is not to be had here; give the parameters themselves");
+  else if (object.has("parameters_from"))
+    method.source = object.named("parameters_from", "truth", parameter_source_named);
+  object.with_child("parameters", [&](JsonObject& parameters) {
+    method.overrides = read_overrides(parameters, method.filter);
+  });
+  object.with_child("tune", [&](JsonObject& tune) { method.tune = read_tune(tune, method.filter); });
   object.finish();
   return method;
 }
@@ -99,11 +107,13 @@ std::string plain_name(std::string name, const std::string& place) {
 std::vector<Method> read_methods(JsonObject& object, const std::string& key,
                                  ParameterSource default_source) {
   std::vector<Method> methods;
-  for (const auto& [value, place] : object.list(key)) {
-    methods.push_back(read_method(*value, place, default_source));
-    for (std::size_t i = 0; i + 1 < methods.size(); ++i)
-      if (methods[i].id == methods.back().id)
-        throw InputError(place, "the id '" + methods.back().id + "' stands twice; give one an \"id\"");
+  for (const auto& entry : object.list(key)) {
+    object.attempt([&] {
+      methods.push_back(read_method(object, *entry.first, entry.second, default_source));
+      for (std::size_t i = 0; i + 1 < methods.size(); ++i)
+        if (methods[i].id == methods.back().id)
+          throw InputError(entry.second, "the id '" + methods.back().id + "' stands twice; give one an \"id\"");
+    });
   }
   return methods;
 }

@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "experiments/atomic_file.hpp"
+#include "experiments/mat_file.hpp"
 #include "experiments/text_input.hpp"
 
 namespace gyrostat {
@@ -34,9 +35,9 @@ constexpr double largest_interval_error = 0.1;
 
 bool is_nan(double value) { return std::isnan(value); }
 
-/// Sample 0 stands below the header.
-std::string at_sample(std::string_view place, std::ptrdiff_t index) {
-  return fmt::format("{}:{}", place, index + 2);
+std::string at_sample(std::string_view place, std::size_t first_row, std::ptrdiff_t index) {
+  return first_row == 0 ? fmt::format("{}: row {}", place, index + 1)
+                        : fmt::format("{}:{}", place, first_row + static_cast<std::size_t>(index));
 }
 
 std::string gyro_name(std::string_view axis) {
@@ -48,9 +49,7 @@ bool contains(const Names& names, std::string_view name) {
 }
 
 Names unknown_columns(const Names& names) {
-  Names known;
-  for (const auto& channel : channels) known.emplace_back(channel.name);
-  for (const auto axis : axes) known.push_back(gyro_name(axis));
+  const Names known = standard_columns();
   Names unknown;
   for (const auto& name : names) {
     if (!contains(known, name)) unknown.push_back(printable(name));
@@ -62,7 +61,8 @@ Names unknown_columns(const Names& names) {
                                 std::string_view header) {
   const auto nearest = nearest_name(name, unknown).substr(0, 40);
   throw InputError(header, fmt::format("column '{}' is missing{}; required: comma-separated t_s and"
-                                       " gyro_dps (or gyro_x_dps, gyro_y_dps, gyro_z_dps)",
+                                       " gyro_dps (or gyro_x_dps, gyro_y_dps, gyro_z_dps), or --columns"
+                                       " t=NAME,gyro=NAME",
                                        name, nearest.empty() ? "" : ", is it '" + nearest + "'?"));
 }
 
@@ -75,43 +75,62 @@ std::string choose_axis(std::string_view axis, const Names& names, const Names& 
   if (contains(found, axis)) return std::string(axis);
   if (found.empty()) throw_missing(gyro_name(axis), unknown, header);
   if (axis.empty() && found.size() == 1) return found.front();
-  const auto allowed = fmt::format("'{}'", fmt::join(found, "', '"));
+  const auto allowed = found == Names{""} ? "no --axis, for there is one gyro column, gyro_dps"
+                                          : fmt::format("'{}'", fmt::join(found, "', '"));
   throw InputError(header, axis.empty()
                                ? "there are several gyro columns; choose one with --axis " + allowed
                                : fmt::format("--axis '{}': column '{}' is missing; allowed: {}",
                                              axis, gyro_name(axis), allowed));
 }
 
-void require_increasing(const std::vector<double>& t_s, std::string_view place) {
+/// A channel as it stands in the file.
+struct Source {
+  const Channel& channel;
+  const FileColumn& column;
+  const std::string& place;
+  std::size_t first_row;
+
+  std::string unit() const { return std::string(column.unit ? column.unit->name : channel.unit); }
+  std::string name() const { return fmt::format("column '{}'", printable(column.name)); }
+  [[noreturn]] void fail(std::ptrdiff_t sample, const std::string& problem) const {
+    throw InputError(at_sample(place, first_row, sample), name() + ": " + problem);
+  }
+};
+
+void require_increasing(const std::vector<double>& t_s, const Source& source) {
   const auto blank = std::ranges::find_if(t_s, is_nan);
   const auto step = std::ranges::adjacent_find(t_s, std::ranges::greater_equal());
-  if (blank != t_s.end()) {
-    throw InputError(at_sample(place, blank - t_s.begin()),
-                     "column 't_s': '' is not a number; allowed: a time in s");
-  }
-  if (step != t_s.end()) {
-    throw InputError(at_sample(place, step - t_s.begin() + 1),
-                     fmt::format("column 't_s': '{}' does not come after '{}'; allowed:"
-                                 " increasing times",
-                                 step[1], step[0]));
-  }
+  if (blank != t_s.end())
+    source.fail(blank - t_s.begin(), "'' is not a number; allowed: a time in " + source.unit());
+  if (step != t_s.end())
+    source.fail(step - t_s.begin() + 1,
+                fmt::format("'{}' does not come after '{}'; allowed: increasing times", step[1], step[0]));
 }
 
-void require_range(const Channel& channel, const std::vector<double>& values,
-                   std::string_view column, std::string_view place) {
-  const auto range = std::ranges::find(ranges, channel.name, &Range::channel);
+/// Values and bounds are in the file's unit.
+void require_range(const std::vector<double>& values, const Source& source) {
+  const auto range = std::ranges::find(ranges, source.channel.name, &Range::channel);
   if (range == ranges.end()) return;
+  const auto* unit = source.column.unit;
+  const double lowest = unit ? unit->from_own(range->lowest) : range->lowest;
+  const double highest = unit ? unit->from_own(range->highest) : range->highest;
   const auto wrong = std::ranges::find_if(values, [&](double value) {
-    return value < range->lowest || value > range->highest ||
+    return value < lowest || value > highest ||
            (range->whole && value != std::round(value) && !is_nan(value));
   });
   if (wrong == values.end()) return;
-  const auto allowed =
-      range->whole ? fmt::format("{} or {}", range->lowest, range->highest)
-                   : fmt::format("{} to {} {}", range->lowest, range->highest, channel.unit);
-  throw InputError(
-      at_sample(place, wrong - values.begin()),
-      fmt::format("column '{}': '{}' is out of range; allowed: {}", column, *wrong, allowed));
+  source.fail(wrong - values.begin(),
+              fmt::format("'{}' is out of range; allowed: {}", *wrong,
+                          range->whole ? fmt::format("{} or {}", lowest, highest)
+                                       : fmt::format("{:.6g} to {:.6g} {}", lowest, highest, source.unit())));
+}
+
+/// Checks the values of a channel, in the file's unit, and turns them into the program's.
+void take_channel(std::vector<double>& values, const Source& source) {
+  if (source.channel.name == "t_s") require_increasing(values, source);
+  require_range(values, source);
+  if (const auto* unit = source.column.unit; unit && !unit->is_own())
+    std::ranges::transform(values, values.begin(), [&](double value) { return unit->to_own(value); });
 }
 
 std::size_t rows_of(const CsvColumn& column) {
@@ -128,46 +147,83 @@ std::string text_cell(std::string_view text) {
 
 }  // namespace
 
-Recording read_recording(const std::filesystem::path& path, std::string_view axis) {
-  const std::string place = path.string();
-  const std::string text = read_text(path);
-  std::string_view rows = text;
-  const Names names = take_header(rows, place);
-  const std::string header = place + ":1";
+namespace {
+
+using Targets = std::vector<std::vector<double>*>;
+
+/// A recording of columns that `read` appends to their targets.
+template <class Read>
+Recording assemble(const CsvHeader& header, const std::string& place, std::string_view axis,
+                   const RecordingLayout& layout, const Read& read) {
+  const bool has_lines = header.line > 0;
+  const auto header_place = has_lines ? fmt::format("{}:{}", place, header.line) : place;
+  const auto columns = under_layout(header.names, header.units, layout, header_place);
+  Names names;
+  for (const auto& column : columns) names.push_back(column.standard);
 
   Recording recording;
-  recording.ignored_columns = unknown_columns(names);
-  if (!contains(names, "t_s")) throw_missing("t_s", recording.ignored_columns, header);
-  recording.axis = choose_axis(axis, names, recording.ignored_columns, header);
+  recording.first_row = header.first_row;
+  for (const auto& column : columns)
+    if (unknown_columns({column.standard}).empty()) {
+      if (column.name != column.standard || column.unit)
+        recording.taken_as.push_back(
+            printable(column.name) + " as " + column.standard +
+            (column.unit ? fmt::format(" in {}", column.unit->name) : std::string()));
+    } else {
+      recording.ignored_columns.push_back(printable(column.name));
+    }
+  if (!contains(names, "t_s")) throw_missing("t_s", recording.ignored_columns, header_place);
+  recording.axis = choose_axis(axis, names, recording.ignored_columns, header_place);
 
   const auto column_of = [&](const Channel& channel) {
     return channel.name == "gyro_dps" ? gyro_name(recording.axis) : std::string(channel.name);
   };
-  std::vector<std::vector<double>*> targets(names.size());
-  for (const auto& channel : channels) {
-    const auto column = std::ranges::find(names, column_of(channel));
-    if (column == names.end()) continue;
-    targets[static_cast<std::size_t>(column - names.begin())] = &(recording.series.*channel.values);
-  }
-  read_columns(rows, names, targets, place);
+  const auto place_in = [&](const Channel& channel) {
+    return static_cast<std::size_t>(std::ranges::find(names, column_of(channel)) - names.begin());
+  };
+  Targets targets(names.size());
+  for (const auto& channel : channels)
+    if (place_in(channel) < names.size()) targets[place_in(channel)] = &(recording.series.*channel.values);
+  read(targets);
 
-  if (recording.series.t_s.empty()) {
-    throw InputError(place + ":2", "no samples below the header; required: at least one");
-  }
-  require_increasing(recording.series.t_s, place);
+  if (recording.series.t_s.empty())
+    throw InputError(has_lines ? fmt::format("{}:{}", place, header.first_row) : place,
+                     has_lines ? "no samples below the header; required: at least one"
+                               : "no samples; required: at least one");
   for (const auto& channel : channels) {
+    if (place_in(channel) == names.size()) continue;
     auto& values = recording.series.*channel.values;
-    require_range(channel, values, column_of(channel), place);
+    take_channel(values, {channel, columns[place_in(channel)], place, header.first_row});
     if (std::ranges::all_of(values, is_nan)) values.clear();
   }
   if (recording.series.gyro_dps.empty()) {
-    throw InputError(header, fmt::format("column '{}' is blank throughout; required: a gyro signal",
-                                         gyro_name(recording.axis)));
+    throw InputError(header_place, fmt::format("column '{}' is blank throughout; required: a gyro signal",
+                                               gyro_name(recording.axis)));
   }
   return recording;
 }
 
-void require_uniform(const Series& series, std::string_view place) {
+}  // namespace
+
+Recording read_recording(const std::filesystem::path& path, std::string_view axis,
+                         const RecordingLayout& layout) {
+  const std::string place = path.string();
+  if (is_mat_file(path)) {
+    MatColumns mat = read_mat(path);
+    const CsvHeader header{.names = mat.names, .units = {}, .line = 0, .first_row = 0};
+    return assemble(header, place, axis, layout, [&](const Targets& targets) {
+      mat.take(targets, place);
+    });
+  }
+  const std::string text = read_text(path);
+  std::string_view rows = text;
+  const auto header = take_header(rows, place);
+  return assemble(header, place, axis, layout, [&](const Targets& targets) {
+    read_columns(rows, header, targets, place);
+  });
+}
+
+void require_uniform(const Series& series, std::string_view place, std::size_t first_row) {
   const auto& t_s = series.t_s;
   if (t_s.size() < 2) return;
   std::vector<double> intervals(t_s.size() - 1);
@@ -182,7 +238,7 @@ void require_uniform(const Series& series, std::string_view place) {
   if (first == intervals.end()) return;
   const auto sample = first - intervals.begin() + 1;
   throw InputError(
-      at_sample(place, sample),
+      at_sample(place, first_row, sample),
       fmt::format("column 't_s': '{}' comes {:.6g} s after the sample before it; allowed: {:.6g} s,"
                   " the median interval, within {:g} % ({} of {} intervals are not)",
                   t_s[static_cast<std::size_t>(sample)], *first, *middle,
@@ -213,13 +269,17 @@ void write_csv(const std::filesystem::path& path, std::span<const CsvColumn> col
   write_atomically(path, path.extension() == ".gz" ? gzipped(text) : text);
 }
 
+void write_columns(const std::filesystem::path& path, std::span<const CsvColumn> columns) {
+  path.extension() == ".mat" ? write_mat(path, columns) : write_csv(path, columns);
+}
+
 void write_series(const std::filesystem::path& path, const Series& series) {
   std::vector<CsvColumn> columns;
   for (const auto& channel : channels) {
     const auto& values = series.*channel.values;
     if (!values.empty()) columns.push_back({std::string(channel.name), values, {}});
   }
-  write_csv(path, columns);
+  write_columns(path, columns);
 }
 
 }  // namespace gyrostat

@@ -11,16 +11,13 @@
 #include "experiments/digest.hpp"
 #include "experiments/grid.hpp"
 #include "experiments/recording.hpp"
+#include "experiments/study_ranges.hpp"
 
 namespace gyrostat {
 namespace {
 
-constexpr Range trial_range{.from = 1, .to = 1e8, .whole = true};
-constexpr Range budget_range{.from = 1, .to = 100000, .whole = true};
-constexpr Range share_range{.from = 0.0, .to = 1.0};
 const Json no_keys = Json::object();
 constexpr double most_samples = 1e8;
-constexpr Range seed_range{.from = 0, .to = 9007199254740992.0, .whole = true};
 
 /// A plug-in of `List` chosen by the text under `chooser`, its parameters under the other keys.
 template <class List>
@@ -40,28 +37,42 @@ typename List::Any read_plugin(JsonObject object, const std::string& chooser,
 Compass read_compass(JsonObject object) {
   Compass compass;
   object.fields(compass);
-  for (const auto& [value, place] : object.list("disturbances")) {
-    JsonObject entry(*value, place);
-    entry.fields(compass.disturbances.emplace_back());
-    entry.finish();
-  }
+  for (const auto& entry : object.list("disturbances"))
+    object.attempt([&] {
+      JsonObject disturbance = object.at(*entry.first, entry.second);
+      disturbance.fields(compass.disturbances.emplace_back());
+      disturbance.finish();
+    });
   object.finish();
   return compass;
 }
 
+/// A recording that a study names, relative to its `folder`.
+struct RecordingSource {
+  std::string path, axis;
+  RecordingLayout layout;
+
+  RecordingSource(JsonObject& object, const std::string& folder)
+      : path((std::filesystem::path(folder) / object.required_text("file")).lexically_normal().string()),
+        axis(object.text("axis", "")),
+        layout{object.texts("columns"), object.texts("units"), object.place()} {}
+
+  Recording read() const {
+    auto recording = read_recording(path, axis, layout);
+    require_uniform(recording.series, path, recording.first_row);
+    return recording;
+  }
+};
+
 /// Sets random error, thermal drift, rate and temperature from a fit to a recording.
 void read_recorded(JsonObject object, const std::string& folder, Scenario& scenario) {
-  const auto file = object.required_text("file");
-  const auto path = (std::filesystem::path(folder) / file).lexically_normal().string();
-  const auto axis = object.text("axis", "");
+  const RecordingSource source(object, folder);
   const double from_s = object.number("from_s", 0.0, ranges::non_negative, "s");
   const double to_s = object.number("to_s", 1e12, ranges::positive, "s");
-  const auto method =
-      fit_method_named(object.text("fit", "likelihood"), object.place_of("fit"));
+  const auto method = object.named("fit", "likelihood", fit_method_named);
   object.finish();
 
-  const auto recording = read_recording(path, axis);
-  require_uniform(recording.series, path);
+  const auto recording = source.read();
   auto span = std::make_shared<Series>(cut(recording.series, from_s, to_s, object.place()));
   const auto fit = calibrate(*span, method);
   if (!fit.random_error.converged)
@@ -81,14 +92,11 @@ void read_recorded(JsonObject object, const std::string& folder, Scenario& scena
 /// "pieces": a recording whose part before "from_s" is calibrated on and whose rest is cut into
 /// trials of "duration_s".
 void read_pieces(JsonObject object, const std::string& folder, Cell& cell) {
-  const auto file = object.required_text("file");
-  const auto path = (std::filesystem::path(folder) / file).lexically_normal().string();
-  const auto axis = object.text("axis", "");
+  const RecordingSource source(object, folder);
   const double from_s = object.number("from_s", 300.0, ranges::positive, "s");
   const double duration_s = object.number("duration_s", 60.0, ranges::positive, "s");
   object.finish();
-  const auto recording = read_recording(path, axis);
-  require_uniform(recording.series, path);
+  const auto recording = source.read();
   cell.calibration_span = cut(recording.series, 0.0, from_s, object.place());
   cell.recording = std::make_shared<const Series>(
       cut(recording.series, from_s, recording.series.duration_s() + 1.0, object.place()));
@@ -111,7 +119,7 @@ void read_pieces(JsonObject object, const std::string& folder, Cell& cell) {
 
 CalibrationPlan read_calibration(JsonObject object) {
   CalibrationPlan plan;
-  plan.method = fit_method_named(object.text("fit", "likelihood"), object.place_of("fit"));
+  plan.method = object.named("fit", "likelihood", fit_method_named);
   plan.each_trial = object.number("each_trial", 0, ranges::flag, "1") != 0.0;
   plan.duration_s = object.number("duration_s", 0, ranges::positive, "s");
   object.finish();
@@ -120,9 +128,9 @@ CalibrationPlan read_calibration(JsonObject object) {
 
 TuningPlan read_tuning(JsonObject object) {
   TuningPlan plan;
-  plan.metric = metric_named(object.text("metric", "bias_rmse"), object.place_of("metric"));
-  plan.trials = static_cast<std::uint32_t>(object.number("trials", 20, budget_range, "trials"));
-  plan.evaluations = static_cast<int>(object.number("evaluations", 60, budget_range, "evaluations"));
+  plan.metric = object.named("metric", "bias_rmse", metric_named);
+  plan.trials = static_cast<std::uint32_t>(object.number("trials", 20, study_ranges::budget, "trials"));
+  plan.evaluations = static_cast<int>(object.number("evaluations", 60, study_ranges::budget, "evaluations"));
   plan.undisturbed = object.number("undisturbed", 0, ranges::flag, "1") != 0.0;
   object.finish();
   return plan;
@@ -139,6 +147,14 @@ ParameterMap read_assumed(JsonObject object) {
   });
   object.finish();
   return factors;
+}
+
+/// Where filters have their parameters from, unless they say otherwise.
+ParameterSource source_for_all(const std::string& name, const std::string& place) {
+  const auto source = parameter_source_named(name, place);
+  if (source == ParameterSource::defaults)
+    throw InputError(place, "'defaults' is for single filters; allowed: calibration, truth");
+  return source;
 }
 
 /// Refuses what no machine can hold and what no fit can use, before anything runs.
@@ -161,25 +177,24 @@ void check_size(const Cell& cell, JsonObject& object) {
 
 Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) {
   Cell cell;
-  cell.name = plain_name(object.text("name", fmt::format("cell_{}", index + 1)),
-                         object.place_of("name"));
-  cell.trials = static_cast<std::uint32_t>(object.number("trials", 1000, trial_range, "trials"));
-  if (auto scenario = object.child("scenario")) cell.scenario = read_scenario(*scenario, folder);
-  if (auto calibration = object.child("calibration"))
-    cell.calibration = read_calibration(*calibration);
-  cell.tuning = read_tuning(object.child("tuning").value_or(JsonObject(no_keys, object.place())));
-  if (auto assumed = object.child("assumed")) cell.assumed = read_assumed(*assumed);
-  cell.denoise = object.number("denoise", 0, ranges::flag, "1") != 0.0;
-  const auto source = parameter_source_named(object.text("parameters_from", "calibration"),
-                                             object.place_of("parameters_from"));
-  if (source == ParameterSource::defaults)
-    throw InputError(object.place_of("parameters_from"),
-                     "'defaults' is for single filters; allowed: calibration, truth");
-  cell.methods = object.has("filters") ? read_methods(object, "filters", source) : all_methods(source);
-  if (cell.methods.empty()) throw InputError(object.place_of("filters"), "the list is empty");
-  if (auto pieces = object.child("pieces")) read_pieces(*pieces, folder, cell);
-  object.finish();
-  check_size(cell, object);
+  cell.name = object.named("name", fmt::format("cell_{}", index + 1), plain_name);
+  const bool sound = object.attempt([&] {
+    cell.trials = static_cast<std::uint32_t>(object.number("trials", 1000, study_ranges::trials, "trials"));
+    object.with_child("scenario", [&](JsonObject& scenario) { cell.scenario = read_scenario(scenario, folder); });
+    object.with_child("calibration", [&](JsonObject& plan) { cell.calibration = read_calibration(plan); });
+    cell.tuning = read_tuning(object.at(no_keys, object.place()));
+    object.with_child("tuning", [&](JsonObject& plan) { cell.tuning = read_tuning(plan); });
+    object.with_child("assumed", [&](JsonObject& factors) { cell.assumed = read_assumed(factors); });
+    cell.denoise = object.number("denoise", 0, ranges::flag, "1") != 0.0;
+    const auto source = object.named("parameters_from", "calibration", source_for_all);
+    const bool listed = object.attempt([&] {
+      cell.methods = object.has("filters") ? read_methods(object, "filters", source) : all_methods(source);
+    });
+    if (listed && cell.methods.empty()) object.complain(object.place_of("filters"), "the list is empty");
+    object.with_child("pieces", [&](JsonObject& pieces) { read_pieces(pieces, folder, cell); });
+    object.finish();
+  });
+  if (sound) check_size(cell, object);
   return cell;
 }
 
@@ -190,36 +205,51 @@ void add_cell(Study& study, Cell cell, const std::string& place) {
   study.cells.push_back(std::move(cell));
 }
 
+/// Reads a cell and adds it. Its mistakes are told with the place of the cell that stands in the file, so
+/// that one which all cells of a grid share is told once.
+void add_read_cell(Study& study, const Json& cell, const std::string& place, const std::string& written_place,
+                   const std::string& folder, Mistakes& mistakes) {
+  Mistakes own;
+  own.attempt([&] { add_cell(study, read_cell({cell, place, &own}, folder, study.cells.size()), place); });
+  for (const auto& line : own.lines())
+    mistakes.note(line.starts_with(place) ? written_place + line.substr(place.size()) : line);
+}
+
 }  // namespace
 
 Scenario read_scenario(JsonObject object, const std::string& folder) {
   Scenario scenario;
-  if (auto recorded = object.child("from_recording")) read_recorded(*recorded, folder, scenario);
+  const bool recording_read = object.with_child("from_recording", [&](JsonObject& recorded) {
+    read_recorded(recorded, folder, scenario);
+  });
   object.fields(scenario.sampling);
   const auto nested = [&](const std::string& key, auto& parameters) {
-    if (auto child = object.child(key)) {
-      child->fields(parameters);
-      child->finish();
-    }
+    object.with_child(key, [&](JsonObject& child) {
+      child.fields(parameters);
+      child.finish();
+    });
   };
   nested("random_error", scenario.random_error);
   nested("thermal_drift", scenario.thermal_drift);
-  if (auto temperature = object.child("temperature")) {
-    const bool recorded = temperature->text("profile", "") == "recorded";
-    const auto* recording = std::get_if<temperature::Recorded>(&scenario.temperature);
-    if (recorded && !recording)
-      throw InputError(temperature->place(),
+  object.with_child("temperature", [&](JsonObject& temperature) {
+    if (temperature.text("profile", "") != "recorded")
+      scenario.temperature = read_plugin<Temperatures>(temperature, "profile", "profile");
+    else if (recording_read && !std::holds_alternative<temperature::Recorded>(scenario.temperature))
+      throw InputError(temperature.place(),
                        "'recorded' needs a \"from_recording\" with temperature in this scenario");
-    if (!recorded)
-      scenario.temperature = read_plugin<Temperatures>(*temperature, "profile", "profile");
-  }
-  if (auto motion = object.child("motion"))
-    scenario.motion = read_plugin<Motions>(*motion, "profile", "profile");
-  if (auto acceleration = object.child("acceleration"))
-    scenario.acceleration = read_plugin<Accelerations>(*acceleration, "profile", "profile");
-  if (auto compass = object.child("compass")) scenario.compass = read_compass(*compass);
-  for (const auto& [value, place] : object.list("effects"))
-    scenario.effects.push_back(read_plugin<Effects>({*value, place}, "effect", "effect"));
+  });
+  object.with_child("motion", [&](JsonObject& motion) {
+    scenario.motion = read_plugin<Motions>(motion, "profile", "profile");
+  });
+  object.with_child("acceleration", [&](JsonObject& acceleration) {
+    scenario.acceleration = read_plugin<Accelerations>(acceleration, "profile", "profile");
+  });
+  object.with_child("compass", [&](JsonObject& compass) { scenario.compass = read_compass(compass); });
+  for (const auto& entry : object.list("effects"))
+    object.attempt([&] {
+      scenario.effects.push_back(
+          read_plugin<Effects>(object.at(*entry.first, entry.second), "effect", "effect"));
+    });
   object.finish();
   return scenario;
 }
@@ -276,20 +306,30 @@ const Cell& cell_named(const Study& study, const std::string& name, const std::s
   throw InputError(place, unknown_name("cell", name, names));
 }
 
-Study read_study(const std::string& path) { return parse_study(read_json(path), path); }
+Study read_study(const std::string& path) {
+  Mistakes mistakes;
+  const Json json = read_json(path, &mistakes);
+  return parse_study(json, path, std::move(mistakes));
+}
 
-Study parse_study(const Json& json, const std::string& path) {
-  JsonObject object(json, path + ":");
+Study parse_study(const Json& json, const std::string& path, Mistakes mistakes) {
+  JsonObject object(json, path + ":", &mistakes);
   const auto folder = std::filesystem::path(path).parent_path().string();
   Study study;
+  object.has("$schema");  // for editors
   study.title = object.text("title", std::filesystem::path(path).stem().string());
-  study.seed = static_cast<std::uint64_t>(object.number("seed", 1, seed_range, ""));
-  for (const auto& [value, place] : object.list("cells"))
-    for (const auto& [cell, cell_place] : expand_grid(*value, place))
-      add_cell(study, read_cell({cell, cell_place}, folder, study.cells.size()), cell_place);
-  if (study.cells.empty()) throw InputError(path, "\"cells\" is missing or empty");
-  study.failure_budget = object.number("failure_budget", 1.0, share_range, "of all trials");
+  study.seed = static_cast<std::uint64_t>(object.number("seed", 1, study_ranges::seed, ""));
+  study.failure_budget = object.number("failure_budget", 1.0, study_ranges::share, "of all trials");
+  const bool cells_read = object.attempt([&] {
+    for (const auto& entry : object.list("cells"))
+      object.attempt([&] {
+        for (const auto& [cell, place] : expand_grid(*entry.first, entry.second))
+          add_read_cell(study, cell, place, entry.second, folder, mistakes);
+      });
+  });
+  if (cells_read && study.cells.empty()) mistakes.note(path + ": \"cells\" is missing or empty");
   object.finish();
+  mistakes.raise();
   study.path = path;
   study.source = json.dump(2);
   study.digest = study_digest(json, path);

@@ -68,12 +68,13 @@ void set_trials(Study& study, std::uint32_t trials);
 /// The cell called `name`, the first where that is empty; throws InputError at `place` otherwise.
 const Cell& cell_named(const Study& study, const std::string& name, const std::string& place);
 
-/// Reads and checks a study file; recordings it names are relative to its own folder. Throws
-/// InputError with the JSON path.
+/// Reads and checks a study file; recordings it names are relative to its own folder. Throws one
+/// InputError with a line for each mistake: JSON path, value, unit, allowed range, nearest known name.
 Study read_study(const std::string& path);
 
-/// The same for a study's JSON; `path` is what messages name and where recordings are looked for.
-Study parse_study(const Json& json, const std::string& path);
+/// The same for a study's JSON; `path` is what messages name and where recordings are looked for,
+/// `mistakes` are those already known.
+Study parse_study(const Json& json, const std::string& path, Mistakes mistakes = {});
 
 /// The index of the metric called `name`; throws InputError at `place` otherwise.
 std::size_t metric_named(const std::string& name, const std::string& place);

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <optional>
 #include <system_error>
 
 #include <fast_float/fast_float.h>
@@ -15,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/types.hpp"
+#include "experiments/units.hpp"
 
 namespace gyrostat {
 namespace {
@@ -84,7 +86,7 @@ std::string gunzipped(std::string& packed, const std::string& place) {
 }
 
 std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
+  constexpr std::string_view blanks = " \t\r\n\"";
   const auto first = std::min(text.find_first_not_of(blanks), text.size());
   return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
 }
@@ -97,8 +99,8 @@ std::string_view take(std::string_view& text, char separator) {
   return piece;
 }
 
-const char* cell_end(const char* begin, const char* row_end) {
-  const void* comma = std::memchr(begin, ',', static_cast<std::size_t>(row_end - begin));
+const char* cell_end(const char* begin, const char* row_end, char separator) {
+  const void* comma = std::memchr(begin, separator, static_cast<std::size_t>(row_end - begin));
   return comma ? static_cast<const char*>(comma) : row_end;
 }
 
@@ -106,24 +108,69 @@ std::string shown(std::string_view text) {
   return printable(text.size() > 40 ? std::string(text.substr(0, 40)) + "..." : text);
 }
 
+std::vector<std::string> cells_of(std::string_view line, char separator) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  std::vector<std::string> cells(
+      static_cast<std::size_t>(std::count(line.begin(), line.end(), separator)) + 1);
+  for (auto& cell : cells) cell = trimmed(take(line, separator));
+  return cells;
+}
+
+/// The commonest of comma, semicolon and tab.
+char separator_of(std::string_view line) {
+  char commonest = ',';
+  for (const char candidate : {';', '\t'})
+    if (std::count(line.begin(), line.end(), candidate) > std::count(line.begin(), line.end(), commonest))
+      commonest = candidate;
+  return commonest;
+}
+
+/// How many characters make the line a comment: "#", "%" or "//"; 0 where it is none.
+std::size_t comment_mark(std::string_view line) {
+  return line.starts_with('#') || line.starts_with('%') ? 1 : line.starts_with("//") ? 2 : 0;
+}
+
 struct Row {
   std::string_view cells, place;
   std::size_t line;
+  char separator;
 
   [[noreturn]] void fail(const std::string& problem) const {
     throw InputError(fmt::format("{}:{}", place, line), problem);
   }
 };
 
-/// A cell that is not just a number: blank, padded, with a plus sign, or wrong.
+/// The whole of `text` as a finite number, or nothing.
+std::optional<double> number_in(std::string_view text, char decimal_point = '.') {
+  double value = no_value;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = fast_float::from_chars_advanced(
+      text.data(), end, value, fast_float::parse_options{fast_float::chars_format::general, decimal_point});
+  return error == std::errc() && stop == end && std::isfinite(value) ? std::optional(value)
+                                                                     : std::nullopt;
+}
+
+/// The cells of a line that has a unit and no number, without brackets; nothing where it is another.
+std::vector<std::string> units_in(std::string_view line, const CsvHeader& header) {
+  auto units = cells_of(line, header.separator);
+  if (units.size() != header.names.size()) return {};
+  bool has_unit = false;
+  for (auto& unit : units) {
+    if (number_in(unit) || number_in(unit, ',')) return {};
+    if (const auto bare = split_unit(unit); bare.first.empty()) unit = bare.second;
+    has_unit = has_unit || is_unit(unit);
+    if (unit == "-") unit.clear();
+  }
+  return has_unit ? units : std::vector<std::string>{};
+}
+
+/// A cell that is not just a number: blank, padded, quoted, with a plus sign or a decimal comma, or wrong.
 double odd_cell(std::string_view cell, const std::string& name, const Row& row) {
   std::string_view number = trimmed(cell);
   if (number.empty()) return no_value;
   if (number.starts_with('+') && !number.starts_with("+-")) number.remove_prefix(1);
-  double value = no_value;
-  const char* end = number.data() + number.size();
-  const auto [stop, error] = fast_float::from_chars(number.data(), end, value);
-  if (error == std::errc() && stop == end && std::isfinite(value)) return value;
+  if (const auto value = number_in(number)) return *value;
+  if (const auto value = number_in(number, ','); value && row.separator != ',') return *value;
   row.fail(
       fmt::format("column '{}': '{}' is not a number; allowed: finite numbers, or a blank cell"
                   " for no value",
@@ -140,18 +187,18 @@ void read_row(const Row& row, std::span<const std::string> names,
       double value = no_value;
       const auto [stop, error] = fast_float::from_chars(cell, row_end, value);
       end = stop;
-      if (error != std::errc() || (end != row_end && *end != ',') || !std::isfinite(value)) {
-        end = cell_end(cell, row_end);
+      if (error != std::errc() || (end != row_end && *end != row.separator) || !std::isfinite(value)) {
+        end = cell_end(cell, row_end, row.separator);
         value = odd_cell({cell, static_cast<std::size_t>(end - cell)}, names[i], row);
       }
       targets[i]->push_back(value);
     } else {
-      end = cell_end(cell, row_end);
+      end = cell_end(cell, row_end, row.separator);
     }
     if ((end == row_end) != (i + 1 == names.size())) {
       row.fail(fmt::format("'{}' has {} cells; allowed: {}, as many as the header",
                            shown(row.cells),
-                           std::count(row.cells.begin(), row.cells.end(), ',') + 1, names.size()));
+                           std::count(row.cells.begin(), row.cells.end(), row.separator) + 1, names.size()));
     }
     cell = end + 1;
   }
@@ -177,35 +224,56 @@ std::string printable(std::string_view text) {
   return ascii;
 }
 
-std::vector<std::string> take_header(std::string_view& csv, std::string_view place) {
+CsvHeader take_header(std::string_view& csv, std::string_view place) {
   if (csv.starts_with("\xef\xbb\xbf")) csv.remove_prefix(3);
-  auto header = take(csv, '\n');
-  std::vector<std::string> names(
-      static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1);
-  for (auto& name : names) name = trimmed(take(header, ','));
-  auto sorted = names;
+  CsvHeader header;
+  std::string_view comment;
+  for (; !csv.empty(); ++header.line) {
+    auto rest = csv;
+    const auto line = trimmed(take(rest, '\n'));
+    const auto mark = comment_mark(line);
+    if (!line.empty() && mark == 0) break;
+    if (mark > 0) comment = line.substr(mark);
+    csv = rest;
+  }
+  auto names = csv;
+  const auto first = take(names, '\n');
+  header.separator = separator_of(first);
+  header.names = cells_of(first, header.separator);
+  if (!comment.empty() && number_in(header.names.front())) {
+    header.names = cells_of(comment, header.separator);
+    header.first_row = header.line--;
+  } else {
+    csv = names;
+    header.first_row = header.line + 1;
+    auto rows = csv;
+    header.units = units_in(take(rows, '\n'), header);
+    if (!header.units.empty()) csv = rows;
+    if (!header.units.empty()) ++header.first_row;
+  }
+  auto sorted = header.names;
   std::sort(sorted.begin(), sorted.end());
   if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end()) {
-    throw InputError(fmt::format("{}:1", place),
+    throw InputError(fmt::format("{}:{}", place, header.line),
                      fmt::format("column '{}' appears twice; allowed: once", shown(*twice)));
   }
-  return names;
+  return header;
 }
 
-void read_columns(std::string_view rows, std::span<const std::string> names,
+void read_columns(std::string_view rows, const CsvHeader& header,
                   std::span<std::vector<double>* const> targets, std::string_view place) {
   const auto most_rows = static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')) + 1;
   for (auto* target : targets) {
     if (target) target->reserve(most_rows);
   }
-  for (std::size_t line = 2; !rows.empty(); ++line) {
-    Row row{take(rows, '\n'), place, line};
+  for (std::size_t line = header.first_row; !rows.empty(); ++line) {
+    Row row{take(rows, '\n'), place, line, header.separator};
     if (row.cells.ends_with('\r')) row.cells.remove_suffix(1);
     if (trimmed(row.cells).empty()) {
       if (trimmed(rows).empty()) return;
       row.fail("is blank; allowed: blank lines at the end only");
     }
-    read_row(row, names, targets);
+    read_row(row, header.names, targets);
   }
 }
 

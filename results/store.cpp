@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "core/error.hpp"
 #include "results/schema.hpp"
 
 namespace gyrostat {
@@ -168,7 +169,8 @@ auto Store::guarded(const Work& work) const {
 
 Store::Store(const fs::path& folder, Access access) : path_(folder / file_name) {
   if (access == Access::read && !fs::exists(path_))
-    throw StoreError(fmt::format("{}: holds no outcomes: there is no {}", folder.string(), file_name));
+    throw InputError(folder.string(), fmt::format("holds no outcomes: there is no {}; allowed: the folder "
+                                                  "of a run, as runs/STUDY", file_name));
   if (access == Access::write) lock_.emplace(folder);
   guarded([&] { database_ = std::make_unique<Database>(path_, access); });
 }

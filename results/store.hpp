@@ -79,7 +79,7 @@ class Store {
   /// A store in a folder has this name.
   static constexpr const char* file_name = "store.db";
 
-  /// The store in `folder`, to be read.
+  /// The store in `folder`, to be read; throws InputError where there is none.
   static Store open(const std::filesystem::path& folder);
   /// The store in `folder`, to be written by this process alone; made with `manifest` where there is
   /// none. What is there is checked from end to end.

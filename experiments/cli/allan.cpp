@@ -6,6 +6,11 @@
 namespace gyrostat::cli {
 namespace {
 
+constexpr const char* examples = R"(Examples:
+  gyrostat allan REC.csv
+  gyrostat allan REC.mat --axis z --format csv
+  gyrostat allan LOG.csv.gz --columns t=Time[ms],gyro=GyrZ --units gyro=rad/s)";
+
 struct AllanArguments {
   RecordingOption recording;
   FormatOption format;
@@ -37,6 +42,7 @@ void add_allan(CLI::App& program, Console& console, int& exit_code) {
   auto arguments = std::make_shared<AllanArguments>();
   arguments->recording.add_to(verb);
   arguments->format.add_to(verb);
+  verb->footer(examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

@@ -10,6 +10,12 @@
 namespace gyrostat::cli {
 namespace {
 
+constexpr const char* examples = R"(Examples:
+  gyrostat apply REC.csv                               every method, fitted to the first quarter
+  gyrostat apply REC.csv --calibration 0.5 --out COMP.csv
+  gyrostat apply REC.csv --config C.json --out COMP.mat parameters from a file; series for MATLAB
+  gyrostat apply LOG.csv --columns t=Time[ms],gyro=GyrZ[rad/s],temp=Temp[F])";
+
 struct ApplyArguments {
   RecordingOption recording;
   FormatOption format;
@@ -57,7 +63,7 @@ void add_apply(CLI::App& program, Console& console, int& exit_code) {
   arguments->recording.add_to(verb);
   auto* config = verb->add_option("--config", arguments->config,
                    "JSON {\"filters\": [{\"id\", \"filter\", \"parameters\"}]} instead of a fit");
-  verb->add_option("--out", arguments->out, "CSV or CSV.gz for the series of every method");
+  verb->add_option("--out", arguments->out, "CSV, CSV.gz or MATLAB file for the series of every method");
   verb->add_option("--fit", arguments->fit, "likelihood or moments")
       ->excludes(config)
       ->capture_default_str();
@@ -67,6 +73,7 @@ void add_apply(CLI::App& program, Console& console, int& exit_code) {
       ->excludes(config)
       ->capture_default_str();
   arguments->format.add_to(verb);
+  verb->footer(examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

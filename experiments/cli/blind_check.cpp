@@ -9,6 +9,10 @@
 namespace gyrostat::cli {
 namespace {
 
+constexpr const char* examples = R"(Examples:
+  gyrostat blind-check CHECK.json
+  gyrostat blind-check CHECK.json --recordings 2 --out runs/short)";
+
 struct BlindCheckArguments {
   std::string file;
   std::string folder;
@@ -42,6 +46,7 @@ void add_blind_check(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--recordings", arguments->recordings, "of each effect and strength, instead of the file's")
       ->check(CLI::Range(1U, 4294967295U));
   arguments->format.add_to(verb);
+  verb->footer(examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

@@ -10,6 +10,12 @@
 namespace gyrostat::cli {
 namespace {
 
+constexpr const char* examples = R"(Examples:
+  gyrostat diagnose REC.csv
+  gyrostat diagnose REC.csv --html GAP.html --json GAP.json
+  gyrostat diagnose REC.csv --scenario STUDY.json    a study whose simulator has the effect
+  gyrostat diagnose OTHER.csv --claim STUDY.json     does it close the gap of another recording?)";
+
 struct DiagnoseArguments {
   RecordingOption recording;
   SpanOption span;
@@ -32,7 +38,7 @@ int run(DiagnoseArguments& arguments, Console& console) {
   }
   for (const auto& out : {arguments.json_out, arguments.html_out, arguments.scenario_out})
     if (!out.empty()) require_writable(out, file);
-  const auto read = read_recording(file, arguments.recording.axis);
+  const auto read = arguments.recording.read_all(console.log);
   const Series series = cut(gap::on_grid(read.series, file), arguments.span.from_s,
                             arguments.span.to_s, file + ": --from, --to");
   const auto diagnosis = about(file, [&] {
@@ -71,6 +77,7 @@ void add_diagnose(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--claim", arguments->claim,
                    "judge the effects of this study (as --scenario writes it) instead of looking for causes");
   verb->add_option("--seed", arguments->options.seed, "of all simulated noise")->capture_default_str();
+  verb->footer(examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

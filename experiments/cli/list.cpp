@@ -1,7 +1,9 @@
 #include <filesystem>
 
+#include "analysis/gap/lenses/list.hpp"
 #include "analysis/metrics/list.hpp"
 #include "core/filters/list.hpp"
+#include "core/track.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/verbs.hpp"
 #include "experiments/json_object.hpp"
@@ -9,6 +11,10 @@
 
 namespace gyrostat::cli {
 namespace {
+
+constexpr const char* examples = R"(Examples:
+  gyrostat list filters
+  gyrostat list effects --json)";
 
 constexpr const char* default_studies = "experiments/studies";
 
@@ -41,6 +47,31 @@ Json parameters_of() {
     return Json::array();
 }
 
+std::string_view name_of(Stage stage) {
+  switch (stage) {
+    case Stage::environment: return "environment";
+    case Stage::sensing: return "sensing";
+    case Stage::noise: return "noise";
+    case Stage::electronics: return "electronics";
+    case Stage::conversion: return "conversion";
+    case Stage::transport: return "transport";
+    case Stage::compass: return "compass";
+  }
+  return "";
+}
+
+/// The channels that a filter cannot do without.
+Json needed(const Needs& needs) { return missing_channels(needs, Series{}); }
+
+/// The channels that an effect cannot do without.
+template <std::size_t N>
+Json needed(const std::array<std::vector<double> Series::*, N>& needs) {
+  auto names = Json::array();
+  for (const auto& channel : channels)
+    if (std::ranges::find(needs, channel.values) != needs.end()) names.push_back(channel.name);
+  return names;
+}
+
 template <class List>
 Json plugins() {
   auto list = Json::array();
@@ -48,6 +79,9 @@ Json plugins() {
     using Type = typename decltype(plugin)::type;
     Json entry = {{"id", plugin.id}, {"title", Type::title}};
     if constexpr (requires { Type::unit; }) entry["unit"] = Type::unit;
+    if constexpr (requires { Type::stage; }) entry["stage"] = name_of(Type::stage);
+    if constexpr (requires { Type::needs; }) entry["needs"] = needed(Type::needs);
+    if constexpr (requires { Type::channel; }) entry["needs"] = Json::array({Type::channel});
     entry["parameters"] = parameters_of<Type>();
     list.push_back(std::move(entry));
   });
@@ -89,7 +123,7 @@ int run(const ListArguments& arguments, Console& console) {
       {"filters", plugins<Filters>()},   {"effects", plugins<Effects>()},
       {"temperatures", plugins<Temperatures>()}, {"motions", plugins<Motions>()},
       {"accelerations", plugins<Accelerations>()},
-      {"metrics", plugins<Metrics>()},   {"studies", studies(arguments.studies, arguments.studies != default_studies)}};
+      {"metrics", plugins<Metrics>()},   {"lenses", plugins<Lenses>()}, {"studies", studies(arguments.studies, arguments.studies != default_studies)}};
   std::vector<std::string> names = {"all"};
   Json chosen;
   for (const auto& [name, entries] : kinds) {
@@ -109,11 +143,12 @@ int run(const ListArguments& arguments, Console& console) {
 
 void add_list(CLI::App& program, Console& console, int& exit_code) {
   auto* verb = program.add_subcommand(
-      "list", "what there is: filters, effects, temperatures, motions, accelerations, metrics, studies");
+      "list", "what there is: filters, effects, temperatures, motions, accelerations, metrics, lenses, studies");
   auto arguments = std::make_shared<ListArguments>();
   verb->add_option("kind", arguments->kind, "one of these kinds, or all")->capture_default_str();
   verb->add_option("--studies", arguments->studies, "folder of studies")->capture_default_str();
   verb->add_flag("--json", arguments->json, "as JSON, with every parameter's default and range");
+  verb->footer(examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

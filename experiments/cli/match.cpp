@@ -7,6 +7,10 @@
 namespace gyrostat::cli {
 namespace {
 
+constexpr const char* examples = R"(Examples:
+  gyrostat match MATCH.json
+  gyrostat match MATCH.json --study FOUND.json    and the study at the scenario found)";
+
 struct MatchArguments {
   std::string match;
   std::string study_out;
@@ -31,6 +35,7 @@ void add_match(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("match", arguments->match, "match file (JSON)")->required();
   verb->add_option("--study", arguments->study_out, "write the study at the scenario found");
   arguments->format.add_to(verb);
+  verb->footer(examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

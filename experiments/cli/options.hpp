@@ -56,27 +56,45 @@ struct SpanOption {
   }
 };
 
-/// The recording that a verb works on, with the axis where it has several.
+/// The recording that a verb works on, with the axis where it has several and the layout where it has
+/// other names or units than the program's.
 struct RecordingOption {
   std::string file;
   std::string axis;
+  std::string columns, units;
 
   void add_to(CLI::App* verb) {
-    verb->add_option("recording", file, "CSV or CSV.gz with a header: t_s, gyro_dps, ...")->required();
+    verb->add_option("recording", file, "CSV, CSV.gz or MATLAB file: t_s, gyro_dps, ...")->required();
     verb->add_option("--axis", axis, "x, y or z where the recording has three axes");
+    verb->add_option("--columns", columns, "columns of other names, as t=Time[ms],gyro=GyrZ,temp=Temp")
+        ->type_name("CHANNEL=COLUMN,...");
+    verb->add_option("--units", units, "units, as t=ms,gyro=rad/s,temp=F")->type_name("CHANNEL=UNIT,...");
   }
 
-  /// The span of it, checked to be evenly sampled; says in `log` which columns mean nothing to
-  /// gyrostat.
-  Series read(std::ostream& log, const SpanOption& span = {}) const {
-    auto recording = read_recording(file, axis);
-    Series series = cut(recording.series, span.from_s, span.to_s, file + ": --from, --to");
-    require_uniform(series, file);
+  RecordingLayout layout() const {
+    return {parse_assignments(columns, "--columns"), parse_assignments(units, "--units"), layout_place()};
+  }
+
+  /// All of it; says in `log` which columns were taken as what, and which mean nothing to gyrostat.
+  Recording read_all(std::ostream& log) const {
+    auto recording = read_recording(file, axis, layout());
+    if (!recording.taken_as.empty())
+      log << fmt::format("{}: {}\n", file, fmt::join(recording.taken_as, ", "));
     if (!recording.ignored_columns.empty())
-      log << fmt::format("{}: columns not used: {}\n", file,
-                         fmt::join(recording.ignored_columns, ", "));
+      log << fmt::format("{}: columns not used: {}\n", file, fmt::join(recording.ignored_columns, ", "));
+    return recording;
+  }
+
+  /// The span of it, checked to be evenly sampled.
+  Series read(std::ostream& log, const SpanOption& span = {}) const {
+    const auto recording = read_all(log);
+    Series series = cut(recording.series, span.from_s, span.to_s, file + ": --from, --to");
+    require_uniform(series, file, recording.first_row);
     return series;
   }
+
+ private:
+  std::string layout_place() const { return columns.empty() ? "--units" : "--columns"; }
 };
 
 }  // namespace gyrostat::cli

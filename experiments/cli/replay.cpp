@@ -38,6 +38,14 @@ Study study_of(const ReplayArguments& arguments) {
   return stored_study(Store::open(folder));
 }
 
+/// A store may have more trials than were asked for last, or than the study file says.
+void admit_stored_trials(Study& study, const fs::path& folder) {
+  if (!fs::exists(folder / Store::file_name)) return;
+  const auto cells = Store::open(folder).manifest().cells;
+  for (std::size_t c = 0; c < std::min(cells.size(), study.cells.size()); ++c)
+    study.cells[c].trials = std::max({study.cells[c].trials, cells[c].trials, cells[c].finished});
+}
+
 std::string number(double value) { return std::isnan(value) ? "" : fmt::format("{:.17g}", value); }
 
 void print_steps(const Series& series, const Track& track, std::ostream& out) {
@@ -77,7 +85,8 @@ std::string compared(const Store& store, const TrialAddress& at, const std::vect
 
 int run(const ReplayArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
-  const Study study = study_of(arguments);
+  Study study = study_of(arguments);
+  admit_stored_trials(study, store_of(arguments));
   const auto at = parse_address(arguments.address, study);
   const auto prepared = prepare_cell(study.cells[at.cell], study.seed, 0);
   const auto& cell = prepared.cell;

@@ -217,7 +217,7 @@ void add_run(CLI::App& program, Console& console, int& exit_code) {
   verb->add_flag("--set-aside", arguments->set_aside,
                  "keep the outcomes that are there under another name and begin anew")
       ->excludes(mix);
-  verb->add_option("--lanes", arguments->lanes, "trials side by side: 1, 2, 4 or 8 (the same results)")
+  verb->add_option("--lanes", arguments->lanes, "trials side by side: 1, 2, 4 or 8 (default: as many as a register holds; the same results)")
       ->check(CLI::IsMember(possible_lanes));
   arguments->format.add_to(verb);
   verb->footer(examples);

@@ -6,6 +6,10 @@
 namespace gyrostat::cli {
 namespace {
 
+constexpr const char* examples = R"(Examples:
+  gyrostat simulate STUDY.json --out REC.csv             trial 0 of the first cell
+  gyrostat simulate STUDY.json --cell ramp --trial 3 --out REC.mat)";
+
 struct SimulateArguments {
   std::string study;
   std::string cell;
@@ -34,7 +38,8 @@ void add_simulate(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("study", arguments->study, "study file (JSON)")->required();
   verb->add_option("--cell", arguments->cell, "cell of the study (default: the first)");
   verb->add_option("--trial", arguments->trial, "trial number, from 0")->capture_default_str();
-  verb->add_option("--out", arguments->out, "CSV or CSV.gz to write")->required();
+  verb->add_option("--out", arguments->out, "CSV, CSV.gz or MATLAB file to write")->required();
+  verb->footer(examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

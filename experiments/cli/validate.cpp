@@ -5,6 +5,9 @@
 namespace gyrostat::cli {
 namespace {
 
+constexpr const char* examples = R"(Examples:
+  gyrostat validate STUDY.json     all of its mistakes, or what it would run)";
+
 int run(const std::string& path, Console& console) {
   const Study study = read_study(path);
   console.out << fmt::format("{}: sound. \"{}\", seed {}\n", path, study.title, study.seed);
@@ -23,6 +26,7 @@ void add_validate(CLI::App& program, Console& console, int& exit_code) {
   auto* verb = program.add_subcommand("validate", "check a study file and say what it would run");
   auto study = std::make_shared<std::string>();
   verb->add_option("study", *study, "study file (JSON)")->required();
+  verb->footer(examples);
   verb->callback([study, &console, &exit_code] { exit_code = run(*study, console); });
 }
 

@@ -36,5 +36,7 @@ void add_diagnose(CLI::App& program, Console& console, int& exit_code);
 void add_blind_check(CLI::App& program, Console& console, int& exit_code);
 void add_list(CLI::App& program, Console& console, int& exit_code);
 void add_validate(CLI::App& program, Console& console, int& exit_code);
+void add_schema(CLI::App& program, Console& console, int& exit_code);
+void add_completion(CLI::App& program, Console& console, int& exit_code);
 
 }  // namespace gyrostat::cli

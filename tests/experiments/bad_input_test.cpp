@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -209,7 +210,7 @@ TEST(BadInput, MalformedJsonIsNamedByLine) {
 
 TEST(BadInput, AKeyThatStandsTwiceIsNamed) {
   expect_study_refused(R"({"seed": 1, "cells": [{"trials": 1, "trials": 2, "filters": ["none"]}]})",
-                       {"study.json", "trials", "twice"});
+                       {"study.json: cells[0].trials", "twice"});
 }
 
 TEST(BadInput, AnUnknownKeyIsToldItsPathAndTheNearestKnown) {
@@ -254,9 +255,9 @@ TEST(BadInput, AValueOutOfRangeIsToldItsPathUnitAndRange) {
                       {"cells[0].scenario.effects[0].probability", "2", "[0, 1]"});
   expect_refused_with("/cells/0/scenario/compass", {{"disturbances", {{{"start_s", -1}}}}},
                       {"cells[0].scenario.compass.disturbances[0].start_s", "-1 s", "[0, inf) s"});
-  expect_refused_with("/cells/0/filters/0",
+  expect_refused_with("/cells/0/filters/1",
                       {{"filter", "kf"}, {"parameters", {{"delta1_dps", -0.1}}}},
-                      {"cells[0].filters[0].parameters.delta1_dps", "-0.1 dps", "[0, inf) dps"});
+                      {"cells[0].filters[1].parameters.delta1_dps", "-0.1 dps", "[0, inf) dps"});
 }
 
 TEST(BadInput, AStudyTooLargeForAnyMachineIsOutOfRange) {
@@ -320,6 +321,109 @@ TEST(BadInput, AnUnknownPluginIsToldTheNearest) {
                       {"cells[0].tuning.metric", "metric 'bias_rms'", "'bias_rmse'"});
   expect_refused_with("/cells/0/assumed", {{"delta1", 2}},
                       {"cells[0].assumed", "'delta1'", "'delta1_dps'"});
+}
+
+/// The lines on stderr of `gyrostat <arguments>`, which must end with exit code 2.
+Words lines_of(const TestFolder& folder, const Words& arguments) {
+  const auto ended = run_program(folder, arguments);
+  EXPECT_EQ(ended.exit_code, 2) << ended.err;
+  EXPECT_THAT(ended.out, testing::IsEmpty());
+  std::istringstream text(ended.err);
+  Words lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(BadInput, AllMistakesOfAStudyAreToldAtOnce) {
+  const TestFolder folder;
+  folder.write("study.json", R"({
+    "sed": 1, "title": 3, "failure_budget": 2, "title": "again",
+    "cells": [
+      {"name": "a", "trials": 0, "trails": 5, "scenario": {
+         "duration_s": 0, "rate": 50,
+         "random_error": {"phi": 2, "delta": 1},
+         "motion": {"profile": "rate_tabel"},
+         "temperature": {"profile": "cycle", "period_s": 0},
+         "from_recording": {"file": "absent.csv", "axis": 3},
+         "compass": {"disturbances": [{"start_s": 1}, {"start_s": -1}]},
+         "effects": [{"effect": "outlier"}, {"effect": "outliers", "probability": 2, "std": 1}]},
+       "calibration": {"fit": "likelyhood", "duration": 3},
+       "tuning": {"metric": "bias_rms", "trials": 0},
+       "assumed": {"delta1": 2},
+       "filters": ["kv", "kf", "kf", {"filter": "stf", "id": "x,y", "parameters": {"forgetting": 2},
+                                      "tune": {"forgetting": [0.9, 0.1]}, "parameters_from": "true"}]},
+      7,
+      {"name": "b", "filters": []},
+      {"name": "a", "grid": {"trials": []}}]})");
+  const Words expected = {
+      "title: the key stands twice", "failure_budget: 2 of all trials is out of range; allowed: [0, 1]",
+      "cells[0].trials: 0 trials is out of range; allowed: [1, 1e+08]",
+      "cells[0]: unknown key 'trails'; did you mean 'trials'?",
+      "cells[0].scenario.from_recording.axis: 3 is not a text", "absent.csv",
+      "cells[0].scenario.duration_s: 0 s is out of range; allowed: (0, 1e+07] s",
+      "cells[0].scenario: unknown key 'rate'; did you mean 'rate_hz'?",
+      "cells[0].scenario.random_error.phi: 2 is out of range; allowed: (-1, 1)",
+      "cells[0].scenario.random_error: unknown key 'delta'",
+      "cells[0].scenario.motion.profile: unknown profile 'rate_tabel'; did you mean 'rate_table'?",
+      "cells[0].scenario.temperature.period_s: 0 s is out of range; allowed: (0, inf) s",
+      "cells[0].scenario.compass.disturbances[1].start_s: -1 s is out of range; allowed: [0, inf) s",
+      "cells[0].scenario.effects[0].effect: unknown effect 'outlier'; did you mean 'outliers'?",
+      "cells[0].scenario.effects[1].probability: 2 is out of range; allowed: [0, 1]",
+      "cells[0].scenario.effects[1]: unknown key 'std'; did you mean 'std_dps'?",
+      "cells[0].calibration.fit: unknown", "cells[0].calibration: unknown key 'duration'; did you mean 'duration_s'?",
+      "cells[0].tuning.metric: unknown metric 'bias_rms'", "cells[0].tuning.trials: 0 trials is out of range",
+      "cells[0].assumed: unknown key 'delta1'", "cells[0].filters[0]: unknown filter 'kv'; did you mean 'kf'?",
+      "cells[0].filters[2]: the id 'kf' stands twice", "cells[0].filters[3].id: 'x,y'",
+      "cells[0].filters[3].parameters.forgetting: 2 is out of range; allowed: [0, 1]",
+      "cells[0].filters[3].tune.forgetting: the lower bound", "cells[0].filters[3].parameters_from: unknown",
+      "cells[1]: an object", "cells[2].filters: the list is empty", "cells[3].grid.trials: a list",
+      "study.json: unknown key 'sed'; did you mean 'seed'?"};
+  for (const Words& verb : {Words{"validate", "study.json"}, Words{"run", "study.json"}}) {
+    const auto lines = lines_of(folder, verb);
+    for (const auto& line : lines) EXPECT_THAT(line, testing::StartsWith("gyrostat: "));
+    for (const auto& mistake : expected) {
+      const auto tells = [&](const auto& line) { return line.find(mistake) != line.npos; };
+      EXPECT_EQ(std::ranges::count_if(lines, tells), 1) << mistake << '\n' << fmt::format("{}", fmt::join(lines, "\n"));
+    }
+    EXPECT_EQ(lines.size(), expected.size()) << fmt::format("{}", fmt::join(lines, "\n"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "runs"));
+}
+
+TEST(BadInput, AMistakeThatAllCellsOfAGridShareIsToldOnce) {
+  const TestFolder folder;
+  folder.write("study.json", R"({"cells": [{"trails": 5, "filters": ["kv"],
+      "grid": {"scenario.random_error.phi": [0.1, 0.5, 2], "trials": [1, 2]}}]})");
+  const auto lines = lines_of(folder, {"validate", "study.json"});
+  ASSERT_EQ(lines.size(), 3U) << fmt::format("{}", fmt::join(lines, "\n"));
+  EXPECT_THAT(lines[0], testing::HasSubstr("cells[0].filters[0]: unknown filter 'kv'"));
+  EXPECT_THAT(lines[1], testing::HasSubstr("cells[0]: unknown key 'trails'"));
+  EXPECT_THAT(lines[2], testing::HasSubstr("cells[0].scenario.random_error.phi: 2 is out of range"));
+}
+
+TEST(BadInput, AllMistakesOfAConfigAreToldAtOnce) {
+  const TestFolder folder;
+  folder.write("rec.csv", sound_recording());
+  folder.write("config.json", R"({"filters": ["kv", {"filter": "kf", "parameters": {"phi": 2, "fi": 1}}], "out": 1})");
+  EXPECT_EQ(lines_of(folder, {"apply", "rec.csv", "--config", "config.json"}).size(), 4U);
+}
+
+TEST(BadInput, AFolderWithoutARunIsNamed) {
+  const TestFolder folder;
+  folder.write("empty/notes.txt", "nothing here");
+  for (const Words& arguments : {Words{"status", "empty"}, Words{"export", "empty"}, Words{"export", "absent"},
+                                 Words{"merge", "all", "empty"}})
+    expect_refused(folder, arguments, {arguments.back(), "holds no outcomes", "store.db", "runs/STUDY"});
+}
+
+TEST(BadInput, AReplayOfATrialThatThereIsNotIsToldTheRange) {
+  const TestFolder folder;
+  folder.write("study.json", sound_study().dump());
+  for (const std::string trial : {"2", "99999", "99999999999", "-1", "x"})
+    expect_refused(folder, {"replay", "study:a:" + trial + ":kf", "--study", "study.json"}, {"study:a:" + trial, trial});
+  expect_refused(folder, {"replay", "study:a:2:kf", "--study", "study.json"}, {"0 to 1", "'a'"});
+  EXPECT_EQ(run_program(folder, {"run", "study.json", "--trials", "4"}).exit_code, 0);
+  EXPECT_EQ(run_program(folder, {"replay", "study:a:3:kf", "--study", "study.json"}).exit_code, 0);
 }
 
 TEST(BadInput, AGridThatLeadsNowhereIsNamed) {

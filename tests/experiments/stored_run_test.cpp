@@ -72,7 +72,7 @@ void kill_half_way(const TestFolder& folder) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     try {
       if (finished_in(folder) > 200) break;
-    } catch (const StoreError&) {  // not there yet
+    } catch (const std::runtime_error&) {  // not there yet
     }
   }
   program.send(SIGKILL);
