@@ -178,6 +178,7 @@ Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) 
   cell.methods = object.has("filters") ? read_methods(object, "filters", source) : all_methods(source);
   if (cell.methods.empty()) throw InputError(object.place_of("filters"), "the list is empty");
   if (auto pieces = object.child("pieces")) read_pieces(*pieces, folder, cell);
+  if (auto stop = object.child("stop")) cell.stop = read_stop(*stop, cell);
   object.finish();
   check_size(cell, object);
   return cell;
