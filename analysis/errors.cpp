@@ -1,7 +1,6 @@
 #include "analysis/errors.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <vector>
 
 namespace gyrostat {
@@ -17,6 +16,28 @@ HeadingExcursion heading_excursion(const Series& series, const Track& track) {
   return heading;
 }
 
+StatedCovariance covariance_statistics(const Series& series, const Track& track) {
+  StatedCovariance stated;
+  double sum = 0.0;
+  std::size_t count = 0, within_1 = 0, within_3 = 0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const double error = bias_error_dps(series, track, i);
+    const double squared = error * error / track.estimate_variance[i];
+    if (std::isnan(squared)) continue;
+    ++count;
+    sum += squared;
+    within_1 += squared <= 1.0;
+    within_3 += squared <= 9.0;
+    stated.nees_end = squared;
+  }
+  if (count == 0) return stated;
+  const double n = static_cast<double>(count);
+  stated.nees = sum / n;
+  stated.within_1_sigma = static_cast<double>(within_1) / n;
+  stated.within_3_sigma = static_cast<double>(within_3) / n;
+  return stated;
+}
+
 TrackErrors track_errors(const Series& series, const Track& track) {
   std::vector<double> values(series.size());  // each error is computed once and read twice
   const auto over_time = [&](const auto& error) {
@@ -25,14 +46,7 @@ TrackErrors track_errors(const Series& series, const Track& track) {
   };
   TrackErrors errors;
   errors.rate = over_time([&](std::size_t i) { return rate_error_dps(series, track, i); });
-  errors.nis = over_time([&](std::size_t i) {
-    return track.innovation_dps[i] * track.innovation_dps[i] / track.innovation_variance[i];
-  });
-  errors.log_score = over_time([&](std::size_t i) {
-    const double variance = track.innovation_variance[i];
-    return 0.5 * (std::log(2.0 * std::numbers::pi * variance) +
-                  track.innovation_dps[i] * track.innovation_dps[i] / variance);
-  });
+  errors.innovations = innovation_statistics(track);
   errors.heading = heading_excursion(series, track);
   const auto broken = std::find_if(track.status.begin(), track.status.end(), is_breakdown);
   if (broken != track.status.end())
@@ -41,10 +55,7 @@ TrackErrors track_errors(const Series& series, const Track& track) {
   errors.learned_last = track.learned_last;
   if (!has_truth(series)) return errors;
   errors.bias = over_time([&](std::size_t i) { return bias_error_dps(series, track, i); });
-  errors.nees = over_time([&](std::size_t i) {
-    const double error = bias_error_dps(series, track, i);
-    return error * error / track.estimate_variance[i];
-  });
+  errors.covariance = covariance_statistics(series, track);
   return errors;
 }
 

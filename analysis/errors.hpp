@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "analysis/innovations.hpp"
 #include "core/track.hpp"
 
 namespace gyrostat {
@@ -63,13 +64,23 @@ struct HeadingExcursion {
 /// Integral of the rate error, deg, from 0 at the first sample; a missing gyro value adds nothing.
 HeadingExcursion heading_excursion(const Series& series, const Track& track);
 
+/// How the bias error compares with the variance that the filter states, over time. No values for a
+/// filter that states none.
+struct StatedCovariance {
+  double nees = no_value;            ///< mean of bias error^2 / variance
+  double nees_end = no_value;        ///< the same at the last sample alone
+  double within_1_sigma = no_value;  ///< share of samples
+  double within_3_sigma = no_value;
+};
+
+StatedCovariance covariance_statistics(const Series& series, const Track& track);
+
 /// Everything that metrics read of a track, computed once.
 struct TrackErrors {
   ErrorMoments rate;  ///< dps
   ErrorMoments bias;  ///< dps; empty without the truth
-  ErrorMoments nis;   ///< nu^2 / S, where there was an innovation
-  ErrorMoments nees;  ///< bias error^2 / the variance that the filter states; empty without either
-  ErrorMoments log_score;  ///< -log N(nu; 0, S), nats: how well the next sample was foretold
+  Innovations innovations;
+  StatedCovariance covariance;  ///< empty without the truth
   HeadingExcursion heading;
   double first_breakdown_s = no_value;  ///< time of the first step that was left out, if any
   LearnedParameters learned_first, learned_last;

@@ -64,8 +64,8 @@ Table statistics_table(const Series& judged, const std::vector<Track>& tracks,
       if (is_breakdown(static_cast<Status>(s))) breakdowns += counts[s];
     table.rows.push_back({methods[m].id, cell(errors.rate.mean), cell(errors.rate.std),
                           cell(errors.rate.rmse), errors.heading.end_deg,
-                          errors.heading.max_deg - errors.heading.min_deg, cell(errors.nis.mean),
-                          cell(errors.log_score.mean), breakdowns});
+                          errors.heading.max_deg - errors.heading.min_deg, cell(errors.innovations.nis),
+                          cell(errors.innovations.log_score), breakdowns});
   }
   table.notes.push_back(judged.rate_ref_dps.empty()
                             ? "no rate_ref_dps: the gyro counts as static, so all rate is error"

@@ -35,6 +35,16 @@ std::size_t best_of(const Cell& cell, const CellSummary& summary) {
   return best;
 }
 
+/// Indices of the metrics that tell of consistency.
+std::vector<std::size_t> consistency_metrics() {
+  std::vector<std::size_t> indices;
+  for (const char* id : {"innovations", "nis", "innovation_lag_1", "ljung_box", "nees", "nees_end",
+                         "within_1_sigma", "within_3_sigma", "pit_0", "pit_1", "pit_2", "pit_3", "pit_4",
+                         "pit_5", "pit_6", "pit_7", "pit_8", "pit_9"})
+    indices.push_back(metric_named(id, "tables"));
+  return indices;
+}
+
 /// One shown metric of one method.
 struct Streamed {
   std::size_t method, metric;
@@ -48,6 +58,10 @@ const Summary& CellSummary::of(std::size_t method, std::string_view metric) cons
   return methods[method].metrics[metric_named(std::string(metric), "tables")];
 }
 
+const Running& CellSummary::running(std::size_t method, std::string_view metric) const {
+  return methods[method].running[metric_named(std::string(metric), "tables")];
+}
+
 std::string_view judging_metric(const Cell& cell) { return cell.recording ? "log_score" : "bias_rmse"; }
 
 std::vector<std::string_view> error_metrics(const Cell& cell) {
@@ -58,7 +72,11 @@ CellSummary summarise_cell(const Cell& cell, const TrialSource& trials) {
   const std::size_t methods = cell.methods.size();
   CellSummary summary;
   summary.methods.resize(methods);
-  for (auto& method : summary.methods) method.metrics.resize(metric_count);
+  for (auto& method : summary.methods) {
+    method.metrics.resize(metric_count);
+    method.running.resize(metric_count);
+  }
+  const auto consistency = consistency_metrics();
 
   auto shown = error_metrics(cell);
   shown.insert(shown.end(), {"nis", "nees"});
@@ -68,8 +86,7 @@ CellSummary summarise_cell(const Cell& cell, const TrialSource& trials) {
       streams.push_back({m, metric_named(std::string(metric), "tables"), {}});
 
   const std::size_t judging = metric_named(std::string(judging_metric(cell)), "tables");
-  std::vector<StreamedDifference> differences(methods,
-                                              StreamedDifference(methods * (methods - 1) / 2));
+  std::vector<StreamedDifference> differences;
   const auto outcome = [](std::span<const double> outcomes, std::size_t method) {
     return outcomes.subspan(method * column_count, column_count);
   };
@@ -80,8 +97,11 @@ CellSummary summarise_cell(const Cell& cell, const TrialSource& trials) {
       if (pass == 0) {
         ++summary.finished;
         summary.unconverged += !calibrated;
-        for (std::size_t m = 0; m < methods; ++m)
+        for (std::size_t m = 0; m < methods; ++m) {
           count_failures(outcome(outcomes, m), summary.methods[m]);
+          for (const auto metric : consistency)
+            summary.methods[m].running[metric].add(outcome(outcomes, m)[metric]);
+        }
       }
       for (auto& stream : streams)
         if (stream.open) stream.summary.add(outcome(outcomes, stream.method)[stream.metric]);
@@ -96,7 +116,12 @@ CellSummary summarise_cell(const Cell& cell, const TrialSource& trials) {
       more = more || stream.open;
       summary.methods[stream.method].metrics[stream.metric] = stream.summary.summary();
     }
-    if (pass == 0) summary.best = best_of(cell, summary);
+    if (pass == 0) {
+      summary.best = best_of(cell, summary);
+      summary.comparisons =
+          comparisons_after_looks(cell, methods * (methods - 1) / 2, summary.finished);
+      differences.assign(methods, StreamedDifference(summary.comparisons));
+    }
     if (pass == 1 || pass == 2)
       for (auto& difference : differences) difference.another_pass();
   }

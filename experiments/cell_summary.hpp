@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/statistics/paired.hpp"
+#include "analysis/statistics/running.hpp"
 #include "analysis/statistics/summary.hpp"
 #include "experiments/study.hpp"
 
@@ -15,6 +16,7 @@ namespace gyrostat {
 struct MethodSummary {
   std::vector<Summary> metrics;  ///< by metric; only those that tables show have values
   std::size_t diverged = 0, broken_down = 0, breakdown_steps = 0, thrown = 0;
+  std::vector<Running> running;  ///< by metric; only those that tell of consistency have values
   PairedDifference difference;   ///< in the judging metric, from the best method
 };
 
@@ -22,9 +24,11 @@ struct CellSummary {
   std::size_t finished = 0;
   std::size_t unconverged = 0;  ///< trials whose own calibration did not converge
   std::size_t best = 0;         ///< of all but the oracle, the smallest mean of the judging metric
+  std::size_t comparisons = 0;  ///< that intervals of differences allow for: pairs, and looks of a stop rule
   std::vector<MethodSummary> methods;
 
   const Summary& of(std::size_t method, std::string_view metric) const;
+  const Running& running(std::size_t method, std::string_view metric) const;
 };
 
 /// The metric that methods of a cell are compared by: the bias error where the truth is known.

@@ -49,6 +49,7 @@ std::string study_digest(const Json& study, const std::string& path) {
     for (const auto& [expanded, place] : expand_grid(written, path)) {
       auto cell = SortedJson::parse(expanded.dump());
       cell.erase("trials");
+      cell.erase("stop");
       if (cell.contains("pieces")) resolve_recording(cell["pieces"], folder);
       if (cell.contains("scenario") && cell["scenario"].contains("from_recording"))
         resolve_recording(cell["scenario"]["from_recording"], folder);

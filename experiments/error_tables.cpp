@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/consistency.hpp"
+#include "experiments/metric_names.hpp"
 #include "experiments/trial.hpp"
 
 namespace gyrostat {
@@ -38,7 +40,7 @@ Table comparison_table(const Cell& cell, const CellSummary& summary, std::string
   Table table{.title = fmt::format("{}: {}, minus that of {}, paired by trial", cell.name, title,
                                    cell.methods[best].id),
               .columns = {{"method", ""}, {"difference", unit}, {"± 95 % simultaneous", unit},
-                          {"p adjusted", "1"}, {"verdict", ""}},
+                          {"p adjusted", "1"}, {"verdict", ""}, {"diverged", ""}, {"broke down", ""}},
               .rows = {}, .notes = {}};
   constexpr double rounding = 1e-9;
   const double scale = summary.of(best, judging_metric(cell)).mean;
@@ -51,36 +53,13 @@ Table comparison_table(const Cell& cell, const CellSummary& summary, std::string
     else if (!std::isnan(d.trials_needed))
       verdict += fmt::format("; about {:.0f} trials would tell", d.trials_needed);
     table.rows.push_back({cell.methods[m].id, gyrostat::cell(d.mean), gyrostat::cell(d.half_width),
-                          gyrostat::cell(d.p_adjusted), verdict});
+                          gyrostat::cell(d.p_adjusted), verdict,
+                          out_of(summary.methods[m].diverged, summary.finished),
+                          out_of(summary.methods[m].broken_down, summary.finished)});
   }
   table.notes.push_back(
-      fmt::format("Bonferroni over all {} pairs of methods, so the pair may be picked after looking",
-                  family));
-  return table;
-}
-
-/// How an interval of a normalised squared error reads.
-std::string verdict(const Summary& s) {
-  if (!(s.half_width_95 >= 0.0)) return "–";
-  if (s.mean - s.half_width_95 > 1.0) return "over-confident";
-  if (s.mean + s.half_width_95 < 1.0) return "conservative";
-  return "consistent";
-}
-
-Table consistency_table(const Cell& cell, const CellSummary& summary) {
-  Table table{.title = cell.name + ": consistency (1 is what the filter itself claims)",
-              .columns = {{"method", ""}, {"NIS", "1"}, {"± 95 %", "1"}, {"innovations", ""},
-                          {"NEES", "1"}, {"± 95 %", "1"}, {"covariance", ""},
-                          {"breakdown steps", ""}},
-              .rows = {}, .notes = {}};
-  for (std::size_t m = 0; m < cell.methods.size(); ++m) {
-    const auto& nis = summary.of(m, "nis");
-    const auto& nees = summary.of(m, "nees");
-    table.rows.push_back({cell.methods[m].id, gyrostat::cell(nis.mean),
-                          gyrostat::cell(nis.half_width_95), verdict(nis), gyrostat::cell(nees.mean),
-                          gyrostat::cell(nees.half_width_95), verdict(nees),
-                          static_cast<std::int64_t>(summary.methods[m].breakdown_steps)});
-  }
+      fmt::format("Bonferroni over all {} pairs of methods{}, so the pair may be picked after looking", family,
+                  summary.comparisons > family ? " and over the looks of the stop rule" : ""));
   return table;
 }
 
@@ -115,10 +94,11 @@ Table calibration_table(const Cell& cell, const Calibration& fit, const CellSumm
 
 Table tuning_table(const Cell& cell, const std::vector<TunedMethod>& tuned) {
   const auto metric = Metrics::ids()[cell.tuning.metric];
+  const auto unit = metric_unit(cell.tuning.metric);
   Table table{.title = fmt::format("{}: tuned on {} trials of their own, {} evaluations each", cell.name,
                                    cell.tuning.trials, cell.tuning.evaluations),
               .columns = {{"method", ""}, {"parameter", ""}, {"tuned", ""},
-                          {metric + " before", ""}, {metric + " after", ""}},
+                          {metric + " before", unit}, {metric + " after", unit}},
               .rows = {}, .notes = {}};
   for (std::size_t m = 0; m < tuned.size(); ++m)
     for (const auto& [name, value] : tuned[m].values)

@@ -55,6 +55,8 @@ int main(int argc, char** argv) {
   cli::add_status(program, console, exit_code);
   cli::add_export(program, console, exit_code);
   cli::add_replay(program, console, exit_code);
+  cli::add_rank(program, console, exit_code);
+  cli::add_consistency(program, console, exit_code);
   cli::add_merge(program, console, exit_code);
   cli::add_slurm(program, console, exit_code);
   cli::add_fit(program, console, exit_code);
@@ -63,6 +65,7 @@ int main(int argc, char** argv) {
   cli::add_allan(program, console, exit_code);
   cli::add_match(program, console, exit_code);
   cli::add_ledger(program, console, exit_code);
+  cli::add_coverage(program, console, exit_code);
   cli::add_publish(program, console, exit_code);
   cli::add_diagnose(program, console, exit_code);
   cli::add_blind_check(program, console, exit_code);

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 
+#include "experiments/coverage.hpp"
 #include "results/render/render.hpp"
 
 namespace gyrostat {
@@ -124,6 +125,9 @@ std::vector<NamedTable> source_tables(const Page& page, const Json& source, cons
     const Match wanted = read_match(beside(page, object.text("match", "")));
     auto made = match_tables(wanted, match(wanted));
     tables = {{name + "_scenario", std::move(made[0])}, {name, std::move(made[1])}};
+  } else if (object.has("coverage")) {
+    const auto wanted = read_coverage(beside(page, object.text("coverage", "")));
+    tables = {{"coverage", coverage_table(wanted, measure_coverage(wanted, run))}};
   } else {
     const auto study = beside(page, object.required_text("study"));
     tables = study_tables(study, object.list("tables"), run);

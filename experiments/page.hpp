@@ -22,7 +22,7 @@ struct NamedTable {
 struct Page {
   std::string folder;
   std::string output;         ///< the page, by a path from the folder
-  std::vector<Json> sources;  ///< each a study with its tables, a ledger or a match
+  std::vector<Json> sources;  ///< each a study with its tables, a ledger, a match or a coverage study
   std::vector<std::string> places;
   std::vector<Json> figures;  ///< each lines or a heat map of one of the tables
   std::string text;

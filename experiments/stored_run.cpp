@@ -34,6 +34,12 @@ CellState::CellState(const Store& store, const Cell& cell, std::uint32_t index, 
   });
 }
 
+bool CellState::misses_below(std::uint32_t limit) const {
+  for (std::uint32_t trial = 0; trial < limit; ++trial)
+    if (is_missing(trial)) return true;
+  return false;
+}
+
 std::vector<double> run_missing(Store& store, const PreparedCell& prepared, std::uint32_t index,
                                 std::uint64_t seed, CellState& state, const RunOptions& options,
                                 const std::function<void(const CellProgress&)>& watch) {
@@ -44,11 +50,12 @@ std::vector<double> run_missing(Store& store, const PreparedCell& prepared, std:
   std::uint32_t written = 0;
   StoreWriter writer(store, [&](std::span<const TrialRow> rows) {
     for (const auto& row : rows) {
+      state.mark(row.trial);
       state.watch().add(row.outcomes);
       progress.failed += !row.failures.empty();
     }
     written += static_cast<std::uint32_t>(rows.size());
-    progress.finished = state.finished() + written;
+    progress.finished = state.finished();
     progress.trials_per_s = written / std::chrono::duration<double>(Clock::now() - start).count();
     progress.left_s = (progress.trials - progress.finished) / progress.trials_per_s;
     progress.widest = state.watch().widest();

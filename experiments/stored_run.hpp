@@ -34,8 +34,10 @@ class CellState {
 
   bool is_missing(std::uint32_t trial) const { return shard_.owns(trial) && !there_[trial]; }
   std::uint32_t missing() const { return shard_.share_of(trials_) - finished_; }
+  bool misses_below(std::uint32_t limit) const;
   std::uint32_t finished() const { return finished_; }  ///< of those that the shard owns
   std::uint32_t trials() const { return shard_.share_of(trials_); }
+  void mark(std::uint32_t trial) { there_[trial] = true, ++finished_; }
   IntervalWatch& watch() { return watch_; }
 
  private:
@@ -45,7 +47,7 @@ class CellState {
   IntervalWatch watch_;
 };
 
-/// Runs what is missing of a cell and puts it into the store, failures included. `watch` hears of every
+/// Runs what is missing of a cell, of the first `prepared.cell.trials`, and puts it into the store, failures included. `watch` hears of every
 /// batch once it is in the store, from the writing thread; trials that it counts can no more be lost.
 /// Returns nanoseconds per step, one a method.
 std::vector<double> run_missing(Store& store, const PreparedCell& prepared, std::uint32_t index,

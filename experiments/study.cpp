@@ -192,6 +192,7 @@ Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) 
     });
     if (listed && cell.methods.empty()) object.complain(object.place_of("filters"), "the list is empty");
     object.with_child("pieces", [&](JsonObject& pieces) { read_pieces(pieces, folder, cell); });
+    object.with_child("stop", [&](JsonObject& stop) { cell.stop = read_stop(stop, cell); });
     object.finish();
   });
   if (sound) check_size(cell, object);

@@ -7,6 +7,7 @@
 
 #include "experiments/calibration.hpp"
 #include "experiments/method.hpp"
+#include "experiments/stop_rule.hpp"
 #include "generators/scenario.hpp"
 
 namespace gyrostat {
@@ -39,6 +40,7 @@ struct Cell {
   ParameterMap assumed;  ///< factors on what filters other than the oracle are told
   bool denoise = false;  ///< the rate is denoised by wavelet shrinkage before its error is judged [B]
   std::vector<Method> methods;
+  std::optional<StopRule> stop;  ///< before all trials are run
 
   /// Whether any method starts from fitted parameters.
   bool needs_calibration() const;

@@ -82,6 +82,7 @@ Store open_study_store(const fs::path& folder, const Study& study, Mismatch mism
   if (mismatch == Mismatch::set_aside) Store::set_aside(folder);
   Store store = Store::open_or_create(folder, manifest);
   require_match(store, manifest, place, mismatch);
+  if (store.manifest().digest == manifest.digest) store.set_source(manifest.source);
   store.set_cells(manifest.cells);
   store.begin_session({study.digest, this_build(), this_machine(), ::getpid(), utc_now(), "", 0});
   return store;

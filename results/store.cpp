@@ -255,6 +255,10 @@ std::vector<Session> Store::sessions() const {
   return guarded([&] { return sessions_of(*database_); });
 }
 
+void Store::set_source(std::string_view json) {
+  guarded([&] { Statement(*database_, "UPDATE study SET source = ?").with(json).run(); });
+}
+
 void Store::set_cells(std::span<const StoredCell> cells) {
   guarded([&] {
     sqlite::Transaction transaction(*database_);

@@ -91,6 +91,8 @@ class Store {
   Manifest manifest() const;
   std::vector<Session> sessions() const;
 
+  /// The study file's JSON as it is now; what decides outcomes has not changed in it.
+  void set_source(std::string_view json);
   /// Numbers of trials asked for, cell by cell; cells that are not there yet are added.
   void set_cells(std::span<const StoredCell> cells);
   /// Rows written from now on are of this session.

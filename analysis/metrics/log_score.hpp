@@ -13,7 +13,7 @@ struct LogScore {
   static constexpr std::string_view title = "logarithmic score of the innovations, mean";
   static constexpr std::string_view unit = "nat";
 
-  double operator()(const TrackErrors& errors) const { return errors.log_score.mean; }
+  double operator()(const TrackErrors& errors) const { return errors.innovations.log_score; }
 };
 
 }  // namespace gyrostat::metrics

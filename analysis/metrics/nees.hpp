@@ -12,7 +12,7 @@ struct Nees {
   static constexpr std::string_view title = "normalised estimation error squared, mean";
   static constexpr std::string_view unit = "1";
 
-  double operator()(const TrackErrors& errors) const { return errors.nees.mean; }
+  double operator()(const TrackErrors& errors) const { return errors.covariance.nees; }
 };
 
 }  // namespace gyrostat::metrics

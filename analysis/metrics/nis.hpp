@@ -11,7 +11,7 @@ struct Nis {
   static constexpr std::string_view title = "normalised innovation squared, mean";
   static constexpr std::string_view unit = "1";
 
-  double operator()(const TrackErrors& errors) const { return errors.nis.mean; }
+  double operator()(const TrackErrors& errors) const { return errors.innovations.nis; }
 };
 
 }  // namespace gyrostat::metrics

@@ -80,6 +80,8 @@ Table plan_table(const Study& study, const std::vector<CellPlan>& plans, const P
   table.notes.push_back(fmt::format("predicted run time {}{}, measured on the first trials of each cell, "
                                     "on this machine as busy as it is now",
                                     duration(seconds), shards));
+  if (std::any_of(study.cells.begin(), study.cells.end(), [](const Cell& c) { return c.stop.has_value(); }))
+    table.notes.push_back("that is all trials; a cell with a stop rule may need fewer");
   table.notes.push_back(fmt::format("disk {:.3g} GB in all: store and outcomes.csv.gz", 1e-9 * bytes));
   return table;
 }

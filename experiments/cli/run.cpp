@@ -1,6 +1,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "analysis/statistics/sequential.hpp"
 #include "experiments/atomic_file.hpp"
 #include "experiments/build.hpp"
 #include "experiments/cli/options.hpp"
@@ -9,6 +10,7 @@
 #include "experiments/cli/verbs.hpp"
 #include "experiments/error_tables.hpp"
 #include "experiments/outcome_file.hpp"
+#include "experiments/ranking.hpp"
 #include "experiments/run_log.hpp"
 #include "experiments/stored_run.hpp"
 #include "experiments/study_store.hpp"
@@ -24,10 +26,12 @@ constexpr const char* examples = R"(Examples:
   gyrostat run STUDY.json --trials 100000   adds trials to those that are there
   gyrostat run STUDY.json --until 07:00     stops in good order, and goes on the next evening
   gyrostat run STUDY.json --shard 2/8       one of eight parts; gyrostat merge puts them together
+  gyrostat run STUDY.json --stop '{"half_width_below": 0.001}'     until every mean is known so well
+  gyrostat run STUDY.json --stop '{"separate": ["kf", "stf"]}'     until these two are told apart
 Exit codes: 0 complete, 1 error, 2 usage, 3 failures over the budget, 4 stopped, to be resumed)";
 
 struct RunArguments {
-  std::string study, out, shard, until;
+  std::string study, out, shard, until, stop;
   FormatOption format;
   int threads = 0;
   std::uint32_t trials = 0;
@@ -37,7 +41,9 @@ struct RunArguments {
 };
 
 Study study_of(const RunArguments& arguments) {
-  Study study = read_study(arguments.study);
+  Json json = read_json(arguments.study);
+  if (!arguments.stop.empty()) json = with_stop(std::move(json), arguments.stop);
+  Study study = parse_study(json, arguments.study);
   if (arguments.trials > 0) set_trials(study, arguments.trials);
   if (arguments.failure_budget >= 0.0) study.failure_budget = arguments.failure_budget;
   return study;
@@ -111,44 +117,83 @@ class Run {
   }
 
   void run_cell(std::uint32_t index, CellState& state, Stopper& stopper) {
-    const auto& cell = study_.cells[index];
+    auto& cell = study_.cells[index];
     const auto prepared = prepare_cell(cell, study_.seed, threads_);
+    const bool looks = cell.stop && shard_.count == 1;
+    if (cell.stop && !looks)
+      console_.log << cell.name << ": a shard runs all of its trials; its stop rule is for the merged run\n";
     std::vector<double> nanoseconds;
-    if (state.missing() > 0) {
-      Progress progress(console_.log, console_.log_is_terminal, cell.name, state.trials());
-      const auto failed_before = failed_;
-      auto logged = std::chrono::steady_clock::now();
-      const auto watch = [&](CellProgress now) {
-        now.failed = failed_ = failed_before + now.failed;
-        progress.set(now.finished, to_text(now));
-        store_->note_progress(to_json(now).dump());
-        if (over_budget()) stopper.stop("more failures than the budget allows");
-        constexpr auto log_every = std::chrono::seconds(10);
-        if (const auto time = std::chrono::steady_clock::now(); time - logged >= log_every) {
-          logged = time;
-          log_->write("progress", to_json(now));
-        }
-      };
-      nanoseconds = run_missing(*store_, prepared, index, study_.seed, state,
-                                {.threads = threads_, .stop = &stopper.flag(), .lanes = lanes_, .progress = {}}, watch);
+    std::optional<std::string> reason;
+    for (const auto limit : stages(cell, looks)) {
+      run_trials_below(limit, index, prepared, state, stopper, nanoseconds);
+      if (stopper.flag() || !looks) break;
+      reason = stop_reason(cell, limit, outcomes_of(index, limit));
+      if (!reason) continue;
+      cell.trials = limit;
+      store_->set_cells(manifest_of(study_).cells);
+      console_.log << fmt::format("{}: stopped after {} trials: {}\n", cell.name, limit, *reason);
+      break;
     }
-    log_->write("cell", {{"cell", cell.name}, {"failed", failed_}});
-    summarise(index, prepared, nanoseconds);
+    log_->write("cell", {{"cell", cell.name}, {"failed", failed_}, {"stopped", reason.value_or("")}});
+    summarise(index, prepared, nanoseconds, reason);
+  }
+
+  /// Numbers of trials up to which a cell is run before its rule is asked.
+  static std::vector<std::uint32_t> stages(const Cell& cell, bool looks) {
+    auto limits = looks ? look_counts(cell.stop->at_least, cell.trials) : std::vector<std::uint32_t>{};
+    if (limits.empty() || limits.back() < cell.trials) limits.push_back(cell.trials);
+    return limits;
+  }
+
+  void run_trials_below(std::uint32_t limit, std::uint32_t index, PreparedCell prepared, CellState& state,
+                        Stopper& stopper, std::vector<double>& nanoseconds) {
+    if (!state.misses_below(limit)) return;
+    prepared.cell.trials = limit;
+    Progress progress(console_.log, console_.log_is_terminal, prepared.cell.name, state.trials());
+    const auto failed_before = failed_;
+    auto logged = std::chrono::steady_clock::now();
+    const auto watch = [&](CellProgress now) {
+      now.failed = failed_ = failed_before + now.failed;
+      progress.set(now.finished, to_text(now));
+      store_->note_progress(to_json(now).dump());
+      if (over_budget()) stopper.stop("more failures than the budget allows");
+      constexpr auto log_every = std::chrono::seconds(10);
+      if (const auto time = std::chrono::steady_clock::now(); time - logged >= log_every) {
+        logged = time;
+        log_->write("progress", to_json(now));
+      }
+    };
+    nanoseconds = run_missing(*store_, prepared, index, study_.seed, state,
+                              {.threads = threads_, .stop = &stopper.flag(), .lanes = lanes_, .progress = {}},
+                              watch);
+  }
+
+  OutcomeSource outcomes_of(std::uint32_t index, std::uint32_t limit) const {
+    return [this, index, limit](const auto& visit) {
+      store_->for_each_trial(index, limit,
+                             [&](const Store::TrialView& trial) { visit(trial.outcomes); });
+    };
   }
 
   void summarise(std::uint32_t index, const PreparedCell& prepared,
-                 const std::vector<double>& nanoseconds) {
+                 const std::vector<double>& nanoseconds, const std::optional<std::string>& stopped_by) {
     const auto& cell = study_.cells[index];
-    const auto summary = summarise_cell(cell, [&](const auto& visit) {
+    const TrialSource trials = [&](const auto& visit) {
       store_->for_each_trial(index, cell.trials, [&](const Store::TrialView& trial) {
         visit(trial.calibrated, trial.outcomes);
       });
-    });
+    };
+    const auto summary = summarise_cell(cell, trials);
     if (cell.needs_calibration())
       tables_.push_back(calibration_table(cell, prepared.calibration, summary));
     if (auto tuning = tuning_table(cell, prepared.tuned); !tuning.rows.empty())
       tables_.push_back(std::move(tuning));
-    for (auto& table : error_tables(cell, summary)) tables_.push_back(std::move(table));
+    auto errors = error_tables(cell, summary);
+    if (stopped_by)
+      errors.front().notes.push_back(
+          fmt::format("stopped by its rule after {} trials: {}", cell.trials, *stopped_by));
+    for (auto& table : errors) tables_.push_back(std::move(table));
+    if (cell.methods.size() > 1) tables_.push_back(ranking_table(rank_cell(cell, trials)));
     if (!nanoseconds.empty()) timings_.push_back(timing_table(cell, nanoseconds));
   }
 
@@ -208,6 +253,8 @@ void add_run(CLI::App& program, Console& console, int& exit_code) {
       ->check(CLI::Range(1U, 4294967295U));
   verb->add_option("--shard", arguments->shard,
                    "run only the trials of part i of n (in a Slurm job array: the task's own)");
+  verb->add_option("--stop", arguments->stop,
+                   "rule by which cells stop before all trials are run, instead of the study's; none");
   verb->add_option("--until", arguments->until, "stop in good order at this time of day, as 07:00");
   verb->add_option("--failure-budget", arguments->failure_budget,
                    "share of the trials that may fail, instead of the study's")

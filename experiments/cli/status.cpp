@@ -1,6 +1,8 @@
 #include "experiments/address.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/verbs.hpp"
+#include "analysis/statistics/sequential.hpp"
+#include "experiments/study_store.hpp"
 #include "results/store.hpp"
 
 namespace gyrostat::cli {
@@ -25,6 +27,29 @@ Table cells_table(const Store& store, const Manifest& manifest) {
     const auto& cell = manifest.cells[c];
     table.rows.push_back({cell.name, std::int64_t{std::min(cell.finished, cell.trials)},
                           std::int64_t{cell.trials}, std::int64_t{store.failed_trials(c, cell.trials)}});
+  }
+  return table;
+}
+
+/// Why cells have stopped before all of their trials, where rules have been asked.
+Table stops_table(const Store& store) {
+  Table table{.title = "stop rules", .columns = {{"cell", ""}, {"trials", ""}, {"stopped", ""}}, .rows = {},
+              .notes = {}};
+  const auto study = stored_study(store);
+  for (std::uint32_t c = 0; c < study.cells.size(); ++c) {
+    const auto& cell = study.cells[c];
+    if (!cell.stop) continue;
+    const auto looks = look_counts(cell.stop->at_least, cell.trials);
+    std::uint32_t finished = 0;
+    const auto reason = stop_reason(cell, cell.trials, [&](const auto& visit) {
+      finished = 0;
+      store.for_each_trial(c, cell.trials, [&](const Store::TrialView& trial) {
+        ++finished;
+        visit(trial.outcomes);
+      });
+    });
+    const bool at_look = !looks.empty() && looks.back() == cell.trials && finished == cell.trials;
+    table.rows.push_back({cell.name, std::int64_t{finished}, at_look && reason ? *reason : "not yet"});
   }
   return table;
 }
@@ -73,6 +98,8 @@ int run(const StatusArguments& arguments, Console& console) {
     tables = {failures_table(store, manifest)};
   else
     tables = {cells_table(store, manifest), sessions_table(store)};
+  if (!arguments.failures && manifest.source.find("\"stop\"") != std::string::npos)
+    tables.insert(tables.begin() + 1, stops_table(store));
   console.out << render(tables, format);
   return complete;
 }

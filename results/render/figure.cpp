@@ -198,4 +198,53 @@ std::string svg(const HeatMap& map) {
   return out + "</svg>\n";
 }
 
+std::string svg(const RankDiagram& diagram) {
+  auto methods = diagram.methods;
+  std::erase_if(methods, [](const auto& m) { return !std::isfinite(m.mean_rank); });
+  std::stable_sort(methods.begin(), methods.end(),
+                   [](const auto& a, const auto& b) { return a.mean_rank < b.mean_rank; });
+  // Maximal runs that the critical difference spans; a run that another contains is not drawn.
+  std::vector<std::pair<std::size_t, std::size_t>> bars;
+  for (std::size_t from = 0, reached = 0; from < methods.size(); ++from) {
+    std::size_t to = from;
+    while (to + 1 < methods.size() &&
+           methods[to + 1].mean_rank - methods[from].mean_rank <= diagram.critical_difference)
+      ++to;
+    if (to > from && to > reached) bars.emplace_back(from, to);
+    reached = std::max(reached, to);
+  }
+  constexpr double row = 18.0, ruler = 76.0;
+  const double line = ruler + 14.0 + 8.0 * static_cast<double>(bars.size());
+  const double height = line + row * static_cast<double>(methods.size()) + 20.0;
+  Axis x{.from = 1.0, .to = std::max<double>(2.0, static_cast<double>(methods.size())), .start = margin_left,
+         .length = width - margin_left - margin_right};
+  const auto segment = [](double x1, double y1, double x2, double y2, double thickness) {
+    return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#222222\" "
+                       "stroke-width=\"{}\"/>\n", x1, y1, x2, y2, thickness);
+  };
+  std::string out = head(height, diagram.title);
+  out += segment(x.at(x.from), ruler, x.at(x.to), ruler, 1.0);
+  for (double rank = 1.0; rank <= x.to; rank += 1.0) {
+    out += segment(x.at(rank), ruler - 5.0, x.at(rank), ruler, 1.0);
+    out += text_at(x.at(rank), ruler - 9.0, fmt::format("{:g}", rank), "middle");
+  }
+  if (std::isfinite(diagram.critical_difference)) {
+    const double end = x.at(1.0 + std::min(diagram.critical_difference, x.to - 1.0));
+    out += segment(x.at(1.0), 46.0, end, 46.0, 2.0);
+    out += text_at(end + 6.0, 50.0, fmt::format("critical difference {:.3g}", diagram.critical_difference));
+  }
+  for (std::size_t b = 0; b < bars.size(); ++b) {
+    const double y = ruler + 10.0 + 8.0 * static_cast<double>(b);
+    out += segment(x.at(methods[bars[b].first].mean_rank) - 3.0, y, x.at(methods[bars[b].second].mean_rank) + 3.0, y,
+                   4.0);
+  }
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    const double y = line + row * static_cast<double>(m + 1), at = x.at(methods[m].mean_rank);
+    out += segment(at, ruler, at, y, 1.0) + segment(at, y, x.at(x.to) + 8.0, y, 1.0);
+    out += text_at(x.at(x.to) + 12.0, y + 4.0,
+                   fmt::format("{} ({:.2f})", methods[m].name, methods[m].mean_rank));
+  }
+  return out + "</svg>\n";
+}
+
 }  // namespace gyrostat

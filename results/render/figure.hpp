@@ -26,8 +26,21 @@ struct HeatMap {
   std::vector<bool> ranked;  ///< by column: whether it counts for the least of a row
 };
 
+/// Mean ranks on a line, best at the left; a bar joins those that differ by no more than the critical
+/// difference (Demsar, JMLR 7, 2006, fig. 1).
+struct RankDiagram {
+  struct Method {
+    std::string name;
+    double mean_rank;
+  };
+  std::string title;
+  std::vector<Method> methods;
+  double critical_difference;
+};
+
 /// As SVG: the same bytes for the same numbers.
 std::string svg(const LineChart& chart);
 std::string svg(const HeatMap& map);
+std::string svg(const RankDiagram& diagram);
 
 }  // namespace gyrostat

@@ -12,7 +12,9 @@ std::string escaped(std::string_view s) {
       {"$", "\\$"}, {"{", "\\{"}, {"}", "\\}"}, {"~", "\\textasciitilde{}"},
       {"^", "\\textasciicircum{}"}, {"|", "\\textbar{}"}, {"<", "\\textless{}"}, {">", "\\textgreater{}"}, {"°", "\\textdegree{}"}, {"±", "$\\pm$"}, {"²", "$^2$"},
       {"σ", "$\\sigma$"}, {"χ", "$\\chi$"}, {"φ", "$\\varphi$"}, {"δ", "$\\delta$"},
-      {"τ", "$\\tau$"}, {"·", "$\\cdot$"}, {"–", "--"}, {"≥", "$\\ge$"}};
+      {"τ", "$\\tau$"}, {"μ", "$\\mu$"}, {"θ", "$\\theta$"}, {"·", "$\\cdot$"}, {"–", "--"},
+      {"≥", "$\\ge$"}, {"≤", "$\\le$"}, {"×", "$\\times$"}, {"−", "$-$"}, {"…", "\\dots{}"}, {"³", "$^3$"},
+      {"√", "$\\surd$"}};
   std::string out;
   while (!s.empty()) {
     bool replaced = false;

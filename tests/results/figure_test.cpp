@@ -78,5 +78,19 @@ TEST(ParseTables, NamesThePlaceOfAnythingElse) {
     EXPECT_THROW((void)parse_tables(json, "here"), InputError) << json;
 }
 
+/// Ranks 1, 1.5 and 3: a bar joins the first two alone.
+TEST(RankDiagram, JoinsWhatTheCriticalDifferenceSpans) {
+  const RankDiagram diagram{.title = "t", .methods = {{"c", 3.0}, {"a", 1.0}, {"b", 1.5}, {"x", NAN}},
+                            .critical_difference = 0.6};
+  const auto text = svg(diagram);
+  EXPECT_EQ(text, svg(diagram));
+  EXPECT_EQ(count(text, "stroke-width=\"4\""), 1);
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+  EXPECT_LT(text.find("a (1.00)"), text.find("b (1.50)"));
+  auto wide = diagram;
+  wide.critical_difference = 2.5;
+  EXPECT_EQ(count(svg(wide), "stroke-width=\"4\""), 1) << "one bar over all";
+}
+
 }  // namespace
 }  // namespace gyrostat

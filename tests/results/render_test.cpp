@@ -172,7 +172,7 @@ TEST(Render, LatexPrintsBarsAndAnglesAsTheyAre) {
 }
 
 TEST(Render, LatexHasACommandForEverySignOfTheTables) {
-  const auto out = rendered(texts({"± ° ² σ χ φ δ τ · – ≥"}), Format::latex);
+  const auto out = rendered(texts({"± ° ² σ χ φ δ τ · – ≥ μ θ ≤ × − … ³ √"}), Format::latex);
   EXPECT_EQ(characters(out), out.size()) << out;
 }
 

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string_view>
+
+#include "analysis/errors.hpp"
+
+namespace gyrostat::metrics {
+
+/// Ljung and Box's Q (Biometrika 65, 1978) of the normalised innovations at lags 1 to 10: 10 on average
+/// where they are white.
+struct LjungBox {
+  static constexpr std::string_view title = "whiteness of the innovations, Q of lags 1 to 10";
+  static constexpr std::string_view unit = "1";
+
+  double operator()(const TrackErrors& errors) const { return errors.innovations.ljung_box; }
+};
+
+}  // namespace gyrostat::metrics

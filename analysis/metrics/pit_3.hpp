@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string_view>
+
+#include "analysis/errors.hpp"
+
+namespace gyrostat::metrics {
+
+/// Share of innovations between the quantiles 0.3 and 0.4 of the normal distribution that the filter
+/// foretold (probability integral transform; Dawid, JRSS A 147, 1984): 0.1 for a consistent filter.
+struct Pit3 {
+  static constexpr std::string_view title = "innovations in tenth 4 of what was foretold";
+  static constexpr std::string_view unit = "1";
+
+  double operator()(const TrackErrors& errors) const { return errors.innovations.pit[3]; }
+};
+
+}  // namespace gyrostat::metrics

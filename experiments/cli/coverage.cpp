@@ -1,0 +1,43 @@
+#include "experiments/coverage.hpp"
+
+#include "experiments/cli/options.hpp"
+#include "experiments/cli/progress.hpp"
+#include "experiments/cli/verbs.hpp"
+
+namespace gyrostat::cli {
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  gyrostat coverage experiments/studies/coverage.json    how often each 95 % interval holds what it is for)";
+
+struct CoverageArguments {
+  std::string study;
+  FormatOption format;
+};
+
+int run(const CoverageArguments& arguments, Console& console) {
+  const auto format = arguments.format.get();
+  const auto study = read_coverage(arguments.study);
+  const auto coverages = measure_coverage(study, [&](const Study& cells, const Cell& cell) {
+    Progress progress(console.log, console.log_is_terminal, cell.name, cell.trials);
+    return run_cell(cell, cells.seed,
+                    {.threads = 0, .stop = &console.stop, .progress = [&](std::size_t done) { progress.set(done); }});
+  });
+  if (console.stop) return stopped;
+  const auto table = coverage_table(study, coverages);
+  console.out << render({&table, 1}, format);
+  return complete;
+}
+
+}  // namespace
+
+void add_coverage(CLI::App& program, Console& console, int& exit_code) {
+  auto* verb = program.add_subcommand("coverage", "measure how often the program's intervals hold");
+  auto arguments = std::make_shared<CoverageArguments>();
+  verb->add_option("study", arguments->study, "coverage study (JSON)")->required();
+  arguments->format.add_to(verb);
+  verb->footer(examples);
+  verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
+}
+
+}  // namespace gyrostat::cli

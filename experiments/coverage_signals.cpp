@@ -1,0 +1,78 @@
+#include <cmath>
+
+#include "analysis/spectra/allan.hpp"
+#include "experiments/coverage.hpp"
+#include "experiments/trial.hpp"
+
+namespace gyrostat::coverage_detail {
+namespace {
+
+constexpr double normal_95 = 1.959963984540054;
+
+/// Estimates ± 1.96 standard errors against the truth; an infinite one says that there is none.
+template <class P>
+void add_parameters(Coverage& coverage, const P& fitted, const P& errors, const P& truth) {
+  for (const auto& field : P::fields()) {
+    const double error = errors.*(field.member), estimate = fitted.*(field.member);
+    const double reach = std::isfinite(error) && error > 0.0 ? normal_95 * error : no_value;
+    coverage.add(std::string(field.name), estimate - reach, truth.*(field.member), estimate + reach);
+  }
+}
+
+/// The expectation of the Allan variance at each cluster, by the mean over all signals.
+std::vector<double> allan_variances(const Study& study, const Cell& cell, std::uint32_t signals) {
+  std::vector<double> variances;
+  Series series;
+  for (std::uint32_t s = 0; s < signals; ++s) {
+    cell.make_trial(study.seed, s, series);
+    const auto points = overlapping_allan_deviation(series.gyro_dps, series.rate_hz());
+    variances.resize(points.size());
+    for (std::size_t p = 0; p < points.size(); ++p)
+      variances[p] += points[p].deviation * points[p].deviation / signals;
+  }
+  return variances;
+}
+
+bool is_stationary_noise(const Cell& cell) {
+  const auto& drift = cell.scenario.thermal_drift;
+  return drift.a_dps_per_C == 0.0 && drift.b_dps_s_per_C == 0.0;
+}
+
+}  // namespace
+
+std::vector<Coverage> of_signals(const CoverageStudy& study, const Study& cells, const Cell& cell) {
+  const auto samples = static_cast<std::uint32_t>(cell.scenario.sampling.samples());
+  const auto make = [&](const char* interval) { return Coverage{interval, cell.name, samples, {}}; };
+  Coverage likelihood = make("fit by likelihood, ± 1.96 standard errors");
+  Coverage moments = make("fit by moments, ± 1.96 standard errors");
+  Coverage drift = make("fit of thermal drift, ± 1.96 standard errors");
+  Coverage allan = make("Allan deviation");
+  Series series;
+  for (std::uint32_t s = 0; s < study.fits; ++s) {
+    cell.make_trial(cells.seed, s, series);
+    for (const auto method : {FitMethod::likelihood, FitMethod::moments}) {
+      if (samples < 512) continue;
+      const auto fit = calibrate(series, method);
+      auto& coverage = method == FitMethod::likelihood ? likelihood : moments;
+      if (fit.random_error.converged)
+        add_parameters(coverage, fit.random_error.parameters, fit.random_error.standard_errors,
+                       cell.scenario.random_error);
+      if (fit.thermal && !is_stationary_noise(cell) && method == FitMethod::likelihood)
+        add_parameters(drift, fit.thermal->parameters, fit.thermal->standard_errors,
+                       cell.scenario.thermal_drift);
+    }
+  }
+  if (is_stationary_noise(cell)) {
+    const auto variances = allan_variances(cells, cell, study.fits);
+    for (std::uint32_t s = 0; s < study.fits; ++s) {
+      cell.make_trial(cells.seed, s, series);
+      const auto points = overlapping_allan_deviation(series.gyro_dps, series.rate_hz());
+      for (std::size_t p = 0; p < points.size(); ++p)
+        allan.add(fmt::format("{:.3g} s", points[p].tau_s), points[p].lower, std::sqrt(variances[p]),
+                  points[p].upper);
+    }
+  }
+  return {likelihood, moments, drift, allan};
+}
+
+}  // namespace gyrostat::coverage_detail
