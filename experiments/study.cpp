@@ -8,8 +8,8 @@
 #include "analysis/spectra/shrinkage.hpp"
 #include "core/filters/list.hpp"
 #include "core/track.hpp"
+#include "experiments/cell_parameters.hpp"
 #include "experiments/digest.hpp"
-#include "experiments/grid.hpp"
 #include "experiments/recording.hpp"
 
 namespace gyrostat {
@@ -190,6 +190,25 @@ void add_cell(Study& study, Cell cell, const std::string& place) {
   study.cells.push_back(std::move(cell));
 }
 
+/// Adds the cells that a "grid" or a "design" makes of one.
+void add_design(Study& study, const Json& cell, const std::string& place, const std::string& folder) {
+  if (cell.contains("grid") && cell.contains("design"))
+    throw InputError(place, "has a \"grid\" and a \"design\"; a design of kind \"grid\" is the same");
+  Json base = cell;
+  base.erase("design");
+  auto design = cell.contains("grid")
+                    ? read_grid(cell, place)
+                    : read_design(cell, read_cell({base, place}, folder, study.cells.size()), study.seed, place);
+  design.first_cell = study.cells.size();
+  for (const auto& [point, point_place] : cells_of(design, cell, place))
+    add_cell(study, read_cell({point, point_place}, folder, study.cells.size()), point_place);
+  const auto known = cell_parameters(study.cells[design.first_cell]);
+  for (auto& parameter : design.parameters)
+    for (const auto& k : known)
+      if (k.path == parameter.path) parameter.unit = k.unit;
+  study.designs.push_back(std::move(design));
+}
+
 }  // namespace
 
 Scenario read_scenario(JsonObject object, const std::string& folder) {
@@ -263,6 +282,12 @@ std::uint64_t Study::trials() const {
   return sum;
 }
 
+const Design* design_of(const Study& study, std::size_t cell) {
+  for (const auto& design : study.designs)
+    if (cell >= design.first_cell && cell < design.first_cell + design.values.size()) return &design;
+  return nullptr;
+}
+
 void set_trials(Study& study, std::uint32_t trials) {
   for (auto& cell : study.cells) cell.trials = cell.recording ? std::min(cell.trials, trials) : trials;
 }
@@ -284,9 +309,11 @@ Study parse_study(const Json& json, const std::string& path) {
   Study study;
   study.title = object.text("title", std::filesystem::path(path).stem().string());
   study.seed = static_cast<std::uint64_t>(object.number("seed", 1, seed_range, ""));
-  for (const auto& [value, place] : object.list("cells"))
-    for (const auto& [cell, cell_place] : expand_grid(*value, place))
-      add_cell(study, read_cell({cell, cell_place}, folder, study.cells.size()), cell_place);
+  for (const auto& [cell, place] : object.list("cells"))
+    if (cell->is_object() && (cell->contains("grid") || cell->contains("design")))
+      add_design(study, *cell, place, folder);
+    else
+      add_cell(study, read_cell({*cell, place}, folder, study.cells.size()), place);
   if (study.cells.empty()) throw InputError(path, "\"cells\" is missing or empty");
   study.failure_budget = object.number("failure_budget", 1.0, share_range, "of all trials");
   object.finish();
