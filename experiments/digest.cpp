@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "experiments/grid.hpp"
+#include "experiments/design.hpp"
 
 namespace gyrostat {
 namespace {
@@ -34,6 +34,14 @@ void resolve_recording(SortedJson& object, const fs::path& folder) {
   object["file"] = file_digest(folder / object["file"].get<std::string>());
 }
 
+/// The cells that a grid stands for; a design is a function of what is written and stands for itself.
+std::vector<Json> without_grid(const Json& written, const std::string& path) {
+  if (!written.contains("grid")) return {written};
+  std::vector<Json> cells;
+  for (auto& [cell, place] : cells_of(read_grid(written, path), written, path)) cells.push_back(cell);
+  return cells;
+}
+
 }  // namespace
 
 std::string digest(std::string_view bytes) {
@@ -46,7 +54,7 @@ std::string study_digest(const Json& study, const std::string& path) {
   const auto folder = fs::path(path).parent_path();
   SortedJson canonical = {{"seed", study.value("seed", 1.0)}, {"cells", SortedJson::array()}};
   for (const auto& written : study.at("cells"))
-    for (const auto& [expanded, place] : expand_grid(written, path)) {
+    for (const auto& expanded : without_grid(written, path)) {
       auto cell = SortedJson::parse(expanded.dump());
       cell.erase("trials");
       cell.erase("stop");

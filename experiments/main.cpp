@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", GYROSTAT_VERSION);
   cli::add_run(program, console, exit_code);
   cli::add_plan(program, console, exit_code);
+  cli::add_sensitivity(program, console, exit_code);
   cli::add_status(program, console, exit_code);
   cli::add_export(program, console, exit_code);
   cli::add_replay(program, console, exit_code);

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "analysis/statistics/summary.hpp"
-#include "experiments/grid.hpp"
+#include "experiments/json_path.hpp"
 #include "experiments/runner.hpp"
 
 namespace gyrostat {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 #include <thread>
 
 #include "experiments/error_tables.hpp"
@@ -99,6 +100,35 @@ CellPlan plan_cell(const Study& study, std::size_t index, const fs::path& folder
   plan.store_bytes = stored_bytes(cell) * cell.trials;
   plan.export_bytes = static_cast<double>(fs::file_size(place / "outcomes.csv.gz")) * share;
   return plan;
+}
+
+CellPlan plan_design(const Study& study, const Design& design, const fs::path& folder,
+                     const PilotOptions& options) {
+  const std::size_t points = design.values.size();
+  std::set<std::size_t> tried = {0, points / 2, points - 1};
+  PilotOptions each = options;
+  each.seconds /= static_cast<double>(tried.size());
+  CellPlan sum{.cells = points, .measured_cells = tried.size()};
+  double steps_tried = 0.0;
+  for (const auto point : tried) {
+    const auto plan = plan_cell(study, design.first_cell + point, folder, each);
+    steps_tried += plan.steps;
+    sum.pilot_trials += plan.pilot_trials;
+    for (const auto part : {&CellPlan::preparation_s, &CellPlan::trials_s, &CellPlan::results_s,
+                            &CellPlan::store_bytes, &CellPlan::export_bytes})
+      sum.*part += plan.*part;
+  }
+  for (std::size_t i = 0; i < points; ++i) {
+    const auto& cell = study.cells[design.first_cell + i];
+    sum.steps += static_cast<double>(cell.scenario.sampling.samples()) *
+                 static_cast<double>(cell.methods.size()) * cell.trials;
+  }
+  const double share = static_cast<double>(points) / static_cast<double>(tried.size());
+  sum.trials_s *= sum.steps / steps_tried;
+  for (const auto part : {&CellPlan::preparation_s, &CellPlan::results_s, &CellPlan::store_bytes,
+                          &CellPlan::export_bytes})
+    sum.*part *= share;
+  return sum;
 }
 
 }  // namespace gyrostat

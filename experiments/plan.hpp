@@ -8,8 +8,9 @@
 
 namespace gyrostat {
 
-/// What a cell will cost.
+/// What a cell, or all cells of a design, will cost.
 struct CellPlan {
+  std::size_t cells = 1, measured_cells = 1;
   std::uint32_t pilot_trials = 0;  ///< that the figures were measured on
   double steps = 0.0;              ///< of all filters in all trials
   double preparation_s = 0.0;      ///< calibration and tuning
@@ -31,5 +32,10 @@ struct PilotOptions {
 /// and takes the rest in proportion. Tuning is not done but reckoned from the filters' time per step.
 CellPlan plan_cell(const Study& study, std::size_t cell, const std::filesystem::path& folder,
                    const PilotOptions& options);
+
+/// The same of all points of a design, from its first, middle and last: preparation in proportion to
+/// points, trials to their steps.
+CellPlan plan_design(const Study& study, const Design& design, const std::filesystem::path& folder,
+                     const PilotOptions& options);
 
 }  // namespace gyrostat

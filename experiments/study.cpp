@@ -8,8 +8,8 @@
 #include "analysis/spectra/shrinkage.hpp"
 #include "core/filters/list.hpp"
 #include "core/track.hpp"
+#include "experiments/cell_parameters.hpp"
 #include "experiments/digest.hpp"
-#include "experiments/grid.hpp"
 #include "experiments/recording.hpp"
 #include "experiments/study_ranges.hpp"
 
@@ -216,6 +216,35 @@ void add_read_cell(Study& study, const Json& cell, const std::string& place, con
     mistakes.note(line.starts_with(place) ? written_place + line.substr(place.size()) : line);
 }
 
+/// Adds the cells that a "grid" or a "design" makes of one.
+void add_design(Study& study, const Json& cell, const std::string& place, const std::string& folder,
+                Mistakes& mistakes) {
+  if (cell.contains("grid") && cell.contains("design"))
+    throw InputError(place, "has a \"grid\" and a \"design\"; a design of kind \"grid\" is the same");
+  Design design;
+  if (cell.contains("grid")) {
+    design = read_grid(cell, place);
+  } else {
+    Json base = cell;
+    base.erase("design");
+    Mistakes of_base;
+    std::optional<Cell> read;
+    of_base.attempt([&] { read = read_cell({base, place, &of_base}, folder, study.cells.size()); });
+    for (const auto& line : of_base.lines()) mistakes.note(line);
+    if (!of_base.lines().empty()) return;
+    design = read_design(cell, *read, study.seed, place);
+  }
+  design.first_cell = study.cells.size();
+  for (const auto& [point, point_place] : cells_of(design, cell, place))
+    add_read_cell(study, point, point_place, place, folder, mistakes);
+  if (study.cells.size() == design.first_cell) return;
+  const auto known = cell_parameters(study.cells[design.first_cell]);
+  for (auto& parameter : design.parameters)
+    for (const auto& k : known)
+      if (k.path == parameter.path) parameter.unit = k.unit;
+  study.designs.push_back(std::move(design));
+}
+
 }  // namespace
 
 Scenario read_scenario(JsonObject object, const std::string& folder) {
@@ -294,6 +323,12 @@ std::uint64_t Study::trials() const {
   return sum;
 }
 
+const Design* design_of(const Study& study, std::size_t cell) {
+  for (const auto& design : study.designs)
+    if (cell >= design.first_cell && cell < design.first_cell + design.values.size()) return &design;
+  return nullptr;
+}
+
 void set_trials(Study& study, std::uint32_t trials) {
   for (auto& cell : study.cells) cell.trials = cell.recording ? std::min(cell.trials, trials) : trials;
 }
@@ -322,10 +357,12 @@ Study parse_study(const Json& json, const std::string& path, Mistakes mistakes) 
   study.seed = static_cast<std::uint64_t>(object.number("seed", 1, study_ranges::seed, ""));
   study.failure_budget = object.number("failure_budget", 1.0, study_ranges::share, "of all trials");
   const bool cells_read = object.attempt([&] {
-    for (const auto& entry : object.list("cells"))
+    for (const auto& [cell, place] : object.list("cells"))
       object.attempt([&] {
-        for (const auto& [cell, place] : expand_grid(*entry.first, entry.second))
-          add_read_cell(study, cell, place, entry.second, folder, mistakes);
+        if (cell->is_object() && (cell->contains("grid") || cell->contains("design")))
+          add_design(study, *cell, place, folder, mistakes);
+        else
+          add_read_cell(study, *cell, place, place, folder, mistakes);
       });
   });
   if (cells_read && study.cells.empty()) mistakes.note(path + ": \"cells\" is missing or empty");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/calibration.hpp"
+#include "experiments/design.hpp"
 #include "experiments/method.hpp"
 #include "experiments/stop_rule.hpp"
 #include "generators/scenario.hpp"
@@ -54,6 +55,7 @@ struct Study {
   std::string title;
   std::uint64_t seed = 1;
   std::vector<Cell> cells;
+  std::vector<Design> designs;  ///< of whose points cells were made
   double failure_budget = 1.0;  ///< share of all trials that may throw or break down
   std::string path;             ///< of the study file
   std::string source;           ///< its JSON
@@ -63,6 +65,9 @@ struct Study {
   std::string name() const;
   std::uint64_t trials() const;  ///< of all cells
 };
+
+/// The design that a cell is a point of; nullptr for a cell of its own.
+const Design* design_of(const Study& study, std::size_t cell);
 
 /// Sets the number of trials of every cell; a recording has no more than its pieces.
 void set_trials(Study& study, std::uint32_t trials);

@@ -9,6 +9,8 @@
 #include "analysis/statistics/summary.hpp"
 #include "experiments/error_tables.hpp"
 #include "experiments/page.hpp"
+#include "experiments/sensitivity.hpp"
+#include "experiments/study_store.hpp"
 
 namespace gyrostat {
 namespace {
@@ -352,6 +354,26 @@ Table tuned(const Request& request, Results& results) {
   return table;
 }
 
+/// The elasticities, mu* and sigma, or indices of the design that the chosen cells are points of.
+Table sensitivity(const Request& request, Results& results) {
+  Study study = results.study();
+  std::erase_if(study.designs, [&](const Design& design) {
+    return &results.study().cells[design.first_cell] != request.cells.front();
+  });
+  const auto trials = [&](std::size_t cell, const auto& visit) {
+    const auto& records = results.of(results.study().cells[cell]).trials;
+    for (std::uint32_t t = 0; t < records.size(); ++t)
+      if (records[t]) visit(t, row_of(0, t, *records[t]).outcomes);
+  };
+  const auto found =
+      sensitivities(study, CellTrials(trials), {.metric = Metrics::ids()[request.metrics.front()]});
+  auto tables = sensitivity_tables(found, study);
+  if (tables.empty())
+    throw InputError(request.name, "the chosen cells are no one_at_a_time, morris or saltelli design");
+  tables.front().title = request.title;
+  return tables.front();
+}
+
 }  // namespace
 
 std::vector<NamedTable> study_tables(const std::string& path,
@@ -359,7 +381,8 @@ std::vector<NamedTable> study_tables(const std::string& path,
                                      const RunCell& run) {
   static const std::vector<std::pair<std::string, Table (*)(const Request&, Results&)>> kinds = {
       {"means", means}, {"map", map_of},  {"versus", versus},
-      {"traces", traces}, {"allan", allan}, {"tuned", tuned}};
+      {"traces", traces}, {"allan", allan}, {"tuned", tuned},
+      {"sensitivity", sensitivity}};
   Results results(path, run);
   std::vector<Request> requests;
   for (const auto& [spec, place] : specs) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/types.hpp"
 
@@ -22,6 +23,7 @@ struct Elasticity {
 struct ElementaryEffect {
   std::string parameter;
   Estimate mu_star, sigma;  ///< in the output's unit, over the parameter's range scaled to [0, 1]
+  std::size_t left_out = 0;  ///< steps with fewer than two trials that both of its ends have
 };
 
 /// Shares of the output's variance over the design, the trial noise taken out; the noise is a row of
@@ -29,6 +31,7 @@ struct ElementaryEffect {
 struct SobolIndex {
   std::string parameter;
   Estimate first_order, total;
+  std::size_t left_out = 0;  ///< rows with fewer than two trials that all of its points have
 };
 
 }  // namespace gyrostat

@@ -56,26 +56,54 @@ std::string duration(double seconds) {
   return fmt::format("{} d {} h", s / 86400, s / 3600 % 24);
 }
 
-Table plan_table(const Study& study, const std::vector<CellPlan>& plans, const PlanArguments& arguments) {
+/// A cell of its own, or a design with all of its points, and what that will cost.
+struct PlannedPart {
+  std::string name;
+  const Cell* first;
+  CellPlan plan;
+
+  double trials() const { return static_cast<double>(plan.cells) * first->trials; }
+};
+
+std::vector<PlannedPart> plan_parts(const Study& study, const fs::path& scratch, const PilotOptions& pilot,
+                                    const std::atomic<bool>& stop) {
+  std::vector<PlannedPart> parts;
+  for (std::size_t c = 0; c < study.cells.size() && !stop; c += parts.back().plan.cells) {
+    const auto* design = design_of(study, c);
+    if (design != nullptr && design->is_sampled())
+      parts.push_back({fmt::format("{} ({})", design->name, name_of(design->kind)), &study.cells[c],
+                       plan_design(study, *design, scratch, pilot)});
+    else
+      parts.push_back({study.cells[c].name, &study.cells[c], plan_cell(study, c, scratch, pilot)});
+  }
+  return parts;
+}
+
+Table plan_table(const Study& study, const std::vector<PlannedPart>& parts, const PlanArguments& arguments) {
   Table table{.title = study.title,
               .columns = {{"cell", ""}, {"trials", ""}, {"filters", ""}, {"samples", ""}, {"steps", ""},
-                          {"a trial", "ms"}, {"time", "s"}, {"disk", "MB"}, {"pilot trials", ""}},
+                          {"a trial", "ms"}, {"time", "s"}, {"disk", "MB"}, {"pilot trials", ""},
+                          {"cells", ""}},
               .rows = {}, .notes = {}};
   double seconds = 0.0, bytes = 0.0, steps = 0.0;
-  for (std::size_t c = 0; c < plans.size(); ++c) {
-    const auto& [cell, plan] = std::tie(study.cells[c], plans[c]);
+  for (const auto& part : parts) {
+    const auto& [cell, plan] = std::tie(*part.first, part.plan);
     const double time = plan.preparation_s + (plan.trials_s + plan.results_s) / arguments.shards;
     seconds += time;
     bytes += plan.bytes();
     steps += plan.steps;
-    table.rows.push_back({cell.name, std::int64_t{cell.trials},
+    table.rows.push_back({part.name, static_cast<std::int64_t>(part.trials()),
                           static_cast<std::int64_t>(cell.methods.size()),
                           static_cast<std::int64_t>(cell.scenario.sampling.samples()), plan.steps,
-                          1e3 * plan.trials_s / cell.trials, time, 1e-6 * plan.bytes(),
-                          std::int64_t{plan.pilot_trials}});
+                          1e3 * plan.trials_s / part.trials(), time, 1e-6 * plan.bytes(),
+                          std::int64_t{plan.pilot_trials}, static_cast<std::int64_t>(plan.cells)});
+    if (plan.measured_cells < plan.cells)
+      table.notes.push_back(fmt::format("{}: measured at {} of its {} points, the others taken in proportion",
+                                        part.name, plan.measured_cells, plan.cells));
   }
   table.rows.push_back({"all", static_cast<std::int64_t>(study.trials()), TableCell(), TableCell(), steps,
-                        TableCell(), seconds, 1e-6 * bytes, TableCell()});
+                        TableCell(), seconds, 1e-6 * bytes, TableCell(),
+                        static_cast<std::int64_t>(study.cells.size())});
   const auto shards = arguments.shards > 1 ? fmt::format(" for each of {} shards", arguments.shards) : "";
   table.notes.push_back(fmt::format("predicted run time {}{}, measured on the first trials of each cell, "
                                     "on this machine as busy as it is now",
@@ -91,10 +119,8 @@ int run(const PlanArguments& arguments, Console& console) {
   Study study = read_study(arguments.study);
   if (arguments.trials > 0) set_trials(study, arguments.trials);
   const ScratchFolder scratch;
-  std::vector<CellPlan> plans;
-  for (std::size_t c = 0; c < study.cells.size() && !console.stop; ++c)
-    plans.push_back(plan_cell(study, c, scratch.path(), arguments.pilot));
-  const auto table = plan_table(study, plans, arguments);
+  const auto parts = plan_parts(study, scratch.path(), arguments.pilot, console.stop);
+  const auto table = plan_table(study, parts, arguments);
   console.out << render({&table, 1}, format);
   return console.stop ? stopped : complete;
 }

@@ -35,11 +35,12 @@ std::vector<NamedTable> made(const PublishArguments& arguments, const Page& page
       shown.tuning.trials = 2;
       shown.tuning.evaluations = std::min(shown.tuning.evaluations, 10);
     }
+    RunOptions options{.threads = arguments.threads, .stop = &console.stop, .progress = {}};
+    const auto* design = design_of(study, static_cast<std::size_t>(&cell - study.cells.data()));
+    if (design != nullptr && design->is_sampled()) return run_cell(shown, study.seed, options);
     Progress progress(console.log, console.log_is_terminal, cell.name, shown.trials);
-    return run_cell(shown, study.seed,
-                    {.threads = arguments.threads,
-                     .stop = &console.stop,
-                     .progress = [&](std::size_t done) { progress.set(done); }});
+    options.progress = [&](std::size_t done) { progress.set(done); };
+    return run_cell(shown, study.seed, options);
   };
   const auto match = [&](Match wanted) {
     if (arguments.trials > 0) {

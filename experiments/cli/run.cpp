@@ -12,6 +12,7 @@
 #include "experiments/outcome_file.hpp"
 #include "experiments/ranking.hpp"
 #include "experiments/run_log.hpp"
+#include "experiments/sensitivity.hpp"
 #include "experiments/stored_run.hpp"
 #include "experiments/study_store.hpp"
 #include "experiments/time_of_day.hpp"
@@ -100,8 +101,17 @@ class Run {
       console_.log << fmt::format("shard {} of {}\n", shard_.index, shard_.count);
     Stopper stopper(console_, until_);
     auto states = read_states();
-    for (std::uint32_t c = 0; c < study_.cells.size() && !stopper.flag(); ++c)
-      run_cell(c, states[c], stopper);
+    for (std::uint32_t c = 0; c < study_.cells.size() && !stopper.flag();) {
+      const auto* design = design_of(study_, c);
+      if (design == nullptr || !design->is_sampled()) {
+        run_cell(c, states[c], stopper);
+        ++c;
+      } else {
+        run_design(*design, states, stopper);
+        c += static_cast<std::uint32_t>(design->values.size());
+      }
+    }
+    add_design_tables();
     write_results();
     return end(stopper);
   }
@@ -175,6 +185,63 @@ class Run {
     };
   }
 
+  /// The points of a design, one after the other under one line of progress. They have no tables of their
+  /// own: those of the design say what came out.
+  void run_design(const Design& design, std::vector<CellState>& states, Stopper& stopper) {
+    using Clock = std::chrono::steady_clock;
+    const auto first = static_cast<std::uint32_t>(design.first_cell);
+    const auto last = first + static_cast<std::uint32_t>(design.values.size());
+    CellProgress whole{.cell = design.name, .finished = 0, .trials = 0, .failed = failed_, .widest = {}};
+    for (auto c = first; c < last; ++c) {
+      whole.finished += states[c].finished();
+      whole.trials += states[c].trials();
+    }
+    if (whole.finished < whole.trials) {
+      Progress progress(console_.log, console_.log_is_terminal, design.name, whole.trials);
+      const auto before = whole.finished;
+      const auto start = Clock::now();
+      auto logged = start, noted = start;
+      for (auto c = first; c < last && !stopper.flag(); ++c) {
+        if (states[c].missing() == 0) continue;
+        const auto done = whole.finished - states[c].finished();
+        const auto failed_before = failed_;
+        const auto prepared = prepare_cell(study_.cells[c], study_.seed, threads_);
+        run_missing(*store_, prepared, c, study_.seed, states[c],
+                    {.threads = threads_, .stop = &stopper.flag(), .lanes = lanes_, .progress = {}},
+                    [&](const CellProgress& now) {
+                      whole.failed = failed_ = failed_before + now.failed;
+                      whole.finished = done + now.finished;
+                      whole.trials_per_s = (whole.finished - before) /
+                                           std::chrono::duration<double>(Clock::now() - start).count();
+                      whole.left_s = (whole.trials - whole.finished) / whole.trials_per_s;
+                      progress.set(whole.finished, to_text(whole));
+                      if (over_budget()) stopper.stop("more failures than the budget allows");
+                    });
+        constexpr auto note_every = std::chrono::seconds(1), log_every = std::chrono::seconds(10);
+        if (Clock::now() - noted >= note_every) {
+          noted = Clock::now();
+          store_->note_progress(to_json(whole).dump());
+        }
+        if (Clock::now() - logged >= log_every) {
+          logged = Clock::now();
+          log_->write("progress", to_json(whole));
+        }
+      }
+      store_->note_progress(to_json(whole).dump());
+    }
+    log_->write("design", {{"design", design.name}, {"points", design.values.size()}, {"failed", failed_}});
+  }
+
+  /// What the designs say; many points are for the files alone.
+  void add_design_tables() {
+    Study sampled = study_;
+    std::erase_if(sampled.designs, [](const Design& design) { return !design.is_sampled(); });
+    if (sampled.designs.empty()) return;
+    const auto found = sensitivities(sampled, *store_);
+    for (auto& table : sensitivity_tables(found, sampled)) tables_.push_back(std::move(table));
+    points_ = point_tables(found, sampled);
+  }
+
   void summarise(std::uint32_t index, const PreparedCell& prepared,
                  const std::vector<double>& nanoseconds, const std::optional<std::string>& stopped_by) {
     const auto& cell = study_.cells[index];
@@ -198,11 +265,22 @@ class Run {
   }
 
   void write_results() {
-    console_.out << render(tables_, format_) << std::flush;
+    const auto all = with_points(most_files);
+    console_.out << render(with_points(most_shown), format_) << std::flush;
     if (format_ == Format::text && !timings_.empty()) console_.out << '\n' << render(timings_, format_);
     write_outcomes(folder_ / "outcomes.csv.gz", *store_);
-    write_atomically(folder_ / "tables.json", render(tables_, Format::json));
-    write_atomically(folder_ / "tables.md", render(tables_, Format::markdown));
+    write_atomically(folder_ / "tables.json", render(all, Format::json));
+    write_atomically(folder_ / "tables.md", render(all, Format::markdown));
+  }
+
+  static constexpr std::size_t most_shown = 40, most_files = 1000000;
+
+  /// All tables, with those of designs' points that have no more than `most` rows.
+  std::vector<Table> with_points(std::size_t most) const {
+    auto tables = tables_;
+    for (const auto& points : points_)
+      if (points.rows.size() <= most) tables.push_back(points);
+    return tables;
   }
 
   bool over_budget() const {
@@ -236,7 +314,7 @@ class Run {
   std::optional<std::time_t> until_;
   std::optional<Store> store_;
   std::optional<RunLog> log_;
-  std::vector<Table> tables_, timings_;
+  std::vector<Table> tables_, points_, timings_;
   std::uint32_t failed_ = 0;
 };
 

@@ -8,14 +8,27 @@ namespace {
 constexpr const char* examples = R"(Examples:
   gyrostat validate STUDY.json     all of its mistakes, or what it would run)";
 
+/// A design on one line: "sweep, saltelli of 768 points over phi, delta1_dps".
+std::string described(const Design& design) {
+  std::vector<std::string> names;
+  for (const auto& parameter : design.parameters) names.push_back(parameter.name);
+  return fmt::format("{}, {} of {} points over {}", design.name, name_of(design.kind), design.values.size(),
+                     fmt::join(names, ", "));
+}
+
 int run(const std::string& path, Console& console) {
   const Study study = read_study(path);
   console.out << fmt::format("{}: sound. \"{}\", seed {}\n", path, study.title, study.seed);
-  for (const auto& cell : study.cells) {
+  for (std::size_t c = 0; c < study.cells.size(); ++c) {
+    const auto& cell = study.cells[c];
+    const auto* design = design_of(study, c);
+    const bool sampled = design != nullptr && design->is_sampled();
     std::vector<std::string> ids;
     for (const auto& method : cell.methods) ids.push_back(method.id);
-    console.out << fmt::format("  {}: {} trials of {} samples, methods {}\n", cell.name, cell.trials,
+    console.out << fmt::format("  {}: {} trials of {} samples, methods {}\n",
+                               sampled ? described(*design) : cell.name, cell.trials,
                                cell.scenario.sampling.samples(), fmt::join(ids, ", "));
+    if (sampled) c += design->values.size() - 1;
   }
   return complete;
 }

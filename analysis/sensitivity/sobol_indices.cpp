@@ -1,0 +1,93 @@
+#include "analysis/sensitivity/estimators.hpp"
+#include "analysis/sensitivity/paired_trials.hpp"
+#include "analysis/sensitivity/trial_moments.hpp"
+
+namespace gyrostat {
+namespace {
+
+/// In each trial, the mean over those points that have it.
+std::vector<double> trial_levels(const Outputs& outputs) {
+  std::vector<double> levels(outputs.trials());
+  for (std::size_t t = 0; t < levels.size(); ++t) {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < outputs.points(); ++i)
+      if (!std::isnan(outputs.at(i, t))) {
+        sum += outputs.at(i, t);
+        count += 1.0;
+      }
+    levels[t] = sum / count;
+  }
+  return levels;
+}
+
+/// Two points of each row, held against each other.
+class Comparison {
+ public:
+  explicit Comparison(const Outputs& outputs)
+      : outputs_(outputs), levels_(trial_levels(outputs)), rows_(3, outputs.trials()) {}
+
+  /// Half the squared difference, half the squares, and the noise in these, of points `a` and `b`.
+  /// False where too few trials have both.
+  bool add(std::size_t a, std::size_t b) {
+    const auto common = common_trials(outputs_, {a, b});
+    if (!are_enough(common, outputs_)) return false;
+    std::vector<double> first(outputs_.trials(), no_value), second = first, difference = first;
+    for (const auto t : common) {
+      first[t] = outputs_.at(a, t) - levels_[t];
+      second[t] = outputs_.at(b, t) - levels_[t];
+      difference[t] = first[t] - second[t];
+    }
+    const auto firsts = trial_means(first), seconds = trial_means(second),
+               differences = trial_means(difference);
+    std::vector<std::vector<double>> numbers;
+    for (std::size_t i = 0; i < firsts.size(); ++i)
+      numbers.push_back({0.5 * differences[i].square(),
+                         0.5 * (firsts[i].square() + seconds[i].square()),
+                         0.5 * (firsts[i].variance + seconds[i].variance)});
+    rows_.add(numbers);
+    return true;
+  }
+
+  Estimate shared(Resampler& resampler) const {
+    return bootstrapped(rows_, [](auto m) { return m[1] > 0.0 ? 1.0 - m[0] / m[1] : no_value; }, resampler);
+  }
+  Estimate unshared(Resampler& resampler) const {
+    return bootstrapped(rows_, [](auto m) { return m[1] > 0.0 ? m[0] / m[1] : no_value; }, resampler);
+  }
+  Estimate noise(Resampler& resampler) const {
+    return bootstrapped(rows_, [](auto m) { return m[1] > 0.0 ? m[2] / m[1] : no_value; }, resampler);
+  }
+
+ private:
+  const Outputs& outputs_;
+  std::vector<double> levels_;
+  CrossedRows rows_;
+};
+
+}  // namespace
+
+std::vector<SobolIndex> sobol_indices(std::size_t parameters, const Outputs& outputs,
+                                      Resampler& resampler) {
+  std::vector<SobolIndex> indices;
+  const std::size_t points = parameters + 2, rows = outputs.points() / points;
+  for (std::size_t p = 0; p < parameters; ++p) {
+    SobolIndex index;
+    Comparison from_b(outputs), from_a(outputs);
+    for (std::size_t r = 0; r < rows; ++r) {
+      const std::size_t a = r * points, b = a + 1, mixed = a + 2 + p;
+      const bool whole = from_b.add(b, mixed);
+      index.left_out += !(from_a.add(a, mixed) && whole);
+    }
+    index.first_order = from_b.shared(resampler);
+    index.total = from_a.unshared(resampler);
+    indices.push_back(index);
+  }
+  Comparison both(outputs);
+  SobolIndex noise;
+  for (std::size_t r = 0; r < rows; ++r) noise.left_out += !both.add(r * points, r * points + 1);
+  noise.first_order = both.noise(resampler);
+  indices.push_back(noise);
+  return indices;
+}
+
+}  // namespace gyrostat

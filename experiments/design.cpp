@@ -1,0 +1,325 @@
+#include "experiments/design.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "experiments/cell_parameters.hpp"
+#include "experiments/json_path.hpp"
+
+namespace gyrostat {
+namespace {
+
+constexpr std::array<std::string_view, 7> kind_names = {
+    "grid", "list", "latin_hypercube", "sobol", "one_at_a_time", "morris", "saltelli"};
+
+constexpr Range point_range{.from = 1, .to = 1e6, .whole = true};
+constexpr Range level_range{.from = 2, .to = 1000, .whole = true};
+constexpr std::size_t most_points = 1000000;
+
+DesignKind kind_named(const std::string& name, const std::string& place) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < kind_names.size(); ++k) {
+    if (kind_names[k] == name) return static_cast<DesignKind>(k);
+    names.emplace_back(kind_names[k]);
+  }
+  throw InputError(place, unknown_name("design", name, names));
+}
+
+std::string shown(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// As much of each path's end as tells it from the others.
+void name_parameters(std::vector<DesignParameter>& parameters) {
+  for (auto& p : parameters) {
+    std::size_t from = p.path.size();
+    bool unique = false;
+    while (!unique && from != 0) {
+      const auto dot = p.path.rfind('.', from - 1);
+      from = dot == std::string::npos ? 0 : dot;
+      p.name = p.path.substr(from == 0 ? 0 : from + 1);
+      unique = std::none_of(parameters.begin(), parameters.end(), [&](const auto& other) {
+        return other.path != p.path && ("." + other.path).ends_with("." + p.name);
+      });
+      if (dot == std::string::npos) break;
+    }
+  }
+}
+
+std::string named_values(const Design& design, const std::vector<Json>& values) {
+  std::string label;
+  for (std::size_t p = 0; p < values.size(); ++p)
+    if (!values[p].is_null())
+      label += (label.empty() ? "" : ",") + design.parameters[p].name + "=" + shown(values[p]);
+  return label;
+}
+
+/// An end of a parameter's span: as given, or that of the parameter's own range.
+double end_of(JsonObject& object, const std::string& key, const DesignParameter& p, double own,
+              bool is_open) {
+  if (!object.has(key) && (is_open || !std::isfinite(own)))
+    throw InputError(object.place(), fmt::format("\"{}\" is missing, and the parameter's own range {} {} "
+                                                 "does not end there in a value",
+                                                 key, p.range.to_string(), p.unit));
+  return object.number(key, own, p.range, p.unit);
+}
+
+void read_span(JsonObject& object, DesignParameter& p) {
+  p.from = end_of(object, "from", p, p.range.from, p.range.open_from);
+  p.to = end_of(object, "to", p, p.range.to, p.range.open_to);
+  if (!(p.from < p.to))
+    throw InputError(object.place(),
+                     fmt::format("\"from\" {} is not below \"to\" {}", short_number(p.from), short_number(p.to)));
+  const auto scale = object.text("scale", "linear");
+  const std::array<std::string, 2> scales = {"linear", "log"};
+  if (scale != scales[0] && scale != scales[1])
+    throw InputError(object.place_of("scale"), unknown_name("scale", scale, scales));
+  p.logarithmic = scale == "log";
+  if (p.logarithmic && p.from <= 0.0)
+    throw InputError(object.place_of("from"),
+                     fmt::format("{} {} has no logarithm; allowed with \"scale\": \"log\": (0, inf)",
+                                 short_number(p.from), p.unit));
+}
+
+/// One combination of all values after the other, the last parameter's changing fastest.
+void combine(Design& design, const std::vector<std::vector<Json>>& values) {
+  design.values = {{}};
+  for (const auto& of_one : values) {
+    std::vector<std::vector<Json>> next;
+    for (const auto& point : design.values)
+      for (const auto& value : of_one) {
+        next.push_back(point);
+        next.back().push_back(value);
+      }
+    design.values = std::move(next);
+  }
+  for (const auto& point : design.values) design.labels.push_back(named_values(design, point));
+}
+
+std::vector<Json> listed(const Json& values, const std::string& place) {
+  if (!values.is_array() || values.empty()) throw InputError(place, "a list of values [...] is needed here");
+  return {values.begin(), values.end()};
+}
+
+/// Values of a grid's parameter: listed, or "levels" of them from "from" to "to" where there is a cell to
+/// know the parameter from.
+std::vector<Json> grid_values(const Json& spec, const std::string& place, const Cell* base,
+                              DesignParameter& p) {
+  if (!spec.is_object() || base == nullptr) return listed(spec, place);
+  const auto known = parameter_at(*base, p.path, place);
+  p.unit = known.unit;
+  p.range = known.range;
+  JsonObject object(spec, place);
+  read_span(object, p);
+  const double levels = object.number("levels", 5, level_range, "levels");
+  object.finish();
+  std::vector<Json> values;
+  for (double l = 0; l < levels; ++l) values.emplace_back(p.at(l / (levels - 1.0)));
+  return values;
+}
+
+void read_list(JsonObject& object, Design& design) {
+  for (const auto& [point, place] : object.list("points")) {
+    if (!point->is_object() || point->empty())
+      throw InputError(place, "an object {\"path\": value, ...} is needed here");
+    design.values.emplace_back(design.parameters.size());
+    for (const auto& [path, value] : point->items()) {
+      auto found = std::find_if(design.parameters.begin(), design.parameters.end(),
+                                [&](const auto& p) { return p.path == path; });
+      if (found == design.parameters.end()) {
+        design.parameters.push_back({.path = path});
+        for (auto& values : design.values) values.emplace_back();
+        found = design.parameters.end() - 1;
+      }
+      design.values.back()[static_cast<std::size_t>(found - design.parameters.begin())] = value;
+    }
+  }
+  if (design.values.empty()) throw InputError(object.place_of("points"), "a list of points is needed here");
+  name_parameters(design.parameters);
+  for (const auto& values : design.values) design.labels.push_back(named_values(design, values));
+}
+
+/// Spans of the parameters, and where they have a "base" that.
+void read_spans(const JsonObject& object, const Json& parameters, const Cell& cell, Design& design) {
+  for (const auto& [path, spec] : parameters.items()) {
+    const auto place = object.place_of("parameters") + "." + path;
+    const auto known = parameter_at(cell, path, place);
+    auto& p = design.parameters.emplace_back(
+        DesignParameter{.path = path, .unit = known.unit, .range = known.range});
+    JsonObject span(spec, place);
+    read_span(span, p);
+    if (design.kind == DesignKind::one_at_a_time) {
+      design.base.push_back(span.number("base", known.value, p.range, p.unit));
+      if (std::isnan(design.base.back()))
+        throw InputError(place, "\"base\" is missing: the value comes from a calibration");
+      if (p.logarithmic && design.base.back() <= 0.0)
+        throw InputError(place, fmt::format("the base {} has no logarithm", short_number(design.base.back())));
+    }
+    span.finish();
+  }
+  name_parameters(design.parameters);
+}
+
+void require_size(std::size_t points, const std::string& place) {
+  if (points > most_points)
+    throw InputError(place, fmt::format("{} points; allowed: up to {}", points, most_points));
+}
+
+/// The moved parameter of each step, "start" for the first point of a trajectory.
+std::vector<std::string> morris_labels(const Design& design) {
+  std::vector<std::string> labels;
+  const std::size_t length = design.parameters.size() + 1;
+  for (std::size_t i = 0; i < design.points.size(); ++i) {
+    std::string what = "start";
+    for (std::size_t p = 0; i % length != 0 && p + 1 < length; ++p)
+      if (design.points[i][p] != design.points[i - 1][p]) what = design.parameters[p].name;
+    labels.push_back(fmt::format("trajectory_{}_{}", i / length + 1, what));
+  }
+  return labels;
+}
+
+std::vector<std::string> saltelli_labels(const Design& design) {
+  std::vector<std::string> labels;
+  const std::size_t length = design.parameters.size() + 2;
+  for (std::size_t i = 0; i < design.points.size(); ++i) {
+    const std::size_t at = i % length;
+    const auto what = at == 0 ? "A" : at == 1 ? "B" : design.parameters[at - 2].name;
+    labels.push_back(fmt::format("row_{}_{}", i / length + 1, what));
+  }
+  return labels;
+}
+
+std::vector<std::string> around_labels(const Design& design) {
+  std::vector<std::string> labels = {"base"};
+  for (const auto& p : design.parameters)
+    for (const double end : {p.from, p.to}) labels.push_back(p.name + "=" + short_number(end));
+  return labels;
+}
+
+/// Points in the unit cube, and what each is called.
+void place_points(JsonObject& object, std::uint64_t seed, Design& design) {
+  const std::size_t parameters = design.parameters.size();
+  const DesignSource source{seed, design.name};
+  const auto count = [&](const char* key, double fallback) {
+    return static_cast<std::size_t>(object.number(key, fallback, point_range, key));
+  };
+  switch (design.kind) {
+    case DesignKind::latin_hypercube:
+      design.points = latin_hypercube(count("points", 100), parameters, source);
+      break;
+    case DesignKind::sobol: design.points = sobol_sequence(count("points", 128), parameters, source); break;
+    case DesignKind::one_at_a_time: {
+      std::vector<double> base;
+      for (std::size_t p = 0; p < parameters; ++p)
+        base.push_back(design.parameters[p].coordinate(design.base[p]));
+      design.points = one_at_a_time(base);
+      design.labels = around_labels(design);
+      break;
+    }
+    case DesignKind::morris: {
+      const auto trajectories = count("trajectories", 20);
+      design.levels = static_cast<std::size_t>(object.number("levels", 4, level_range, "levels"));
+      if (design.levels % 2 != 0)
+        throw InputError(object.place_of("levels"), fmt::format("{} is odd; allowed: even numbers", design.levels));
+      require_size(trajectories * (parameters + 1), object.place());
+      design.points = morris_trajectories(trajectories, design.levels, parameters, source);
+      design.labels = morris_labels(design);
+      break;
+    }
+    default: {
+      const auto rows = count("rows", 128);
+      require_size(rows * (parameters + 2), object.place());
+      design.points = saltelli_rows(rows, parameters, source);
+      design.labels = saltelli_labels(design);
+    }
+  }
+  for (std::size_t i = design.labels.size(); i < design.points.size(); ++i)
+    design.labels.push_back(fmt::format("point_{}", i + 1));
+  const auto is_base = [&](std::size_t p, double u) {
+    return !design.base.empty() && u == design.points.front()[p];
+  };
+  for (const auto& point : design.points) {
+    auto& values = design.values.emplace_back();
+    for (std::size_t p = 0; p < parameters; ++p)
+      values.emplace_back(is_base(p, point[p]) ? design.base[p] : design.parameters[p].at(point[p]));
+  }
+}
+
+std::string design_name(const Json& cell, const std::string& place) {
+  return JsonObject(cell, place).text("name", "cell");
+}
+
+void read_grid_parameters(const Json& grid, const std::string& place, const Cell* base, Design& design) {
+  if (!grid.is_object()) throw InputError(place, "an object {\"path\": [values]} is needed here");
+  for (const auto& [path, unused] : grid.items()) design.parameters.push_back({.path = path});
+  name_parameters(design.parameters);
+  std::vector<std::vector<Json>> values;
+  for (auto& p : design.parameters)
+    values.push_back(grid_values(grid.at(p.path), place + "." + p.path, base, p));
+  combine(design, values);
+}
+
+}  // namespace
+
+double DesignParameter::at(double u) const {
+  if (range.whole) return std::min(to, from + std::floor(u * (to - from + 1.0)));
+  if (u <= 0.0) return from;
+  if (u >= 1.0) return to;
+  return logarithmic ? from * std::pow(to / from, u) : from + u * (to - from);
+}
+
+double DesignParameter::coordinate(double value) const {
+  return logarithmic ? std::log(value / from) / std::log(to / from) : (value - from) / (to - from);
+}
+
+bool Design::is_sampled() const {
+  constexpr std::size_t few = 20;
+  return (kind != DesignKind::grid && kind != DesignKind::list) || values.size() > few;
+}
+
+std::string name_of(DesignKind kind) { return std::string(kind_names[static_cast<std::size_t>(kind)]); }
+
+Design read_grid(const Json& cell, const std::string& place) {
+  Design design{.name = design_name(cell, place), .kind = DesignKind::grid};
+  read_grid_parameters(cell.at("grid"), place + ".grid", nullptr, design);
+  return design;
+}
+
+Design read_design(const Json& cell, const Cell& base, std::uint64_t seed, const std::string& place) {
+  Design design{.name = design_name(cell, place)};
+  JsonObject object(cell.at("design"), place + ".design");
+  design.kind = kind_named(object.required_text("kind"), object.place_of("kind"));
+  if (design.kind == DesignKind::list) {
+    read_list(object, design);
+  } else {
+    if (!object.child("parameters") || cell.at("design").at("parameters").empty())
+      throw InputError(object.place_of("parameters"), "an object {\"path\": {\"from\": …, \"to\": …}} is needed here");
+    const Json& parameters = cell.at("design").at("parameters");
+    if (design.kind == DesignKind::grid) {
+      read_grid_parameters(parameters, object.place_of("parameters"), &base, design);
+    } else {
+      read_spans(object, parameters, base, design);
+      place_points(object, seed, design);
+    }
+  }
+  object.finish();
+  return design;
+}
+
+std::vector<std::pair<Json, std::string>> cells_of(const Design& design, const Json& cell,
+                                                   const std::string& place) {
+  Json base = cell;
+  base.erase("grid");
+  base.erase("design");
+  const std::string key = cell.contains("grid") ? ".grid" : ".design";
+  std::vector<std::pair<Json, std::string>> cells;
+  for (std::size_t i = 0; i < design.values.size(); ++i) {
+    auto& [varied, varied_place] = cells.emplace_back(base, place + "[" + design.labels[i] + "]");
+    for (std::size_t p = 0; p < design.parameters.size(); ++p)
+      if (!design.values[i][p].is_null()) set_at(varied, design.parameters[p].path, design.values[i][p], place + key);
+    varied["name"] = design.cell_name(i);
+  }
+  return cells;
+}
+
+}  // namespace gyrostat
