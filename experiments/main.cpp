@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   cli::add_plan(program, console, exit_code);
   cli::add_status(program, console, exit_code);
   cli::add_export(program, console, exit_code);
+  cli::add_report(program, console, exit_code);
   cli::add_replay(program, console, exit_code);
   cli::add_merge(program, console, exit_code);
   cli::add_slurm(program, console, exit_code);

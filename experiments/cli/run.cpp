@@ -132,7 +132,10 @@ class Run {
       nanoseconds = run_missing(*store_, prepared, index, study_.seed, state,
                                 {.threads = threads_, .stop = &stopper.flag(), .lanes = lanes_, .progress = {}}, watch);
     }
-    log_->write("cell", {{"cell", cell.name}, {"failed", failed_}});
+    Json times = Json::object();
+    for (std::size_t m = 0; m < nanoseconds.size(); ++m)
+      if (!std::isnan(nanoseconds[m])) times[cell.methods[m].id] = std::round(nanoseconds[m] * 10.0) / 10.0;
+    log_->write("cell", {{"cell", cell.name}, {"failed", failed_}, {"ns_per_step", times}});
     summarise(index, prepared, nanoseconds);
   }
 
