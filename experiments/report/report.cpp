@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <set>
 
 #include "experiments/address.hpp"
 #include "experiments/report/cell_section.hpp"
@@ -16,17 +17,16 @@ namespace {
 
 constexpr std::size_t most_cells = 6;
 
-/// Cells shown in full: those asked for, or the first few, of each sweep only its first.
-std::vector<std::size_t> chosen_cells(const Study& study, const std::vector<Sweep>& sweeps,
-                                      const std::vector<std::string>& names) {
+/// Cells shown in full: those asked for, or the first few, and of many made from one, as "ramp[phi=0.5]",
+/// only the first.
+std::vector<std::size_t> chosen_cells(const Study& study, const std::vector<std::string>& names) {
   std::vector<std::size_t> chosen;
   for (const auto& name : names)
     chosen.push_back(static_cast<std::size_t>(&cell_named(study, name, "--cell") - study.cells.data()));
+  std::set<std::string> families;
   for (std::size_t c = 0; names.empty() && c < study.cells.size() && chosen.size() < most_cells; ++c) {
-    const bool inner = std::any_of(sweeps.begin(), sweeps.end(), [&](const Sweep& s) {
-      return std::find(s.cells.begin() + 1, s.cells.end(), c) != s.cells.end();
-    });
-    if (!inner) chosen.push_back(c);
+    const auto& name = study.cells[c].name;
+    if (families.insert(name.substr(0, name.find('['))).second) chosen.push_back(c);
   }
   return chosen;
 }
@@ -43,17 +43,21 @@ std::string head(const Study& study, const Manifest& manifest) {
 
 /// The most important sentence of every cell, those shown in full as links.
 std::string in_short(const Study& study, const std::vector<CellRanking>& rankings, const std::vector<std::size_t>& chosen) {
+  constexpr std::size_t most = 200;
   std::string out = "<section aria-labelledby=\"short\"><h2 id=\"short\">In short</h2>\n<ul class=\"sentences\">\n", rest;
+  std::size_t others = 0;
   for (std::size_t c = 0; c < study.cells.size(); ++c) {
     const bool full = std::find(chosen.begin(), chosen.end(), c) != chosen.end();
+    if (!full && ++others > most) continue;
     const auto& sentences = rankings[c].sentences;
     const auto name = full ? fmt::format("<a href=\"#cell-{}\">{}</a>", c, escaped(study.cells[c].name)) : escaped(study.cells[c].name);
     (full ? out : rest) += fmt::format("<li><b>{}</b>: {}</li>\n", name, escaped(sentences.empty() ? "no finished trials" : sentences[0]));
   }
   out += "</ul>\n";
   if (!rest.empty())
-    out += "<details><summary>The other cells</summary>\n<ul class=\"sentences\">\n" + rest +
-           "</ul>\n<p class=\"note\">gyrostat report DIR --cell NAME shows one of them in full.</p></details>\n";
+    out += fmt::format("<details><summary>{} other cells</summary>\n<ul class=\"sentences\">\n{}</ul>\n<p class=\"note\">{}gyrostat "
+                       "report DIR --cell NAME shows one of them in full.</p></details>\n",
+                       others, rest, others > most ? fmt::format("These are the first {}. ", most) : "");
   return out + "</section>\n";
 }
 
@@ -123,7 +127,7 @@ std::string report_page(const Study& study, const Store& store, const std::files
   const auto manifest = store.manifest();
   const MethodColours colours(study);
   const auto sweeps = sweeps_of(study);
-  const auto chosen = chosen_cells(study, sweeps, options.cells);
+  const auto chosen = chosen_cells(study, options.cells);
   const auto times = run_times(folder / "log.jsonl");
 
   std::vector<CellSummary> summaries;

@@ -51,7 +51,7 @@ Chart tornado(const std::vector<Sensitivity>& all, const MethodColours& colours,
 Chart sobol(const std::vector<Sensitivity>& all, const MethodColours& colours, const std::string& id) {
   auto chart = by_parameter(id + "-sobol", "Sobol' indices of " + all.front().metric, "share of the variance", "1",
                             "Bars: total index, what a parameter does alone and with others; dots: first order, what it does "
-                            "alone; each with its 95 % interval. The noise of the trials is taken out and is a row of its own.",
+                            "alone; each with its 95 % interval. The noise of the trials is taken out.",
                             by_size(all.front().indices, [](const SobolIndex& e) { return e.total.value; }));
   for (const auto& s : all) {
     auto total = colours.mark(Mark::Kind::bars, s.method), first = colours.mark(Mark::Kind::points, s.method);
