@@ -87,7 +87,10 @@ TEST(Report, IsOneFileThatNamesNoHost) {
 
 TEST(Report, FailuresStandInItWithTheirAddresses) {
   const TestFolder folder;
-  const auto page = page_of(folder, study);
+  auto breaking = json::parse(study);  // phi is hardly observed: the risk update ceases to exist
+  breaking["cells"][0]["scenario"] = {{"duration_s", 5}, {"rate_hz", 100},
+      {"random_error", {{"phi", 0.5}, {"delta1_dps", 1e-5}, {"delta2_dps", 0.0}, {"measurement_noise_std_dps", 0.05}}}};
+  const auto page = page_of(folder, breaking.dump());
   const auto failures = run_program(folder, {"status", "run", "--failures", "--format", "json"});
   const auto rows = json::parse(failures.out)[0]["rows"];
   ASSERT_FALSE(rows.empty());
@@ -117,7 +120,7 @@ TEST(Report, OfPiecesOfARecordingShowsInnovations) {
 TEST(Report, AThermalCellHasAPage) {
   const TestFolder folder;
   const auto charts = charts_of(page_of(folder, R"({"title": "ramp", "cells": [{"name": "ramp", "trials": 5,
-      "scenario": {"duration_s": 200, "rate_hz": 2, "thermal_drift": {"a_dps_per_C": 0.002, "b_dps_s_per_C": 0.1, "c_dps": -0.05},
+      "scenario": {"duration_s": 300, "rate_hz": 2, "thermal_drift": {"a_dps_per_C": 0.002, "b_dps_s_per_C": 0.1, "c_dps": -0.05},
         "random_error": {"measurement_noise_std_dps": 0.02}, "temperature": {"profile": "ramp_and_cooling", "peak_C": 57},
         "compass": {"noise_std_deg": 0.05}},
       "calibration": {"fit": "moments"}, "filters": ["none", "thermal_kf", "oracle"]}]})"));
