@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/error_series.hpp"
 #include "analysis/errors.hpp"
 #include "analysis/spectra/allan.hpp"
 #include "core/filters/list.hpp"
@@ -24,19 +25,6 @@ Track from_sample(const Track& track, std::size_t first) {
   cut_head(rest.innovation_variance);
   cut_head(rest.status);
   return rest;
-}
-
-/// The rate error with missing samples held at the last value, since an Allan deviation needs a
-/// value at every sample.
-std::vector<double> bridged_rate_error(const Series& series, const Track& track) {
-  std::vector<double> error(series.size());
-  double last = 0.0;
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    const double e = rate_error_dps(series, track, i);
-    if (!std::isnan(e)) last = e;
-    error[i] = last;
-  }
-  return error;
 }
 
 /// Clusters of one sample and of whole decades of seconds, as long as the deviation is defined.
@@ -86,7 +74,7 @@ Table allan_table(const Series& judged, const std::vector<Track>& tracks,
   for (std::size_t m = 0; m < methods.size(); ++m) {
     auto& row = table.rows.emplace_back();
     row.emplace_back(methods[m].id);
-    const auto error = bridged_rate_error(judged, tracks[m]);
+    const auto error = bridged_rate_errors_dps(judged, tracks[m]);
     for (const auto& point : overlapping_allan_deviation(error, judged.rate_hz(), clusters))
       row.emplace_back(point.deviation);
   }

@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
   cli::add_sensitivity(program, console, exit_code);
   cli::add_status(program, console, exit_code);
   cli::add_export(program, console, exit_code);
+  cli::add_report(program, console, exit_code);
   cli::add_replay(program, console, exit_code);
   cli::add_rank(program, console, exit_code);
   cli::add_consistency(program, console, exit_code);

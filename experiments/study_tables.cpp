@@ -3,6 +3,7 @@
 #include <limits>
 #include <map>
 
+#include "analysis/error_series.hpp"
 #include "analysis/errors.hpp"
 #include "analysis/spectra/allan.hpp"
 #include "analysis/statistics/paired.hpp"
@@ -257,17 +258,8 @@ Played play(const Request& request, Results& results, const Cell& plain) {
   return played;
 }
 
-std::vector<double> heading_errors(const Series& series, const Track& track) {
-  std::vector<double> heading(series.size());
-  for (std::size_t i = 1; i < heading.size(); ++i) {
-    const double e = rate_error_dps(series, track, i);
-    heading[i] = heading[i - 1] + (std::isnan(e) ? 0.0 : e * (series.t_s[i] - series.t_s[i - 1]));
-  }
-  return heading;
-}
-
 std::vector<double> traced(const Request& request, const Series& series, const Track& track) {
-  if (request.quantity == "heading") return heading_errors(series, track);
+  if (request.quantity == "heading") return heading_errors_deg(series, track);
   if (request.quantity == "estimate") return track.estimate_dps;
   std::vector<double> values(series.size());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = rate_error_dps(series, track, i);

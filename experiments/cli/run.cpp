@@ -144,7 +144,11 @@ class Run {
       console_.log << fmt::format("{}: stopped after {} trials: {}\n", cell.name, limit, *reason);
       break;
     }
-    log_->write("cell", {{"cell", cell.name}, {"failed", failed_}, {"stopped", reason.value_or("")}});
+    Json times = Json::object();
+    for (std::size_t m = 0; m < nanoseconds.size(); ++m)
+      if (!std::isnan(nanoseconds[m])) times[cell.methods[m].id] = std::round(nanoseconds[m] * 10.0) / 10.0;
+    log_->write("cell", {{"cell", cell.name}, {"failed", failed_}, {"stopped", reason.value_or("")},
+                         {"ns_per_step", times}});
     summarise(index, prepared, nanoseconds, reason);
   }
 

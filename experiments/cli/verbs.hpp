@@ -20,6 +20,7 @@ enum ExitCode { complete = 0, error = 1, usage = 2, over_failure_budget = 3, sto
 /// Each adds its verb to the program. A verb that was called leaves its exit code in `exit_code`.
 void add_run(CLI::App& program, Console& console, int& exit_code);
 void add_export(CLI::App& program, Console& console, int& exit_code);
+void add_report(CLI::App& program, Console& console, int& exit_code);
 void add_replay(CLI::App& program, Console& console, int& exit_code);
 void add_sensitivity(CLI::App& program, Console& console, int& exit_code);
 void add_status(CLI::App& program, Console& console, int& exit_code);

@@ -4,23 +4,12 @@
 #include <cmath>
 
 #include "experiments/diagnosis/diagnosis_tables.hpp"
-#include "results/render/render.hpp"
+#include "results/render/html.hpp"
 
 namespace gyrostat::gap {
 namespace {
 
 constexpr double width = 460.0, height = 230.0, left = 64.0, bottom = 34.0, top = 10.0, right = 10.0;
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '&') out += "&amp;";
-    else out += c;
-  }
-  return out;
-}
 
 /// A scale from values to pixels.
 struct Axis {
@@ -88,44 +77,18 @@ std::string bars(const std::string& title, const std::vector<std::pair<std::stri
   return svg + fmt::format("</svg><figcaption>{}</figcaption></figure>\n", escaped(title));
 }
 
-std::string html_table(const Table& table) {
-  std::string html = fmt::format("<h2>{}</h2><div class=\"scroll\"><table><tr>", escaped(table.title));
-  for (const auto& column : table.columns)
-    html += fmt::format("<th>{}{}</th>", escaped(column.name), column.unit.empty() ? "" : " [" + escaped(column.unit) + "]");
-  html += "</tr>\n";
-  for (const auto& row : table.rows) {
-    html += "<tr>";
-    for (const auto& c : row)
-      html += "<td>" + std::visit([]<class V>(const V& v) -> std::string {
-        if constexpr (std::is_same_v<V, std::monostate>) return "–";
-        else if constexpr (std::is_same_v<V, std::string>) return escaped(v);
-        else return fmt::format("{:.5g}", static_cast<double>(v));
-      }, c) + "</td>";
-    html += "</tr>\n";
-  }
-  html += "</table></div>";
-  for (const auto& note : table.notes) html += fmt::format("<p>{}</p>", escaped(note));
-  return html;
-}
-
-constexpr std::string_view style = R"(<style>
-:root{color-scheme:light dark;--ink:#1b1f24;--paper:#fff;--grid:#8a929b;--before:#d9772b;--after:#2c7fb8}
-@media(prefers-color-scheme:dark){:root{--ink:#e6e8ea;--paper:#14171a;--grid:#6c757d}}
-body{font:16px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper);max-width:70rem;margin:0 auto;padding:1rem}
-.grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(20rem,1fr));gap:1rem}
-figure{margin:0}svg{width:100%;height:auto}svg text{font-size:11px;fill:currentColor}svg line{stroke:var(--grid)}
-.before{fill:var(--before);opacity:.3}.after{fill:var(--after);opacity:.4}circle{fill:currentColor}rect{fill:var(--after)}
-table{border-collapse:collapse;font-size:.85rem}th,td{padding:.2rem .6rem;border-bottom:1px solid var(--grid);text-align:left}
-.scroll{overflow-x:auto}.key b{padding:0 .6rem}.key .b{background:color-mix(in srgb,var(--before) 40%,transparent)}
-.key .a{background:color-mix(in srgb,var(--after) 50%,transparent)}
-</style>)";
+constexpr std::string_view style = R"(
+.grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,20rem),1fr));gap:1rem}
+figure{margin:0}svg{width:100%;height:auto}svg text{font-size:11px;fill:currentColor}svg line{stroke:var(--soft)}
+.before{fill:var(--m1);opacity:.3}.after{fill:var(--m0);opacity:.4}circle{fill:currentColor}rect{fill:var(--m0)}
+.key b{padding:0 .6rem}.key .b{background:color-mix(in srgb,var(--m1) 40%,transparent)}
+.key .a{background:color-mix(in srgb,var(--m0) 50%,transparent)}
+)";
 
 }  // namespace
 
 std::string diagnosis_page(const Diagnosis& d, const std::string& name) {
-  std::string page = "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "
-                     "content=\"width=device-width,initial-scale=1\">";
-  page += fmt::format("<title>{}</title>{}<h1>{}</h1><p>{}</p>", escaped(name), style, escaped(name), escaped(in_words(d, name)));
+  std::string page = fmt::format("<h1>{}</h1><p>{}</p>", escaped(name), escaped(in_words(d, name)));
   std::vector<std::pair<std::string, double>> probabilities, steps;
   for (const auto& c : d.causes) probabilities.emplace_back(c.effect, c.probability);
   for (const auto& s : d.steps) steps.emplace_back(s.added.empty() ? "(baseline)" : s.added, s.gap);
@@ -136,8 +99,8 @@ std::string diagnosis_page(const Diagnosis& d, const std::string& name) {
           "<b class=\"a\">and after</b>, ± 2 spreads; point at a dot for its numbers</p><div class=\"grid\">";
   for (const auto& band : d.bands) page += picture(band);
   page += "</div>";
-  for (const auto& table : diagnosis_tables(d, name)) page += html_table(table);
-  return page + "</html>\n";
+  for (const auto& table : diagnosis_tables(d, name)) page += html(table);
+  return html_page(name, style, page);
 }
 
 }  // namespace gyrostat::gap

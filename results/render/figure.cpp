@@ -7,25 +7,19 @@
 #include <cmath>
 #include <limits>
 
+#include "results/render/axis.hpp"
+#include "results/render/html.hpp"
+
 namespace gyrostat {
 namespace {
+
+using render_detail::Axis;
 
 /// Okabe and Ito's colours, told apart by every eye.
 constexpr std::array colours = {"#888888", "#D55E00", "#0072B2", "#009E73",
                                 "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
 constexpr double width = 760.0, margin_left = 70.0, margin_right = 130.0, margin_top = 40.0;
 constexpr double margin_bottom = 48.0;
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else out += c;
-  }
-  return out;
-}
 
 std::string text_at(double x, double y, const std::string& text, const char* anchor = "start",
                     const char* more = "") {
@@ -41,42 +35,6 @@ std::string head(double height, const std::string& title) {
              width, height) +
          text_at(margin_left, 22.0, title, "start", " font-size=\"14\"");
 }
-
-/// One axis: numbers to pixels.
-struct Axis {
-  double from = std::numeric_limits<double>::infinity();
-  double to = -std::numeric_limits<double>::infinity();
-  bool logarithmic = false;
-  double start = 0.0, length = 1.0;  ///< pixels
-
-  double scaled(double v) const { return logarithmic ? std::log10(v) : v; }
-  bool shows(double v) const { return std::isfinite(v) && (!logarithmic || v > 0.0); }
-  void include(double v) {
-    if (!shows(v)) return;
-    from = std::min(from, scaled(v));
-    to = std::max(to, scaled(v));
-  }
-  void widen() {
-    if (!(from <= to)) from = 0.0, to = 1.0;
-    const double rim = from == to ? 0.5 : 0.03 * (to - from);
-    from -= rim;
-    to += rim;
-  }
-  double at(double v) const { return start + length * (scaled(v) - from) / (to - from); }
-
-  std::vector<double> ticks() const {
-    std::vector<double> all;
-    if (logarithmic) {
-      for (double e = std::ceil(from); e <= to; e += 1.0) all.push_back(std::pow(10.0, e));
-      return all;
-    }
-    const double raw = (to - from) / 5.0, decade = std::pow(10.0, std::floor(std::log10(raw)));
-    const double part = raw / decade;
-    const double step = decade * (part < 1.5 ? 1.0 : part < 3.5 ? 2.0 : part < 7.5 ? 5.0 : 10.0);
-    for (double k = std::ceil(from / step); k * step <= to; k += 1.0) all.push_back(k * step + 0.0);
-    return all;
-  }
-};
 
 std::string grid(const Axis& x, const Axis& y, const LineChart& chart, bool with_x) {
   std::string out;
