@@ -60,9 +60,9 @@ Names unknown_columns(const Names& names) {
 [[noreturn]] void throw_missing(std::string_view name, const Names& unknown,
                                 std::string_view header) {
   const auto nearest = nearest_name(name, unknown).substr(0, 40);
-  throw InputError(header, fmt::format("column '{}' is missing{}; required: comma-separated t_s and"
-                                       " gyro_dps (or gyro_x_dps, gyro_y_dps, gyro_z_dps), or --columns"
-                                       " t=NAME,gyro=NAME",
+  throw InputError(header, fmt::format("column '{}' is missing{}; required: t_s and gyro_dps (or"
+                                       " gyro_x_dps, gyro_y_dps, gyro_z_dps) between commas, semicolons or"
+                                       " tabs, or --columns t=NAME,gyro=NAME",
                                        name, nearest.empty() ? "" : ", is it '" + nearest + "'?"));
 }
 

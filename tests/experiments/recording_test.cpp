@@ -207,7 +207,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"Rate", "t_s,gyro_x_dps\n0,-2e5\n", {":2:", "'gyro_x_dps'", "'-200000'", "100000"}},
         BadText{"NoTime", "time_s,gyro_dps\n0,1\n", {":1:", "'t_s' is missing", "'time_s'?"}},
         BadText{"NoGyro", "t_s,girodps,b\n0,1,2\n", {":1:", "'gyro_dps' is missing", "'girodps'?"}},
-        BadText{"Semicolons", "t_s;gyro_dps\n0;1\n", {":1:", "'t_s' is missing", "comma"}},
+        BadText{"Bars", "t_s|gyro_dps\n0|1\n", {":1:", "'t_s' is missing", "comma"}},
         BadText{"Twice", "t_s,gyro_dps,a,a\n0,1,2,3\n", {":1:", "'a' appears twice", "allowed"}},
         BadText{"BlankGyro", "t_s,gyro_x_dps\n0,\n1,\n", {":1:", "'gyro_x_dps'", "required"}},
         BadText{"Escape", head + "0,\x1b[31m,,,\n", {":2:", "'?[31m'"}},
