@@ -65,15 +65,23 @@ CoverageStudy read_coverage(const std::string& path) {
   JsonObject object(json, path + ":");
   CoverageStudy study;
   study.title = object.text("title", std::filesystem::path(path).stem().string());
-  study.study = (std::filesystem::path(path).parent_path() / object.required_text("study")).lexically_normal().string();
+  const auto beside = [&](const std::string& file) {
+    return (std::filesystem::path(path).parent_path() / file).lexically_normal().string();
+  };
+  study.study = beside(object.required_text("study"));
+  study.signals = beside(object.required_text("signals"));
   study.population = count(object, "population", study.population);
   study.samples = count(object, "samples", study.samples);
   study.fits = count(object, "fits", study.fits);
   study.seed = static_cast<std::uint64_t>(object.number("seed", 1, {.from = 0, .to = 9e15, .whole = true}, ""));
-  for (const auto& [value, place] : object.list("sizes"))
-    study.sizes.push_back(
-        static_cast<std::uint32_t>(JsonObject::checked_number(*value, place, sample_range, "trials")));
-  if (study.sizes.empty()) throw InputError(object.place_of("sizes"), "the list is missing or empty");
+  const auto counts = [&](const char* key, std::vector<std::uint32_t>& list) {
+    for (const auto& [value, place] : object.list(key))
+      list.push_back(
+          static_cast<std::uint32_t>(JsonObject::checked_number(*value, place, sample_range, "trials")));
+    if (list.empty()) throw InputError(object.place_of(key), "the list is missing or empty");
+  };
+  counts("sizes", study.sizes);
+  counts("first_looks", study.first_looks);
   object.finish();
   return study;
 }
@@ -86,14 +94,18 @@ std::vector<Coverage> measure_coverage(const CoverageStudy& wanted,
     for (auto& coverage : more)
       if (!coverage.counts.empty()) all.push_back(std::move(coverage));
   };
+  CoverageStudy shortened = wanted;
   for (Cell cell : study.cells) {
     cell.trials = wanted.population;
     const auto population = population_of(cell, run(study, cell));
     const auto scaled = in_proportion(wanted, population.trials.size());
     for (const auto size : wanted.sizes) append(coverage_detail::of_samples(scaled, population, size));
-    append(coverage_detail::of_stopped_samples(scaled, population));
-    if (!cell.recording) append(coverage_detail::of_signals(scaled, study, cell));
+    for (const auto first : wanted.first_looks)
+      append(coverage_detail::of_stopped_samples(scaled, population, first));
+    shortened = scaled;
   }
+  const Study signals = read_study(wanted.signals);
+  for (const auto& cell : signals.cells) append(coverage_detail::of_signals(shortened, signals, cell));
   std::stable_sort(all.begin(), all.end(),
                    [](const Coverage& a, const Coverage& b) { return a.interval < b.interval; });
   return all;

@@ -19,14 +19,16 @@ struct CoverageStudy {
   std::uint32_t population = 20000;  ///< trials of each cell
   std::uint32_t samples = 4000;      ///< drawn of each size
   std::vector<std::uint32_t> sizes;  ///< trials of a sample
-  std::uint32_t fits = 1000;         ///< signals that are fitted, and whose Allan deviation is taken
+  std::vector<std::uint32_t> first_looks;  ///< trials before a stop rule looks first
+  std::string signals;               ///< path of the study whose cells' signals are fitted
+  std::uint32_t fits = 1000;         ///< signals of each, fitted and looked at by Allan deviation
   std::uint64_t seed = 1;            ///< of the draws
 };
 
 /// How often intervals of one kind held: each of `names` has its own truth.
 struct Coverage {
   std::string interval, cell;
-  std::uint32_t size = 0;  ///< trials, or samples of a signal
+  std::uint32_t size = 0;  ///< trials, those before the first look, or samples of a signal
   struct Count {
     std::string name;
     std::uint32_t hits = 0, intervals = 0;
@@ -62,8 +64,9 @@ struct Population {
 /// Means, medians' neighbours and shares of samples of fixed size.
 std::vector<Coverage> of_samples(const CoverageStudy& study, const Population& population,
                                  std::uint32_t size);
-/// Intervals at the trial at which a rule stops.
-std::vector<Coverage> of_stopped_samples(const CoverageStudy& study, const Population& population);
+/// Intervals at the trial at which a rule stops that looks first after `first` trials.
+std::vector<Coverage> of_stopped_samples(const CoverageStudy& study, const Population& population,
+                                         std::uint32_t first);
 /// Standard errors of fits, and Allan deviations, of signals of a cell's scenario.
 std::vector<Coverage> of_signals(const CoverageStudy& study, const Study& cells, const Cell& cell);
 

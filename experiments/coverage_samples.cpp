@@ -103,7 +103,7 @@ std::vector<Coverage> of_samples(const CoverageStudy& study, const Population& p
   const auto truth = rank_cell(cell, source_of(everything));
   const auto heading_truth = rank_cell(cell, source_of(everything), "heading_worst");
   const auto make = [&](const char* interval) { return Coverage{interval, cell.name, size, {}}; };
-  Coverage means = make("mean (t)"), ranks = make("mean rank (t)"), tails = make("CVaR95 (Hall)");
+  Coverage means = make("mean (t)"), tails = make("CVaR95 (Hall)");
   Coverage pairs = make("differences, all pairs at once"), shares = make("share of trials (Wilson)");
   Coverage worst = make("share worse than the worst"), consistent = make("consistency bounds");
   const std::size_t judged = column(cell.methods.size() - 1, judging_metric(cell).data());
@@ -123,8 +123,6 @@ std::vector<Coverage> of_samples(const CoverageStudy& study, const Population& p
         const auto& t = of(*expected, m.method);
         const auto name = expected->metric + " of " + m.method;
         means.add(name, m.mean - m.half_width, t.mean, m.mean + m.half_width);
-        ranks.add(name, m.mean_rank - m.mean_rank_half_width, t.mean_rank,
-                  m.mean_rank + m.mean_rank_half_width);
         tails.add(name, m.cvar95_low, t.cvar95, m.cvar95_high);
       }
       if (expected != &truth) continue;
@@ -139,22 +137,22 @@ std::vector<Coverage> of_samples(const CoverageStudy& study, const Population& p
     }
     for (const auto& check : checks) check(sample, consistent);
   }
-  return {means, ranks, tails, pairs, shares, worst, consistent};
+  return {means, tails, pairs, shares, worst, consistent};
 }
 
-std::vector<Coverage> of_stopped_samples(const CoverageStudy& study, const Population& population) {
+std::vector<Coverage> of_stopped_samples(const CoverageStudy& study, const Population& population,
+                                         std::uint32_t first) {
   Cell cell = population.cell;
   if (cell.methods.size() < 2) return {};
   std::vector<const std::vector<double>*> sample;
   for (const auto& trial : population.trials) sample.push_back(&trial);
   const auto truth = rank_cell(cell, source_of(sample));
-  const double trials_wanted = 400.0;
-  const auto make = [&](const char* interval) { return Coverage{interval, cell.name, 0, {}}; };
+  const double trials_wanted = 4.0 * first;
+  const auto make = [&](const char* interval) { return Coverage{interval, cell.name, first, {}}; };
   Coverage narrow = make("mean where a width stopped (t)");
   Coverage apart = make("difference where a separation stopped");
   Coverage throughout = make("difference at all looks of a separation");
-  constexpr std::uint32_t first = 100, last = 3200;
-  const auto counts = look_counts(first, last);
+  const auto counts = look_counts(first, 16 * first);
 
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
     Running spread;

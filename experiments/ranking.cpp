@@ -163,10 +163,9 @@ CellRanking rank_cell(const Cell& cell, const TrialSource& trials, const std::st
     const auto m = order[i];
     place[m] = i;
     const auto& summary = s.summaries[m].summary();
-    const auto rank = s.ranks.of(m);
     const auto& tail = s.tails[m].tail();
-    ranking.methods.push_back({cell.methods[m].id, summary.mean, summary.half_width_95, rank.mean,
-                               tail.value, summary.worst, rank.half_width, tail.low, tail.high,
+    ranking.methods.push_back({cell.methods[m].id, summary.mean, summary.half_width_95, s.ranks.mean_rank(m),
+                               tail.value, summary.worst, tail.low, tail.high,
                                s.diverged[m], s.broken_down[m], summary.missing});
   }
   for (const auto& [a, b, stream] : s.pairs) {
@@ -188,13 +187,12 @@ CellRanking rank_cell(const Cell& cell, const TrialSource& trials, const std::st
 Table ranking_table(const CellRanking& ranking) {
   const auto& u = ranking.unit;
   Table table{.title = fmt::format("{}: ranking by {}", ranking.cell, ranking.metric),
-              .columns = {{"method", ""}, {"mean", u}, {"± 95 %", u}, {"mean rank", "1"}, {"± 95 %", "1"},
+              .columns = {{"method", ""}, {"mean", u}, {"± 95 %", u}, {"mean rank", "1"},
                           {"CVaR95", u}, {"from", u}, {"to", u}, {"worst", u}, {"diverged", ""},
                           {"broke down", ""}},
               .rows = {}, .notes = ranking.sentences};
   for (const auto& m : ranking.methods)
-    table.rows.push_back({m.method, cell(m.mean), cell(m.half_width), cell(m.mean_rank),
-                          cell(m.mean_rank_half_width), cell(m.cvar95), cell(m.cvar95_low),
+    table.rows.push_back({m.method, cell(m.mean), cell(m.half_width), cell(m.mean_rank), cell(m.cvar95), cell(m.cvar95_low),
                           cell(m.cvar95_high), cell(m.worst), out_of(m.diverged, ranking.trials),
                           out_of(m.broken_down, ranking.trials)});
   table.notes.push_back(fmt::format(

@@ -15,7 +15,6 @@ struct RankedMethod {
   double mean_rank = no_value;                    ///< over trials, 1 is best, ties share
   double cvar95 = no_value;                       ///< mean of the worst 5 % of trials
   double worst = no_value;
-  double mean_rank_half_width = no_value;             ///< 95 %
   double cvar95_low = no_value, cvar95_high = no_value;  ///< 95 % interval; none below 200 trials
   std::size_t diverged = 0, broken_down = 0;          ///< trials, which stay in the mean
   std::size_t missing = 0;                            ///< trials without a value; they rank last

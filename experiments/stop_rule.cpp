@@ -143,7 +143,7 @@ std::size_t comparisons_after_looks(const Cell& cell, std::size_t pairs, std::si
   if (!cell.stop || cell.stop->half_width_below > 0.0 || pairs == 0 || trials == 0) return pairs;
   const auto counts = looks_up_to(*cell.stop, static_cast<std::uint32_t>(trials));
   const double tail = normal_tail(sequential_bounds(counts, 0.05 / static_cast<double>(pairs)).back());
-  return static_cast<std::size_t>(std::ceil(0.025 / tail));
+  return static_cast<std::size_t>(std::ceil(0.025 / tail - 1e-6));
 }
 
 }  // namespace gyrostat

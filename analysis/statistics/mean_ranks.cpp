@@ -7,8 +7,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "analysis/statistics/summary.hpp"
-
 namespace gyrostat {
 namespace {
 
@@ -54,18 +52,12 @@ void RankStatistics::add(std::span<const double> values) {
   const auto ranks = mid_ranks(values);
   for (std::size_t m = 0; m < ranks.size(); ++m) {
     sums_[m] += ranks[m];
-    squares_[m] += ranks[m] * ranks[m];
     all_squares_ += ranks[m] * ranks[m];
   }
 }
 
-RankStatistics::MeanRank RankStatistics::of(std::size_t method) const {
-  const double n = static_cast<double>(count_);
-  MeanRank rank;
-  if (count_ > 0) rank.mean = sums_[method] / n;
-  if (count_ > 1)
-    rank.half_width = spread(std::max(0.0, squares_[method] - n * rank.mean * rank.mean), n).second;
-  return rank;
+double RankStatistics::mean_rank(std::size_t method) const {
+  return count_ > 0 ? sums_[method] / static_cast<double>(count_) : no_value;
 }
 
 double RankStatistics::critical_difference() const {

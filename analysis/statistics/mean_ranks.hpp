@@ -17,15 +17,12 @@ double studentised_range_quantile(double confidence, std::size_t groups);
 /// Ranks of methods, trial by trial (Friedman, JASA 32, 1937).
 class RankStatistics {
  public:
-  explicit RankStatistics(std::size_t methods) : sums_(methods), squares_(methods) {}
+  explicit RankStatistics(std::size_t methods) : sums_(methods) {}
 
   /// One value a method: a trial. Small is good.
   void add(std::span<const double> values);
 
-  struct MeanRank {
-    double mean = no_value, half_width = no_value;  ///< 95 %, Student's t over the trials
-  };
-  MeanRank of(std::size_t method) const;
+  double mean_rank(std::size_t method) const;
 
   /// Mean ranks that differ by more are separable, all pairs at once, 95 % (Nemenyi 1963; Demsar, JMLR
   /// 7, 2006, sec. 3.2.2).
@@ -38,7 +35,7 @@ class RankStatistics {
  private:
   std::size_t count_ = 0;
   double all_squares_ = 0.0;
-  std::vector<double> sums_, squares_;
+  std::vector<double> sums_;
 };
 
 }  // namespace gyrostat

@@ -11,7 +11,7 @@ namespace {
 /// The density of the standardised mean where no look has stopped yet, at the nodes of Simpson's rule
 /// on [-bound, bound], times their weights.
 struct Continuing {
-  static constexpr std::size_t nodes = 201;
+  static constexpr std::size_t nodes = 81;
   double z[nodes], mass[nodes];
 
   template <class Density>

@@ -33,7 +33,7 @@ TEST(RankStatistics, FriedmansTestAgreesWithSciPy) {
            {1, 2, 3, 3}, {2, 1, 4, 4}, {1, 1, 2, 5}, {3, 2, 4, 6}, {1, 5, 6, 7}})
     ranks.add(trial);
   EXPECT_NEAR(ranks.friedman_p(), 0.0039553738829327684, 1e-12);
-  EXPECT_NEAR(ranks.of(2).mean, 3.2, 1e-12);
+  EXPECT_NEAR(ranks.mean_rank(2), 3.2, 1e-12);
   // Demsar 2006, table 5: 2.569 for four methods.
   EXPECT_NEAR(ranks.critical_difference(), 2.569 * std::sqrt(4.0 * 5.0 / (6.0 * 5.0)), 1e-3);
 }
@@ -42,7 +42,7 @@ TEST(RankStatistics, WhatIsAlwaysTiedIsAlike) {
   RankStatistics ranks(3);
   for (int i = 0; i < 10; ++i) ranks.add(std::vector{1.0, 1.0, 1.0});
   EXPECT_EQ(ranks.friedman_p(), 1.0);
-  EXPECT_EQ(ranks.of(0).mean, 2.0);
+  EXPECT_EQ(ranks.mean_rank(0), 2.0);
 }
 
 TailMean tail_of(const std::vector<double>& values) {
