@@ -49,6 +49,29 @@ Compass read_compass(JsonObject object) {
   return compass;
 }
 
+/// A span of a recording and the fit to it.
+struct FittedSpan {
+  std::shared_ptr<const Series> span;
+  Calibration fit;
+};
+
+/// Reads and fits; the last one is kept, since all points of a design are around the same recording.
+FittedSpan fitted_span(const std::string& path, const std::string& axis, double from_s, double to_s,
+                       FitMethod method, const std::string& place) {
+  namespace fs = std::filesystem;
+  std::error_code absent;
+  const auto key = fmt::format("{}|{}|{}|{}|{}|{}|{}", fs::absolute(path).string(), axis, from_s, to_s,
+                               static_cast<int>(method), fs::file_size(path, absent),
+                               fs::last_write_time(path, absent).time_since_epoch().count());
+  thread_local std::pair<std::string, FittedSpan> last;
+  if (last.first == key) return last.second;
+  const auto recording = read_recording(path, axis);
+  require_uniform(recording.series, path);
+  const auto span = std::make_shared<const Series>(cut(recording.series, from_s, to_s, place));
+  last = {key, {span, calibrate(*span, method)}};
+  return last.second;
+}
+
 /// Sets random error, thermal drift, rate and temperature from a fit to a recording.
 void read_recorded(JsonObject object, const std::string& folder, Scenario& scenario) {
   const auto file = object.required_text("file");
@@ -60,10 +83,7 @@ void read_recorded(JsonObject object, const std::string& folder, Scenario& scena
       fit_method_named(object.text("fit", "likelihood"), object.place_of("fit"));
   object.finish();
 
-  const auto recording = read_recording(path, axis);
-  require_uniform(recording.series, path);
-  auto span = std::make_shared<Series>(cut(recording.series, from_s, to_s, object.place()));
-  const auto fit = calibrate(*span, method);
+  const auto [span, fit] = fitted_span(path, axis, from_s, to_s, method, object.place());
   if (!fit.random_error.converged)
     throw InputError(object.place(), "the fit to the recording " + fit.random_error.message);
   scenario.random_error = fit.random_error.parameters;
