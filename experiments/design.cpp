@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/cell_parameters.hpp"
+#include "experiments/study_ranges.hpp"
 #include "experiments/json_path.hpp"
 
 namespace gyrostat {
@@ -12,8 +13,6 @@ namespace {
 constexpr std::array<std::string_view, 7> kind_names = {
     "grid", "list", "latin_hypercube", "sobol", "one_at_a_time", "morris", "saltelli"};
 
-constexpr Range point_range{.from = 1, .to = 1e6, .whole = true};
-constexpr Range level_range{.from = 2, .to = 1000, .whole = true};
 constexpr std::size_t most_points = 1000000;
 
 DesignKind kind_named(const std::string& name, const std::string& place) {
@@ -111,7 +110,7 @@ std::vector<Json> grid_values(const Json& spec, const std::string& place, const 
   p.range = known.range;
   JsonObject object(spec, place);
   read_span(object, p);
-  const double levels = object.number("levels", 5, level_range, "levels");
+  const double levels = object.number("levels", 5, study_ranges::levels, "levels");
   object.finish();
   std::vector<Json> values;
   for (double l = 0; l < levels; ++l) values.emplace_back(p.at(l / (levels - 1.0)));
@@ -201,7 +200,7 @@ void place_points(JsonObject& object, std::uint64_t seed, Design& design) {
   const std::size_t parameters = design.parameters.size();
   const DesignSource source{seed, design.name};
   const auto count = [&](const char* key, double fallback) {
-    return static_cast<std::size_t>(object.number(key, fallback, point_range, key));
+    return static_cast<std::size_t>(object.number(key, fallback, study_ranges::points, key));
   };
   switch (design.kind) {
     case DesignKind::latin_hypercube:
@@ -218,7 +217,7 @@ void place_points(JsonObject& object, std::uint64_t seed, Design& design) {
     }
     case DesignKind::morris: {
       const auto trajectories = count("trajectories", 20);
-      design.levels = static_cast<std::size_t>(object.number("levels", 4, level_range, "levels"));
+      design.levels = static_cast<std::size_t>(object.number("levels", 4, study_ranges::levels, "levels"));
       if (design.levels % 2 != 0)
         throw InputError(object.place_of("levels"), fmt::format("{} is odd; allowed: even numbers", design.levels));
       require_size(trajectories * (parameters + 1), object.place());

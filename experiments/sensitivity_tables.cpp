@@ -28,7 +28,7 @@ Table begun(const Sensitivity& s, const std::string& what) {
 }
 
 void add_columns(Table& table, const std::string& name, const std::string& unit) {
-  table.columns.insert(table.columns.end(), {{name, unit}, {"low", unit}, {"high", unit}});
+  table.columns.insert(table.columns.end(), {{name, unit}, {name + " low", unit}, {name + " high", unit}});
 }
 
 std::vector<TableCell> begun_row(const Sensitivity& s, const Design& design, std::size_t p) {
@@ -53,7 +53,7 @@ Table elasticity_table(const OfDesign& methods, const Design& design) {
       table.rows.push_back(std::move(row));
     }
   table.notes.push_back("elasticity: relative change of the mean per relative change of the parameter, from the "
-                        "slope between its two ends; 95 % intervals by the bootstrap-t of trials, paired over "
+                        "slope between its two ends; 95 % intervals by Fieller and the bootstrap-t of trials, paired over "
                         "the three points");
   return table;
 }

@@ -10,6 +10,7 @@
 #include "analysis/statistics/summary.hpp"
 #include "experiments/cell_summary.hpp"
 #include "experiments/metric_names.hpp"
+#include "experiments/study_ranges.hpp"
 #include "experiments/trial.hpp"
 
 namespace gyrostat {
@@ -91,11 +92,10 @@ std::optional<std::string> told_apart(const Cell& cell, std::uint32_t count, con
 }  // namespace
 
 StopRule read_stop(JsonObject object, const Cell& cell) {
-  constexpr Range count{.from = 10, .to = 1e8, .whole = true};
   StopRule rule;
   rule.metric = metric_named(object.text("metric", std::string(judging_metric(cell))),
                              object.place_of("metric"));
-  rule.at_least = static_cast<std::uint32_t>(object.number("at_least", 100, count, "trials"));
+  rule.at_least = static_cast<std::uint32_t>(object.number("at_least", 100, study_ranges::first_look, "trials"));
   const auto unit = metric_unit(rule.metric);
   if (object.has("separate") == object.has("half_width_below"))
     throw InputError(object.place(), "either \"separate\" or \"half_width_below\" is needed here");

@@ -64,6 +64,29 @@ struct RecordingSource {
   }
 };
 
+/// A span of a recording and the fit to it.
+struct FittedSpan {
+  std::shared_ptr<const Series> span;
+  Calibration fit;
+};
+
+/// Reads and fits; the last one is kept, since all points of a design are around the same recording.
+FittedSpan fitted_span(const RecordingSource& source, double from_s, double to_s, FitMethod method,
+                       const std::string& place) {
+  namespace fs = std::filesystem;
+  std::error_code absent;
+  const auto key = fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", fs::absolute(source.path).string(), source.axis,
+                               Json(source.layout.columns).dump(), Json(source.layout.units).dump(),
+                               from_s, to_s, static_cast<int>(method), fs::file_size(source.path, absent),
+                               fs::last_write_time(source.path, absent).time_since_epoch().count());
+  thread_local std::pair<std::string, FittedSpan> last;
+  if (last.first == key) return last.second;
+  const auto recording = source.read();
+  const auto span = std::make_shared<const Series>(cut(recording.series, from_s, to_s, place));
+  last = {key, {span, calibrate(*span, method)}};
+  return last.second;
+}
+
 /// Sets random error, thermal drift, rate and temperature from a fit to a recording.
 void read_recorded(JsonObject object, const std::string& folder, Scenario& scenario) {
   const RecordingSource source(object, folder);
@@ -72,9 +95,7 @@ void read_recorded(JsonObject object, const std::string& folder, Scenario& scena
   const auto method = object.named("fit", "likelihood", fit_method_named);
   object.finish();
 
-  const auto recording = source.read();
-  auto span = std::make_shared<Series>(cut(recording.series, from_s, to_s, object.place()));
-  const auto fit = calibrate(*span, method);
+  const auto [span, fit] = fitted_span(source, from_s, to_s, method, object.place());
   if (!fit.random_error.converged)
     throw InputError(object.place(), "the fit to the recording " + fit.random_error.message);
   scenario.random_error = fit.random_error.parameters;

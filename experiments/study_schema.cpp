@@ -156,6 +156,53 @@ Json assumed() {
   return object(properties, "factors on what filters other than the oracle are told");
 }
 
+Json kind(const char* name) { return {{"properties", {{"kind", {{"const", name}}}}}}; }
+
+Json design() {
+  const auto span = object({{"from", {{"type", "number"}, {"description", "lower end; else of the parameter's own range"}}},
+                            {"to", {{"type", "number"}, {"description", "upper end; else of the parameter's own range"}}},
+                            {"scale", one_of({"linear", "log"}, "what the points are even in")},
+                            {"levels", number(study_ranges::levels, 5, "grid: number of values")},
+                            {"base", {{"type", "number"}, {"description", "one_at_a_time: where the others stay"}}}},
+                           "a parameter's span");
+  const Json values = {{"type", "array"}, {"minItems", 1}};
+  const Json properties = {
+      {"kind", one_of({"grid", "list", "latin_hypercube", "sobol", "one_at_a_time", "morris", "saltelli"},
+                      "how the points are placed")},
+      {"parameters", {{"type", "object"}, {"minProperties", 1},
+                      {"additionalProperties", {{"if", {{"type", "array"}}}, {"then", values}, {"else", span}}},
+                      {"description", "spans or values by path: {\"scenario.random_error.phi\": {\"from\": 0.1, \"to\": 0.9}}"}}},
+      {"points", {{"description", "list: objects {\"path\": value}; latin_hypercube, sobol: their number"},
+                  {"if", {{"type", "array"}}},
+                  {"then", {{"minItems", 1}, {"items", {{"type", "object"}, {"minProperties", 1}}}}},
+                  {"else", number(study_ranges::points, "number of points")}}},
+      {"trajectories", number(study_ranges::points, 20, "morris: number of trajectories")},
+      {"levels", number(study_ranges::levels, 4, "morris: levels of each parameter, even")},
+      {"rows", number(study_ranges::points, 128, "saltelli: rows of A and B")}};
+  auto schema = object(properties, "many cells from one: the points of a design over its parameters", {"kind"});
+  schema["if"] = kind("list");
+  schema["then"] = {{"required", {"points"}}};
+  schema["else"] = {{"required", {"parameters"}}};
+  return schema;
+}
+
+Json stop() {
+  const Json names = {{"type", "array"}, {"minItems", 1}, {"items", {{"type", "string"}}}};
+  auto methods = names, separate = names;
+  methods["description"] = "whose intervals are asked for; absent: all";
+  separate["description"] = "methods that are to be told apart";
+  separate["minItems"] = 2;
+  auto schema = object({{"metric", one_of(Metrics::ids(), "what is looked at; else what methods are compared by")},
+                        {"at_least", number(study_ranges::first_look, 100, "trials at the first look")},
+                        {"half_width_below", number(ranges::positive, "of the mean's 95 % interval, in the metric's unit")},
+                        {"methods", methods},
+                        {"separate", separate},
+                        {"margin", number(ranges::non_negative, 0, "methods that differ by less count as equal")}},
+                       "when a cell has seen enough");
+  schema["oneOf"] = {{{"required", {"half_width_below"}}}, {{"required", {"separate"}}}};
+  return schema;
+}
+
 Json cell() {
   auto name = text("how tables and addresses call it");
   name["pattern"] = R"(^[^"\u0000-\u001f]+$)";
@@ -184,7 +231,9 @@ Json cell() {
                             {"duration_s", number(ranges::positive, 60, "length of a piece, s")}})},
       {"grid", {{"type", "object"},
                 {"additionalProperties", {{"type", "array"}, {"minItems", 1}}},
-                {"description", "a cell for each combination: {\"scenario.random_error.phi\": [0.1, 0.5]}"}}}};
+                {"description", "a cell for each combination: {\"scenario.random_error.phi\": [0.1, 0.5]}"}}},
+      {"design", design()},
+      {"stop", stop()}};
   return object(properties, "one scenario, or one recording in pieces, with the filters tried on it");
 }
 

@@ -103,11 +103,12 @@ class Rows {
     const auto n = static_cast<double>(size_);
     std::vector<double> sums(C, 0.0), products(C * C, 0.0);
     for (std::size_t r = 0; r < size_; ++r) {
+      if (counts[r] == 0) continue;
       const double* row = &centred_[r * C];
       for (std::size_t c = 0; c < C; ++c) {
         const double times = counts[r] * row[c];
         sums[c] += times;
-        for (std::size_t d = 0; d < C; ++d) products[c * C + d] += times * row[d];
+        for (std::size_t d = 0; d <= c; ++d) products[c * C + d] += times * row[d];
       }
     }
     auto at = means_;
@@ -115,8 +116,9 @@ class Rows {
     const auto slopes_there = gradient(statistic_, at, widths_);
     double variance = 0.0;
     for (std::size_t c = 0; c < C; ++c)
-      for (std::size_t d = 0; d < C; ++d)
-        variance += slopes_there[c] * slopes_there[d] * (products[c * C + d] - sums[c] * sums[d] / n);
+      for (std::size_t d = 0; d <= c; ++d)
+        variance += (c == d ? 1.0 : 2.0) * slopes_there[c] * slopes_there[d] *
+                    (products[c * C + d] - sums[c] * sums[d] / n);
     return {statistic_(at), std::max(0.0, variance) / (n * (n - 1.0))};
   }
 

@@ -24,7 +24,8 @@ std::vector<double> trial_levels(const Outputs& outputs) {
 class Comparison {
  public:
   explicit Comparison(const Outputs& outputs)
-      : outputs_(outputs), levels_(trial_levels(outputs)), rows_(3, outputs.trials()) {}
+      : outputs_(outputs), levels_(trial_levels(outputs)), squares_(2, outputs.trials()),
+        noises_(2, outputs.trials()) {}
 
   /// Half the squared difference, half the squares, and the noise in these, of points `a` and `b`.
   /// False where too few trials have both.
@@ -39,29 +40,32 @@ class Comparison {
     }
     const auto firsts = trial_means(first), seconds = trial_means(second),
                differences = trial_means(difference);
-    std::vector<std::vector<double>> numbers;
-    for (std::size_t i = 0; i < firsts.size(); ++i)
-      numbers.push_back({0.5 * differences[i].square(),
-                         0.5 * (firsts[i].square() + seconds[i].square()),
-                         0.5 * (firsts[i].variance + seconds[i].variance)});
-    rows_.add(numbers);
+    std::vector<std::vector<double>> squares, noises;
+    for (std::size_t i = 0; i < firsts.size(); ++i) {
+      const double both = 0.5 * (firsts[i].square() + seconds[i].square());
+      squares.push_back({0.5 * differences[i].square(), both});
+      noises.push_back({0.5 * (firsts[i].variance + seconds[i].variance), both});
+    }
+    squares_.add(squares);
+    noises_.add(noises);
     return true;
   }
 
+  /// What the two points share of their variance, what they do not, and the noise as a share of it.
   Estimate shared(Resampler& resampler) const {
-    return bootstrapped(rows_, [](auto m) { return m[1] > 0.0 ? 1.0 - m[0] / m[1] : no_value; }, resampler);
+    return bootstrapped(squares_, [](auto m) { return 1.0 - share(m); }, resampler);
   }
-  Estimate unshared(Resampler& resampler) const {
-    return bootstrapped(rows_, [](auto m) { return m[1] > 0.0 ? m[0] / m[1] : no_value; }, resampler);
-  }
-  Estimate noise(Resampler& resampler) const {
-    return bootstrapped(rows_, [](auto m) { return m[1] > 0.0 ? m[2] / m[1] : no_value; }, resampler);
-  }
+  Estimate unshared(Resampler& resampler) const { return bootstrapped(squares_, share, resampler); }
+  Estimate noise(Resampler& resampler) const { return bootstrapped(noises_, share, resampler); }
 
  private:
+  static double share(std::span<const double> means) {
+    return means[1] > 0.0 ? means[0] / means[1] : no_value;
+  }
+
   const Outputs& outputs_;
   std::vector<double> levels_;
-  CrossedRows rows_;
+  CrossedRows squares_, noises_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// sensitivity_coverage [repeats] [seed]: the coverage of sensitivity intervals as JSON, a table for people
-// on the way.
+// sensitivity_coverage [repeats] [seed]: the coverage of sensitivity intervals as JSON, and as Markdown
+// on standard error.
 #include <cstdlib>
 #include <iostream>
 
@@ -13,5 +13,5 @@ int main(int argc, char** argv) {
   };
   const auto table = sensitivity_coverage(static_cast<std::uint32_t>(number(1, 2000)), number(2, 1));
   std::cout << render({&table, 1}, Format::json);
-  std::cerr << render({&table, 1}, Format::text);
+  std::cerr << render({&table, 1}, Format::markdown);
 }

@@ -19,14 +19,34 @@ struct StatusArguments {
   FormatOption format;
 };
 
+/// The cells from `first` on that are points of one design, by their names; one where there are few.
+std::uint32_t together(const Manifest& manifest, std::uint32_t first) {
+  constexpr std::uint32_t few = 20;
+  const auto design = manifest.cells[first].name.substr(0, manifest.cells[first].name.find('[') + 1);
+  std::uint32_t last = first;
+  while (design.ends_with('[') && last < manifest.cells.size() &&
+         manifest.cells[last].name.starts_with(design))
+    ++last;
+  return last - first > few ? last - first : 1;
+}
+
 Table cells_table(const Store& store, const Manifest& manifest) {
   Table table{.title = fmt::format("{}: seed {}, digest {}", manifest.name, manifest.seed, manifest.digest),
               .columns = {{"cell", ""}, {"finished", ""}, {"trials", ""}, {"failed", ""}},
               .rows = {}, .notes = {}};
-  for (std::uint32_t c = 0; c < manifest.cells.size(); ++c) {
-    const auto& cell = manifest.cells[c];
-    table.rows.push_back({cell.name, std::int64_t{std::min(cell.finished, cell.trials)},
-                          std::int64_t{cell.trials}, std::int64_t{store.failed_trials(c, cell.trials)}});
+  for (std::uint32_t c = 0; c < manifest.cells.size();) {
+    const std::uint32_t count = together(manifest, c);
+    const auto name = count == 1 ? manifest.cells[c].name
+                                 : fmt::format("{} ({} points)",
+                                               manifest.cells[c].name.substr(0, manifest.cells[c].name.find('[')), count);
+    std::int64_t finished = 0, trials = 0, failed = 0;
+    for (const auto end = c + count; c < end; ++c) {
+      const auto& cell = manifest.cells[c];
+      finished += std::min(cell.finished, cell.trials);
+      trials += cell.trials;
+      failed += store.failed_trials(c, cell.trials);
+    }
+    table.rows.push_back({name, finished, trials, failed});
   }
   return table;
 }

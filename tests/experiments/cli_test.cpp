@@ -493,7 +493,7 @@ TEST(Validate, NamesTheCellsWithTrialsSamplesAndMethods) {
 TEST(Help, NamesEveryVerbAndEveryVerbHasItsOwn) {
   const TestFolder folder;
   const auto help = run_well(folder, {"--help"}).out;
-  for (const std::string verb : {"run", "plan", "status", "export", "replay", "merge", "slurm", "fit", "apply",
+  for (const std::string verb : {"run", "plan", "sensitivity", "status", "export", "replay", "merge", "slurm", "fit", "apply",
                                  "simulate", "allan", "list", "validate"}) {
     EXPECT_THAT(help, HasSubstr("  " + verb + " "));
     EXPECT_THAT(run_well(folder, {verb, "--help"}).out, HasSubstr("gyrostat " + verb));
