@@ -24,9 +24,11 @@ Chart rank_chart(const CellView& v, const CellRanking& ranking) {
     if (half >= 0.0) dot.x_low = {dot.x[0] - half}, dot.x_high = {dot.x[0] + half};
     chart.marks.push_back(std::move(dot));
   }
-  chart.note = fmt::format("By {}, over {} trials, each method ranked in each trial. Whiskers: half the critical difference "
-                           "({:.3g}, Nemenyi), so methods whose whiskers do not overlap differ in rank; a grey line links "
-                           "methods that are not separable.", ranking.metric, ranking.trials, ranking.critical_difference);
+  chart.note = fmt::format("By {}, over {} trials, each method ranked in each trial. A grey line links methods that are not "
+                           "separable.", ranking.metric, ranking.trials);
+  if (ranking.critical_difference >= 0.0)
+    chart.note += fmt::format(" Whiskers: half the critical difference ({:.3g}, Nemenyi), so methods whose whiskers do not "
+                              "overlap differ in rank.", ranking.critical_difference);
   return chart;
 }
 

@@ -36,7 +36,9 @@ std::string head(const Study& study, const Manifest& manifest) {
   for (const auto& cell : manifest.cells) finished += std::min(cell.finished, cell.trials);
   const auto title = study.title.empty() ? study.name() : study.title;
   return fmt::format("<a class=\"skip\" href=\"#main\">To the results</a>\n<header>\n<h1>{}</h1>\n<p class=\"note\">Study {}, "
-                     "{} cells, {} of {} trials finished; seed {}, digest <code>{}</code></p>\n</header>\n",
+                     "{} cells, {} of {} trials finished; seed {}, digest <code>{}</code></p>\n<p class=\"note hint\" hidden>Pictures: "
+                     "drag to zoom, double-click to see all. By keyboard: arrows go from point to point, + − 0 zoom, Shift and arrows "
+                     "move, Enter copies the command that replays an outlier.</p>\n</header>\n",
                      escaped(title), escaped(study.name()), study.cells.size(), finished, study.trials(), study.seed,
                      escaped(manifest.digest));
 }
