@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "experiments/cell_parameters.hpp"
-#include "experiments/study_ranges.hpp"
 #include "experiments/json_path.hpp"
+#include "experiments/study_ranges.hpp"
 
 namespace gyrostat {
 namespace {
