@@ -12,8 +12,8 @@ using Parameters = std::vector<CellParameter>;
 template <class P>
 void add(Parameters& list, const std::string& prefix, const P& p) {
   for (const auto& field : P::fields())
-    list.push_back({fmt::format("{}.{}", prefix, field.name), p.*(field.member), std::string(field.unit),
-                    field.range});
+    list.push_back({fmt::format("{}.{}", prefix, field.name), p.*(field.member),
+                    std::string(field.unit), field.range});
 }
 
 template <class Any>

@@ -15,8 +15,8 @@ struct CellParameter {
   Range range;
 };
 
-/// Every parameter of a cell that has a field list: of its scenario, its effects (by index and by name) and
-/// its filters (by index and by id).
+/// Every parameter of a cell that has a field list: of its scenario, its effects (by index and by
+/// name) and its filters (by index and by id).
 std::vector<CellParameter> cell_parameters(const Cell& cell);
 
 /// The one at `path`; InputError at `place` with the nearest known path otherwise.

@@ -57,9 +57,10 @@ std::string named_values(const Design& design, const std::vector<Json>& values) 
 double end_of(JsonObject& object, const std::string& key, const DesignParameter& p, double own,
               bool is_open) {
   if (!object.has(key) && (is_open || !std::isfinite(own)))
-    throw InputError(object.place(), fmt::format("\"{}\" is missing, and the parameter's own range {} {} "
-                                                 "does not end there in a value",
-                                                 key, p.range.to_string(), p.unit));
+    throw InputError(object.place(),
+                     fmt::format("\"{}\" is missing, and the parameter's own range {} {} "
+                                 "does not end there in a value",
+                                 key, p.range.to_string(), p.unit));
   return object.number(key, own, p.range, p.unit);
 }
 
@@ -67,17 +68,18 @@ void read_span(JsonObject& object, DesignParameter& p) {
   p.from = end_of(object, "from", p, p.range.from, p.range.open_from);
   p.to = end_of(object, "to", p, p.range.to, p.range.open_to);
   if (!(p.from < p.to))
-    throw InputError(object.place(),
-                     fmt::format("\"from\" {} is not below \"to\" {}", short_number(p.from), short_number(p.to)));
+    throw InputError(object.place(), fmt::format("\"from\" {} is not below \"to\" {}",
+                                                 short_number(p.from), short_number(p.to)));
   const auto scale = object.text("scale", "linear");
   const std::array<std::string, 2> scales = {"linear", "log"};
   if (scale != scales[0] && scale != scales[1])
     throw InputError(object.place_of("scale"), unknown_name("scale", scale, scales));
   p.logarithmic = scale == "log";
   if (p.logarithmic && p.from <= 0.0)
-    throw InputError(object.place_of("from"),
-                     fmt::format("{} {} has no logarithm; allowed with \"scale\": \"log\": (0, inf)",
-                                 short_number(p.from), p.unit));
+    throw InputError(
+        object.place_of("from"),
+        fmt::format("{} {} has no logarithm; allowed with \"scale\": \"log\": (0, inf)",
+                    short_number(p.from), p.unit));
 }
 
 /// One combination of all values after the other, the last parameter's changing fastest.
@@ -96,12 +98,13 @@ void combine(Design& design, const std::vector<std::vector<Json>>& values) {
 }
 
 std::vector<Json> listed(const Json& values, const std::string& place) {
-  if (!values.is_array() || values.empty()) throw InputError(place, "a list of values [...] is needed here");
+  if (!values.is_array() || values.empty())
+    throw InputError(place, "a list of values [...] is needed here");
   return {values.begin(), values.end()};
 }
 
-/// Values of a grid's parameter: listed, or "levels" of them from "from" to "to" where there is a cell to
-/// know the parameter from.
+/// Values of a grid's parameter: listed, or "levels" of them from "from" to "to" where there is a
+/// cell to know the parameter from.
 std::vector<Json> grid_values(const Json& spec, const std::string& place, const Cell* base,
                               DesignParameter& p) {
   if (!spec.is_object() || base == nullptr) return listed(spec, place);
@@ -133,13 +136,15 @@ void read_list(JsonObject& object, Design& design) {
       design.values.back()[static_cast<std::size_t>(found - design.parameters.begin())] = value;
     }
   }
-  if (design.values.empty()) throw InputError(object.place_of("points"), "a list of points is needed here");
+  if (design.values.empty())
+    throw InputError(object.place_of("points"), "a list of points is needed here");
   name_parameters(design.parameters);
   for (const auto& values : design.values) design.labels.push_back(named_values(design, values));
 }
 
 /// Spans of the parameters, and where they have a "base" that.
-void read_spans(const JsonObject& object, const Json& parameters, const Cell& cell, Design& design) {
+void read_spans(const JsonObject& object, const Json& parameters, const Cell& cell,
+                Design& design) {
   for (const auto& [path, spec] : parameters.items()) {
     const auto place = object.place_of("parameters") + "." + path;
     const auto known = parameter_at(cell, path, place);
@@ -152,7 +157,8 @@ void read_spans(const JsonObject& object, const Json& parameters, const Cell& ce
       if (std::isnan(design.base.back()))
         throw InputError(place, "\"base\" is missing: the value comes from a calibration");
       if (p.logarithmic && design.base.back() <= 0.0)
-        throw InputError(place, fmt::format("the base {} has no logarithm", short_number(design.base.back())));
+        throw InputError(
+            place, fmt::format("the base {} has no logarithm", short_number(design.base.back())));
     }
     span.finish();
   }
@@ -206,7 +212,9 @@ void place_points(JsonObject& object, std::uint64_t seed, Design& design) {
     case DesignKind::latin_hypercube:
       design.points = latin_hypercube(count("points", 100), parameters, source);
       break;
-    case DesignKind::sobol: design.points = sobol_sequence(count("points", 128), parameters, source); break;
+    case DesignKind::sobol:
+      design.points = sobol_sequence(count("points", 128), parameters, source);
+      break;
     case DesignKind::one_at_a_time: {
       std::vector<double> base;
       for (std::size_t p = 0; p < parameters; ++p)
@@ -219,7 +227,8 @@ void place_points(JsonObject& object, std::uint64_t seed, Design& design) {
       const auto trajectories = count("trajectories", 20);
       design.levels = static_cast<std::size_t>(object.number("levels", 4, study_ranges::levels, "levels"));
       if (design.levels % 2 != 0)
-        throw InputError(object.place_of("levels"), fmt::format("{} is odd; allowed: even numbers", design.levels));
+        throw InputError(object.place_of("levels"),
+                         fmt::format("{} is odd; allowed: even numbers", design.levels));
       require_size(trajectories * (parameters + 1), object.place());
       design.points = morris_trajectories(trajectories, design.levels, parameters, source);
       design.labels = morris_labels(design);
@@ -240,7 +249,8 @@ void place_points(JsonObject& object, std::uint64_t seed, Design& design) {
   for (const auto& point : design.points) {
     auto& values = design.values.emplace_back();
     for (std::size_t p = 0; p < parameters; ++p)
-      values.emplace_back(is_base(p, point[p]) ? design.base[p] : design.parameters[p].at(point[p]));
+      values.emplace_back(is_base(p, point[p]) ? design.base[p]
+                                               : design.parameters[p].at(point[p]));
   }
 }
 
@@ -248,7 +258,8 @@ std::string design_name(const Json& cell, const std::string& place) {
   return JsonObject(cell, place).text("name", "cell");
 }
 
-void read_grid_parameters(const Json& grid, const std::string& place, const Cell* base, Design& design) {
+void read_grid_parameters(const Json& grid, const std::string& place, const Cell* base,
+                          Design& design) {
   if (!grid.is_object()) throw InputError(place, "an object {\"path\": [values]} is needed here");
   for (const auto& [path, unused] : grid.items()) design.parameters.push_back({.path = path});
   name_parameters(design.parameters);
@@ -276,7 +287,9 @@ bool Design::is_sampled() const {
   return (kind != DesignKind::grid && kind != DesignKind::list) || values.size() > few;
 }
 
-std::string name_of(DesignKind kind) { return std::string(kind_names[static_cast<std::size_t>(kind)]); }
+std::string name_of(DesignKind kind) {
+  return std::string(kind_names[static_cast<std::size_t>(kind)]);
+}
 
 Design read_grid(const Json& cell, const std::string& place) {
   Design design{.name = design_name(cell, place), .kind = DesignKind::grid};
@@ -284,7 +297,8 @@ Design read_grid(const Json& cell, const std::string& place) {
   return design;
 }
 
-Design read_design(const Json& cell, const Cell& base, std::uint64_t seed, const std::string& place) {
+Design read_design(const Json& cell, const Cell& base, std::uint64_t seed,
+                   const std::string& place) {
   Design design{.name = design_name(cell, place)};
   JsonObject object(cell.at("design"), place + ".design");
   design.kind = kind_named(object.required_text("kind"), object.place_of("kind"));
@@ -292,7 +306,8 @@ Design read_design(const Json& cell, const Cell& base, std::uint64_t seed, const
     read_list(object, design);
   } else {
     if (!object.child("parameters") || cell.at("design").at("parameters").empty())
-      throw InputError(object.place_of("parameters"), "an object {\"path\": {\"from\": …, \"to\": …}} is needed here");
+      throw InputError(object.place_of("parameters"),
+                       "an object {\"path\": {\"from\": …, \"to\": …}} is needed here");
     const Json& parameters = cell.at("design").at("parameters");
     if (design.kind == DesignKind::grid) {
       read_grid_parameters(parameters, object.place_of("parameters"), &base, design);
@@ -315,7 +330,8 @@ std::vector<std::pair<Json, std::string>> cells_of(const Design& design, const J
   for (std::size_t i = 0; i < design.values.size(); ++i) {
     auto& [varied, varied_place] = cells.emplace_back(base, place + "[" + design.labels[i] + "]");
     for (std::size_t p = 0; p < design.parameters.size(); ++p)
-      if (!design.values[i][p].is_null()) set_at(varied, design.parameters[p].path, design.values[i][p], place + key);
+      if (!design.values[i][p].is_null())
+        set_at(varied, design.parameters[p].path, design.values[i][p], place + key);
     varied["name"] = design.cell_name(i);
   }
   return cells;

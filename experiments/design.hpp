@@ -36,10 +36,10 @@ struct Design {
   std::vector<DesignParameter> parameters{};
   std::vector<std::vector<Json>> values{};  ///< by point, by parameter
   std::vector<std::string> labels{};        ///< by point: what it is in the design
-  Points points{};            ///< in the unit cube; none of a grid or a list
-  std::vector<double> base{}; ///< values at the base of one_at_a_time
-  std::size_t levels = 0;   ///< of morris
-  std::size_t first_cell = 0; ///< where its points begin among the study's cells
+  Points points{};                          ///< in the unit cube; none of a grid or a list
+  std::vector<double> base{};               ///< values at the base of one_at_a_time
+  std::size_t levels = 0;                   ///< of morris
+  std::size_t first_cell = 0;               ///< where its points begin among the study's cells
 
   std::string cell_name(std::size_t point) const { return name + "[" + labels[point] + "]"; }
   /// Whether its points serve the design alone, too many or too artificial for tables of their own.
@@ -49,12 +49,14 @@ struct Design {
 /// The kind's name in a study file.
 std::string name_of(DesignKind kind);
 
-/// A cell with a "grid": {"path": [values], …} as a design of that kind: one point for each combination.
+/// A cell with a "grid": {"path": [values], …} as a design of that kind: one point for each
+/// combination.
 Design read_grid(const Json& cell, const std::string& place);
 
-/// A cell's "design". `base` is the cell without it, read; `seed` is the study's. Throws InputError with
-/// path, value, unit, range and the nearest name.
-Design read_design(const Json& cell, const Cell& base, std::uint64_t seed, const std::string& place);
+/// A cell's "design". `base` is the cell without it, read; `seed` is the study's. Throws InputError
+/// with path, value, unit, range and the nearest name.
+Design read_design(const Json& cell, const Cell& base, std::uint64_t seed,
+                   const std::string& place);
 
 /// The cells of a design, as JSON, with the places that mistakes in them are reported at.
 std::vector<std::pair<Json, std::string>> cells_of(const Design& design, const Json& cell,

@@ -24,7 +24,8 @@ struct Step {
   std::size_t length;
 };
 
-Step into_list(Json& list, std::string_view rest, const std::string& path, const std::string& place) {
+Step into_list(Json& list, std::string_view rest, const std::string& path,
+               const std::string& place) {
   const std::string part(rest.substr(0, rest.find('.')));
   const bool is_index = !part.empty() && part.find_first_not_of("0123456789") == std::string::npos;
   if (is_index && part.size() < 6 && std::stoul(part) < list.size())
@@ -35,14 +36,16 @@ Step into_list(Json& list, std::string_view rest, const std::string& path, const
         if (entry.is_string() && name.size() < rest.size()) entry = Json{{"filter", name}};
         return {&entry, name.size()};
       }
-  throw InputError(place, fmt::format("'{}' in {} is not an index or a name in a list of {}", part, path,
-                                      list.size()));
+  throw InputError(place, fmt::format("'{}' in {} is not an index or a name in a list of {}", part,
+                                      path, list.size()));
 }
 
-Step step_into(Json& json, std::string_view rest, const std::string& path, const std::string& place) {
+Step step_into(Json& json, std::string_view rest, const std::string& path,
+               const std::string& place) {
   if (json.is_array()) return into_list(json, rest, path, place);
   if (!json.is_object() && !json.is_null())
-    throw InputError(place, fmt::format("{} leads through {}, which has no parts", path, json.dump()));
+    throw InputError(place,
+                     fmt::format("{} leads through {}, which has no parts", path, json.dump()));
   const std::string part(rest.substr(0, rest.find('.')));
   return {&json[part], part.size()};
 }

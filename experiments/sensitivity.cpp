@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t column_count = metric_count + status_names.size() + 1;
 
-/// More trials than these are averaged in so many groups: trial t belongs to group t mod most_groups.
+/// More trials than these are averaged in so many groups: trial t belongs to group t mod
+/// most_groups.
 constexpr std::size_t most_groups = 100;
 
 bool has_failed(std::span<const double> outcome) {
@@ -43,13 +44,15 @@ struct Collected {
 };
 
 /// The metric of each of `methods`, in one pass over the design's trials.
-std::vector<Collected> collect(const Study& study, const CellTrials& trials_of, const Design& design,
-                               const std::vector<std::size_t>& methods, std::size_t metric) {
+std::vector<Collected> collect(const Study& study, const CellTrials& trials_of,
+                               const Design& design, const std::vector<std::size_t>& methods,
+                               std::size_t metric) {
   const std::size_t points = design.values.size();
   const std::uint32_t trials = study.cells[design.first_cell].trials;
   const std::size_t groups = std::min<std::size_t>(trials, most_groups);
   std::vector<Collected> all(methods.size(), {.outputs = Outputs(points, groups)});
-  std::vector<std::vector<double>> values(methods.size()), sums(methods.size()), counts(methods.size());
+  std::vector<std::vector<double>> values(methods.size()), sums(methods.size()),
+      counts(methods.size());
   for (std::size_t i = 0; i < points; ++i) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
       all[m].failed.push_back(0);
@@ -100,7 +103,8 @@ void estimate(const Design& design, const Outputs& outputs, Resampler& resampler
   if (design.kind == DesignKind::morris) {
     const double step = morris_step(design.levels);
     s.elementary_effects = elementary_effects(design.points, outputs, step, resampler);
-    for (std::size_t p = 0; p < parameters; ++p) s.elementary_effects[p].parameter = s.parameters[p];
+    for (std::size_t p = 0; p < parameters; ++p)
+      s.elementary_effects[p].parameter = s.parameters[p];
     s.noise.value = elementary_noise(design.points, outputs, step);
   }
   if (design.kind == DesignKind::saltelli) {
@@ -120,8 +124,9 @@ std::vector<Sensitivity> sensitivities(const Study& study, const Store& store) {
 std::vector<Sensitivity> sensitivities(const Study& study, const Store& store,
                                        const SensitivityChoice& choice) {
   const auto trials = [&](std::size_t cell, const auto& visit) {
-    store.for_each_trial(static_cast<std::uint32_t>(cell), study.cells[cell].trials,
-                         [&](const Store::TrialView& trial) { visit(trial.trial, trial.outcomes); });
+    store.for_each_trial(
+        static_cast<std::uint32_t>(cell), study.cells[cell].trials,
+        [&](const Store::TrialView& trial) { visit(trial.trial, trial.outcomes); });
   };
   return sensitivities(study, trials, choice);
 }
@@ -133,12 +138,14 @@ std::vector<Sensitivity> sensitivities(const Study& study, const CellTrials& tri
   std::vector<std::string> ids;
   for (const auto& design : study.designs) {
     const auto& cell = study.cells[design.first_cell];
-    const std::string name = choice.metric.empty() ? std::string(judging_metric(cell)) : choice.metric;
+    const std::string name =
+        choice.metric.empty() ? std::string(judging_metric(cell)) : choice.metric;
     const std::size_t metric = metric_named(name, "--metric");
     std::vector<std::size_t> methods;
     for (std::size_t m = 0; m < cell.methods.size(); ++m) {
       ids.push_back(cell.methods[m].id);
-      if (choice.method.empty() ? cell.methods[m].filter != "oracle" : cell.methods[m].id == choice.method)
+      if (choice.method.empty() ? cell.methods[m].filter != "oracle"
+                                : cell.methods[m].id == choice.method)
         methods.push_back(m);
     }
     known = known || !methods.empty();
@@ -146,10 +153,16 @@ std::vector<Sensitivity> sensitivities(const Study& study, const CellTrials& tri
     Resampler resampler(study.seed, "bootstrap/" + design.name);
     for (std::size_t m = 0; m < methods.size(); ++m) {
       const auto& c = collected[m];
-      Sensitivity s{.design = design.name, .kind = name_of(design.kind), .method = cell.methods[methods[m]].id,
-                    .metric = name, .unit = unit_of(metric), .trials = c.most,
-                    .missing_values = c.missing, .points = design.values.size(),
-                    .failed_points = c.empty_points, .failures = c.failed};
+      Sensitivity s{.design = design.name,
+                    .kind = name_of(design.kind),
+                    .method = cell.methods[methods[m]].id,
+                    .metric = name,
+                    .unit = unit_of(metric),
+                    .trials = c.most,
+                    .missing_values = c.missing,
+                    .points = design.values.size(),
+                    .failed_points = c.empty_points,
+                    .failures = c.failed};
       for (const auto& parameter : design.parameters) {
         s.parameters.push_back(parameter.name);
         s.units.push_back(parameter.unit);

@@ -1,11 +1,11 @@
 #include "experiments/sensitivity_coverage.hpp"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
-
 #include <cmath>
 #include <functional>
 #include <mutex>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include "analysis/sensitivity/estimators.hpp"
 #include "analysis/sensitivity/test_functions.hpp"
@@ -19,9 +19,9 @@ using Function = std::function<double(std::span<const double>)>;
 /// Trial noise, in standard deviations of the function over the cube.
 struct TrialNoise {
   std::string name;
-  double own = 0.0;     ///< of each point
-  double shared = 0.0;  ///< of all points together, in part as a factor on the output
-  double failing = 0.0; ///< share of trials without a value
+  double own = 0.0;      ///< of each point
+  double shared = 0.0;   ///< of all points together, in part as a factor on the output
+  double failing = 0.0;  ///< share of trials without a value
 };
 
 struct Case {
@@ -43,7 +43,8 @@ Outputs simulate(const Case& c, const Points& points, std::uint64_t seed, std::u
     const double f = c.f(points[i]);
     noise.fill(i * c.trials, own);
     for (std::size_t t = 0; t < c.trials; ++t) {
-      const bool fails = c.noise.failing > 0.0 && failures.uniform(i * c.trials + t) < c.noise.failing;
+      const bool fails =
+          c.noise.failing > 0.0 && failures.uniform(i * c.trials + t) < c.noise.failing;
       outputs.at(i, t) = fails ? no_value
                                : f * (1.0 + 0.5 * c.noise.shared * factors[t]) +
                                      c.spread * (c.noise.shared * shifts[t] + c.noise.own * own[t]);
@@ -82,10 +83,10 @@ void add_rows(Table& table, const std::string& design, const Case& c, std::uint3
               const std::vector<Tally>& tallies) {
   for (const auto& t : tallies) {
     const double share = static_cast<double>(t.held) / t.made;
-    table.rows.push_back({design, c.function, c.noise.name, static_cast<std::int64_t>(c.trials), t.quantity,
-                          t.truth, t.sum / t.made, 100.0 * share,
-                          100.0 * std::sqrt(share * (1.0 - share) / t.made), 100.0 * t.below / t.made,
-                          t.width / t.made, static_cast<std::int64_t>(repeats - t.made)});
+    table.rows.push_back(
+        {design, c.function, c.noise.name, static_cast<std::int64_t>(c.trials), t.quantity, t.truth,
+         t.sum / t.made, 100.0 * share, 100.0 * std::sqrt(share * (1.0 - share) / t.made),
+         100.0 * t.below / t.made, t.width / t.made, static_cast<std::int64_t>(repeats - t.made)});
   }
 }
 
@@ -149,7 +150,8 @@ void morris(Table& table, const Case& c, std::size_t parameters, std::size_t tra
   auto tallies = named("mu*_{}", sizes);
   for (auto& tally : named("sigma_{}", spreads)) tallies.push_back(tally);
   repeat(tallies, repeats, [&](std::uint32_t r) {
-    const auto points = morris_trajectories(trajectories, levels, parameters, {seed + r, "coverage"});
+    const auto points =
+        morris_trajectories(trajectories, levels, parameters, {seed + r, "coverage"});
     Resampler resampler(seed + r, "coverage");
     const auto effects =
         elementary_effects(points, simulate(c, points, seed, r), morris_step(levels), resampler);
@@ -158,8 +160,8 @@ void morris(Table& table, const Case& c, std::size_t parameters, std::size_t tra
     for (const auto& effect : effects) estimates.push_back(effect.sigma);
     return estimates;
   });
-  add_rows(table, fmt::format("morris, {} trajectories, {} levels", trajectories, levels), c, repeats,
-           tallies);
+  add_rows(table, fmt::format("morris, {} trajectories, {} levels", trajectories, levels), c,
+           repeats, tallies);
 }
 
 /// Around the middle of [1, 2]^3, of x1 x2^2 + x3.
@@ -188,18 +190,27 @@ double polynomial(std::span<const double> u) {
 
 Table sensitivity_coverage(std::uint32_t repeats, std::uint64_t seed) {
   Table table{.title = fmt::format("Coverage of nominal 95 % intervals, {} repeats", repeats),
-              .columns = {{"design", ""}, {"function", ""}, {"noise", ""}, {"trials", ""},
-                          {"quantity", ""}, {"truth", ""}, {"mean estimate", ""}, {"coverage", "%"},
-                          {"standard error", "%"}, {"truth below", "%"}, {"mean width", ""},
+              .columns = {{"design", ""},
+                          {"function", ""},
+                          {"noise", ""},
+                          {"trials", ""},
+                          {"quantity", ""},
+                          {"truth", ""},
+                          {"mean estimate", ""},
+                          {"coverage", "%"},
+                          {"standard error", "%"},
+                          {"truth below", "%"},
+                          {"mean width", ""},
                           {"no interval", "repeats"}},
-              .rows = {}, .notes = {}};
+              .rows = {},
+              .notes = {}};
   const std::vector<double> a = {0.0, 1.0, 4.5, 9.0};
   const Function g = [a](std::span<const double> u) { return sobol_g(u, a); };
   const std::vector<TrialNoise> noises = {{"none", 0.0, 0.0, 0.0},
-                                      {"own", 1.0, 0.0, 0.0},
-                                      {"shared", 0.3, 0.5, 0.0},
-                                      {"own, 5 % fail", 1.0, 0.0, 0.05},
-                                      {"own, heavy", 4.0, 0.0, 0.0}};
+                                          {"own", 1.0, 0.0, 0.0},
+                                          {"shared", 0.3, 0.5, 0.0},
+                                          {"own, 5 % fail", 1.0, 0.0, 0.05},
+                                          {"own, heavy", 4.0, 0.0, 0.0}};
   std::uint64_t next = seed << 32U;  // so that no two designs share their random numbers
   const auto fresh = [&] { return next += repeats; };
   for (const auto& noise : noises) {
@@ -216,8 +227,9 @@ Table sensitivity_coverage(std::uint32_t repeats, std::uint64_t seed) {
       one_at_a_time_case(table, {"x1 x2^2 + x3", polynomial, 1.0, 200, noise}, repeats, fresh());
     }
   }
-  table.notes.push_back("standard error: of the coverage, binomial; truth below: share of intervals that lie "
-                        "wholly above the truth, 2.5 % for equal tails");
+  table.notes.push_back(
+      "standard error: of the coverage, binomial; truth below: share of intervals that lie "
+      "wholly above the truth, 2.5 % for equal tails");
   return table;
 }
 

@@ -35,7 +35,8 @@ std::vector<double> gradient(const OfMeans& statistic, const std::vector<double>
   return slopes;
 }
 
-/// What each trial does to the statistic, beyond what the trials of single cells would do by chance.
+/// What each trial does to the statistic, beyond what the trials of single cells would do by
+/// chance.
 struct SharedNoise {
   std::vector<double> influences;  ///< by trial, zero on average
   double variance = 0.0;           ///< that they give the statistic
@@ -72,7 +73,8 @@ SharedNoise shared_noise(const CrossedRows& rows, const std::vector<double>& slo
 /// The quantile of sorted values that has `share` of them below it.
 double quantile(const std::vector<double>& sorted, double share) {
   const double at = share * static_cast<double>(sorted.size() + 1) - 1.0;
-  return sorted[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(sorted.size() - 1)))];
+  return sorted[static_cast<std::size_t>(
+      std::clamp(at, 0.0, static_cast<double>(sorted.size() - 1)))];
 }
 
 /// A statistic of resampled rows, and the variance that its rows give it.
@@ -84,8 +86,12 @@ struct Resampled {
 class Rows {
  public:
   Rows(const CrossedRows& rows, const OfMeans& statistic)
-      : statistic_(statistic), means_(means_of(rows)), size_(rows.rows()), centred_(size_ * means_.size()),
-        widths_(means_.size(), 0.0), once_(size_, 1) {
+      : statistic_(statistic),
+        means_(means_of(rows)),
+        size_(rows.rows()),
+        centred_(size_ * means_.size()),
+        widths_(means_.size(), 0.0),
+        once_(size_, 1) {
     for (std::size_t r = 0; r < size_; ++r)
       for (std::size_t c = 0; c < means_.size(); ++c) {
         const double d = centred_[r * means_.size() + c] = rows.row(r)[c] - means_[c];
@@ -184,10 +190,12 @@ Estimate bootstrapped(const CrossedRows& crossed, const OfMeans& statistic, Resa
     const auto of_trials = resampled(shared, trial_counts.subspan(b * T, T));
     const double variance_there = of_rows.variance + of_trials.variance;
     const double t = (of_rows.value + of_trials.value - all.value) / std::sqrt(variance_there);
-    constexpr double negligible = 1e-6;  // of the variance: a resample of equal rows has only rounding
+    constexpr double negligible =
+        1e-6;  // of the variance: a resample of equal rows has only rounding
     if (std::isfinite(t) && variance_there > negligible * variance) studentised.push_back(t);
   }
-  if (studentised.size() < Resampler::resamples - Resampler::resamples / 20) return {.value = all.value};
+  if (studentised.size() < Resampler::resamples - Resampler::resamples / 20)
+    return {.value = all.value};
   std::sort(studentised.begin(), studentised.end());
   const double error = std::sqrt(variance);
   return {all.value, all.value - quantile(studentised, 0.975) * error,

@@ -1,9 +1,10 @@
 #include "analysis/sensitivity/designs.hpp"
 
 #include <algorithm>
-#include <boost/random/sobol.hpp>
 #include <cassert>
 #include <numeric>
+
+#include <boost/random/sobol.hpp>
 
 #include "core/random.hpp"
 
@@ -56,7 +57,8 @@ Points sobol_sequence(std::size_t points, std::size_t parameters, const DesignSo
   Points design(points, std::vector<double>(parameters));
   for (std::size_t i = 0; i < points; ++i)
     for (std::size_t p = 0; p < parameters; ++p) {
-      const std::uint32_t bits = i == 0 ? 0U : engine();  // Boost's sequence leaves out the point at 0
+      const std::uint32_t bits =
+          i == 0 ? 0U : engine();  // Boost's sequence leaves out the point at 0
       design[i][p] = (static_cast<double>(bits ^ shift[p]) + 0.5) * 0x1p-32;
     }
   return design;
@@ -86,7 +88,8 @@ Points morris_trajectories(std::size_t trajectories, std::size_t levels, std::si
     for (auto& l : level) l = uniform.below(levels);
     const auto add = [&] {
       auto& point = design.emplace_back();
-      for (const auto l : level) point.push_back(static_cast<double>(l) / static_cast<double>(levels - 1));
+      for (const auto l : level)
+        point.push_back(static_cast<double>(l) / static_cast<double>(levels - 1));
     };
     add();
     for (const auto p : shuffled(parameters, uniform)) {

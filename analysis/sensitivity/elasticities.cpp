@@ -30,25 +30,27 @@ struct Pairs {
   }
 };
 
-/// The ratio r of the means with the interval of all r at which above - r below has a mean of zero within
-/// its error (Fieller, J. R. Stat. Soc. B 16, 1954), with the bootstrap-t's quantiles in place of
-/// Student's. No interval where the denominator's mean may itself be zero.
+/// The ratio r of the means with the interval of all r at which above - r below has a mean of zero
+/// within its error (Fieller, J. R. Stat. Soc. B 16, 1954), with the bootstrap-t's quantiles in
+/// place of Student's. No interval where the denominator's mean may itself be zero.
 Estimate ratio(const Pairs& pairs, Resampler& resampler) {
   const double above = pairs.mean(pairs.above), below = pairs.mean(pairs.below);
   Estimate estimate{.value = above / below};
   CrossedRows rests(1, 0);
   for (std::size_t t = 0; t < pairs.above.size(); ++t)
     rests.add({{pairs.above[t] - estimate.value * pairs.below[t]}});
-  const auto rest = bootstrapped(rests, [](auto m) { return m[0]; }, resampler);
-  const double aa = pairs.covariance(pairs.above, pairs.above), bb = pairs.covariance(pairs.below, pairs.below),
+  const auto rest = bootstrapped(
+      rests, [](auto m) { return m[0]; }, resampler);
+  const double aa = pairs.covariance(pairs.above, pairs.above),
+               bb = pairs.covariance(pairs.below, pairs.below),
                ab = pairs.covariance(pairs.above, pairs.below);
   const double variance = aa - 2.0 * estimate.value * ab + estimate.value * estimate.value * bb;
   // The ends solve (above - r below)^2 = q^2 (aa - 2 r ab + r^2 bb).
   const auto end = [&](double quantile_times_error, double side) {
     const double q2 = variance > 0.0 ? quantile_times_error * quantile_times_error / variance : 0.0;
     const double a = below * below - q2 * bb, b = above * below - q2 * ab;
-    const double discriminant = q2 * (below * below * aa - 2.0 * above * below * ab + above * above * bb -
-                                      q2 * (aa * bb - ab * ab));
+    const double discriminant = q2 * (below * below * aa - 2.0 * above * below * ab +
+                                      above * above * bb - q2 * (aa * bb - ab * ab));
     return a > 0.0 ? (b + side * std::sqrt(std::max(0.0, discriminant))) / a : no_value;
   };
   const double direction = below > 0.0 ? 1.0 : -1.0;
@@ -67,7 +69,8 @@ std::vector<Elasticity> elasticities(const Outputs& outputs, std::span<const Spa
     const std::size_t low = 1 + 2 * p, high = low + 1;
     Pairs pairs;
     for (const auto t : common_trials(outputs, {0, low, high})) {
-      pairs.above.push_back(span.base * (outputs.at(high, t) - outputs.at(low, t)) / (span.high - span.low));
+      pairs.above.push_back(span.base * (outputs.at(high, t) - outputs.at(low, t)) /
+                            (span.high - span.low));
       pairs.below.push_back(outputs.at(0, t));
     }
     Elasticity elasticity;

@@ -13,7 +13,8 @@ namespace {
 using Effect = std::vector<double>;
 
 /// The steps in each parameter.
-std::vector<std::vector<Effect>> effects_of(const Points& points, const Outputs& outputs, double step) {
+std::vector<std::vector<Effect>> effects_of(const Points& points, const Outputs& outputs,
+                                            double step) {
   const std::size_t parameters = points.front().size();
   std::vector<std::vector<Effect>> effects(parameters);
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -44,8 +45,8 @@ std::vector<double> trial_levels(const std::vector<Effect>& effects, std::size_t
   return levels;
 }
 
-/// mu*. What is taken out for the noise may be too little by 1.4 of it, where effects are zero, or too much
-/// by less; the interval is widened by that.
+/// mu*. What is taken out for the noise may be too little by 1.4 of it, where effects are zero, or
+/// too much by less; the interval is widened by that.
 Estimate mean_size(const std::vector<Effect>& effects, std::size_t trials, Resampler& resampler) {
   CrossedRows sizes(1, trials);
   double excess = 0.0;
@@ -57,7 +58,8 @@ Estimate mean_size(const std::vector<Effect>& effects, std::size_t trials, Resam
     sizes.add(size);
     excess += means.front().excess();
   }
-  auto estimate = bootstrapped(sizes, [](auto m) { return m[0]; }, resampler);
+  auto estimate = bootstrapped(
+      sizes, [](auto m) { return m[0]; }, resampler);
   constexpr double doubt = 1.5;
   excess /= static_cast<double>(sizes.rows());
   estimate.low -= doubt * excess;
@@ -65,7 +67,8 @@ Estimate mean_size(const std::vector<Effect>& effects, std::size_t trials, Resam
   return estimate;
 }
 
-/// sigma, by the interval of its square: where noise hides it that may end below zero, and sigma at zero.
+/// sigma, by the interval of its square: where noise hides it that may end below zero, and sigma at
+/// zero.
 Estimate spread_of(const std::vector<Effect>& effects, std::size_t trials, Resampler& resampler) {
   const auto levels = trial_levels(effects, trials);
   CrossedRows squares(2, trials);
@@ -93,8 +96,8 @@ std::vector<ElementaryEffect> elementary_effects(const Points& points, const Out
     all.push_back({.parameter = "",
                    .mu_star = mean_size(effects, outputs.trials(), resampler),
                    .sigma = spread_of(effects, outputs.trials(), resampler),
-                   .left_out = static_cast<std::size_t>(
-                       std::count_if(effects.begin(), effects.end(), [](const auto& e) { return e.empty(); }))});
+                   .left_out = static_cast<std::size_t>(std::count_if(
+                       effects.begin(), effects.end(), [](const auto& e) { return e.empty(); }))});
   return all;
 }
 

@@ -7,8 +7,9 @@
 
 namespace gyrostat {
 
-/// What came out at the points of a design: one number a point and trial, NaN where there is none. Trials
-/// of the same number share their random numbers over all points, so that their noise is correlated.
+/// What came out at the points of a design: one number a point and trial, NaN where there is none.
+/// Trials of the same number share their random numbers over all points, so that their noise is
+/// correlated.
 class Outputs {
  public:
   Outputs(std::size_t points, std::size_t trials)

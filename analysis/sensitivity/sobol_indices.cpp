@@ -24,7 +24,9 @@ std::vector<double> trial_levels(const Outputs& outputs) {
 class Comparison {
  public:
   explicit Comparison(const Outputs& outputs)
-      : outputs_(outputs), levels_(trial_levels(outputs)), squares_(2, outputs.trials()),
+      : outputs_(outputs),
+        levels_(trial_levels(outputs)),
+        squares_(2, outputs.trials()),
         noises_(2, outputs.trials()) {}
 
   /// Half the squared difference, half the squares, and the noise in these, of points `a` and `b`.
@@ -53,7 +55,8 @@ class Comparison {
 
   /// What the two points share of their variance, what they do not, and the noise as a share of it.
   Estimate shared(Resampler& resampler) const {
-    return bootstrapped(squares_, [](auto m) { return 1.0 - share(m); }, resampler);
+    return bootstrapped(
+        squares_, [](auto m) { return 1.0 - share(m); }, resampler);
   }
   Estimate unshared(Resampler& resampler) const { return bootstrapped(squares_, share, resampler); }
   Estimate noise(Resampler& resampler) const { return bootstrapped(noises_, share, resampler); }

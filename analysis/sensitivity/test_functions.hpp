@@ -13,8 +13,8 @@ struct TrueIndices {
   std::vector<double> first_order, total;
 };
 
-/// sin x1 + 7 sin^2 x2 + x3^4 sin(x1) / 10 on [-pi, pi]^3, from the unit cube (Ishigami and Homma, ISUMA
-/// 1990).
+/// sin x1 + 7 sin^2 x2 + x3^4 sin(x1) / 10 on [-pi, pi]^3, from the unit cube (Ishigami and Homma,
+/// ISUMA 1990).
 inline double ishigami(std::span<const double> u) {
   const auto x = [&](std::size_t i) { return std::numbers::pi * (2.0 * u[i] - 1.0); };
   return std::sin(x(0)) * (1.0 + 0.1 * std::pow(x(2), 4)) + 7.0 * std::pow(std::sin(x(1)), 2);

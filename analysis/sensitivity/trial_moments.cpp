@@ -43,8 +43,8 @@ std::vector<TrialMean> trial_means(std::span<const double> values) {
   means[0] = shifted(0.0, squares, count);
   for (std::size_t t = 0; t < values.size(); ++t) {
     const double d = values[t] - centre;
-    means[t + 1] = std::isnan(d) || count < 2.0 ? means[0]
-                                                : shifted(-d, squares - d * d, count - 1.0);
+    means[t + 1] =
+        std::isnan(d) || count < 2.0 ? means[0] : shifted(-d, squares - d * d, count - 1.0);
   }
   // One of two trials has no spread of its own; it has that of both.
   for (std::size_t t = 0; count == 2.0 && t < values.size(); ++t)

@@ -40,7 +40,8 @@ void add_sensitivity(CLI::App& program, Console& console, int& exit_code) {
   auto arguments = std::make_shared<SensitivityArguments>();
   verb->add_option("folder", arguments->folder, "folder of a run, as runs/<study>")->required();
   verb->add_option("--metric", arguments->choice.metric, "metric (default: the bias error)");
-  verb->add_option("--method", arguments->choice.method, "method, by its id (default: all but the oracle)");
+  verb->add_option("--method", arguments->choice.method,
+                   "method, by its id (default: all but the oracle)");
   verb->add_flag("--points", arguments->points, "the points and their means instead");
   arguments->format.add_to(verb);
   verb->footer(examples);

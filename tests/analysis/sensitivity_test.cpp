@@ -1,9 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <set>
+
+#include <gtest/gtest.h>
 
 #include "analysis/sensitivity/estimators.hpp"
 #include "analysis/sensitivity/test_functions.hpp"
@@ -18,9 +18,10 @@ using Function = std::function<double(std::span<const double>)>;
 const std::vector<double> g_weights = {0.0, 1.0, 4.5, 9.0};
 double g(std::span<const double> u) { return sobol_g(u, g_weights); }
 
-/// f at every point, with normal noise of `own` at each point and `shared` by all points of a trial.
-Outputs simulate(const Function& f, const Points& points, std::size_t trials, double own, double shared,
-                 std::uint32_t repeat = 0) {
+/// f at every point, with normal noise of `own` at each point and `shared` by all points of a
+/// trial.
+Outputs simulate(const Function& f, const Points& points, std::size_t trials, double own,
+                 double shared, std::uint32_t repeat = 0) {
   Outputs outputs(points.size(), trials);
   const NormalStream common(77, repeat, "shared"), noise(77, repeat, "own");
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -31,7 +32,8 @@ Outputs simulate(const Function& f, const Points& points, std::size_t trials, do
 }
 
 std::vector<SobolIndex> indices_of(const Function& f, std::size_t parameters, std::size_t rows,
-                                   std::size_t trials, double own, double shared, std::uint32_t repeat = 0) {
+                                   std::size_t trials, double own, double shared,
+                                   std::uint32_t repeat = 0) {
   const auto points = saltelli_rows(rows, parameters, {5 + repeat, "test"});
   Resampler resampler(5 + repeat, "test");
   return sobol_indices(parameters, simulate(f, points, trials, own, shared, repeat), resampler);
@@ -62,7 +64,8 @@ TEST(SobolIndices, OfSobolsGAreTheAnalyticOnes) {
 }
 
 TEST(SobolIndices, TrialNoiseDoesNotMoveThem) {
-  // A trial's standard deviation is twice the function's, so that a mean of 10 has 40 % of its variance.
+  // A trial's standard deviation is twice the function's, so that a mean of 10 has 40 % of its
+  // variance.
   const auto indices = indices_of(ishigami, 3, 2000, 10, 7.4, 0.0);
   expect_indices(indices, ishigami_indices());
   expect_near(indices.back().first_order, 7.4 * 7.4 / 10 / 13.84, "noise");
@@ -77,7 +80,8 @@ TEST(SobolIndices, NoiseThatIsOnlySharedIsNone) {
   const auto points = saltelli_rows(50, 2, {3, "test"});
   Outputs outputs(points.size(), 6);
   for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t t = 0; t < 6; ++t) outputs.at(i, t) = f(points[i]) + std::exp(static_cast<double>(t));
+    for (std::size_t t = 0; t < 6; ++t)
+      outputs.at(i, t) = f(points[i]) + std::exp(static_cast<double>(t));
   Resampler resampler(1, "test");
   EXPECT_NEAR(sobol_indices(2, outputs, resampler).back().first_order.value, 0.0, 1e-12);
 }
@@ -90,7 +94,8 @@ TEST(SobolIndices, AParameterWithoutEffectHasExactlyNone) {
     Outputs o(points.size(), 5);
     const NormalStream noise(1, 0, "noise");
     for (std::size_t i = 0; i < points.size(); ++i)
-      for (std::size_t t = 0; t < 5; ++t) o.at(i, t) = only_first(points[i]) * (1.0 + noise.normal(t));
+      for (std::size_t t = 0; t < 5; ++t)
+        o.at(i, t) = only_first(points[i]) * (1.0 + noise.normal(t));
     return o;
   }();
   Resampler resampler(1, "test");
@@ -107,8 +112,10 @@ TEST(SobolIndices, FailedTrialsAreLeftOutAndPointsWithoutAnyCostOnlyTheirRow) {
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t t = 0; t < 10; ++t)
       if (failures.uniform(10 * i + t) < 0.1) outputs.at(i, t) = no_value;
-  for (std::size_t t = 0; t < 10; ++t) outputs.at(3 * 5 + 2, t) = no_value;  // row 3: A with x1 from B
-  for (std::size_t t = 1; t < 10; ++t) outputs.at(7 * 5, t) = no_value;      // row 7: A, but for one trial
+  for (std::size_t t = 0; t < 10; ++t)
+    outputs.at(3 * 5 + 2, t) = no_value;  // row 3: A with x1 from B
+  for (std::size_t t = 1; t < 10; ++t)
+    outputs.at(7 * 5, t) = no_value;  // row 7: A, but for one trial
   Resampler resampler(8, "test");
   const auto indices = sobol_indices(3, outputs, resampler);
   const auto truth = ishigami_indices();
@@ -136,14 +143,16 @@ TEST(SobolIndices, AreTheSameBitsEveryTime) {
 }
 
 TEST(SobolIndices, NineteenOfTwentyIntervalsHoldTheTruth) {
-  // 300 designs of 100 rows, noise both own and shared. The standard error of a coverage is 1.3 %; five of
-  // them either way, for each of eight: a false failure in 200,000 runs.
+  // 300 designs of 100 rows, noise both own and shared. The standard error of a coverage is 1.3 %;
+  // five of them either way, for each of eight: a false failure in 200,000 runs.
   const auto truth = sobol_g_indices(g_weights);
   std::vector<int> first(4, 0), total(4, 0);
   for (std::uint32_t repeat = 0; repeat < 300; ++repeat) {
     const auto indices = indices_of(g, 4, 100, 10, 0.7, 0.3, repeat);
     for (std::size_t p = 0; p < 4; ++p) {
-      const auto holds = [](const Estimate& e, double value) { return e.low <= value && value <= e.high; };
+      const auto holds = [](const Estimate& e, double value) {
+        return e.low <= value && value <= e.high;
+      };
       first[p] += holds(indices[p].first_order, truth.first_order[p]);
       total[p] += holds(indices[p].total, truth.total[p]);
     }
@@ -158,7 +167,8 @@ TEST(ElementaryEffects, OfALinearFunctionAreItsSlopesWithoutSpread) {
   const auto f = [](std::span<const double> u) { return 3.0 * u[0] - 2.0 * u[1] + 0.0 * u[2]; };
   const auto points = morris_trajectories(10, 4, 3, {2, "test"});
   Resampler resampler(2, "test");
-  const auto effects = elementary_effects(points, simulate(f, points, 4, 0.0, 0.0), morris_step(4), resampler);
+  const auto effects =
+      elementary_effects(points, simulate(f, points, 4, 0.0, 0.0), morris_step(4), resampler);
   for (std::size_t p = 0; p < 3; ++p) {
     EXPECT_NEAR(effects[p].mu_star.value, (std::array{3.0, 2.0, 0.0}[p]), 1e-12);
     EXPECT_NEAR(effects[p].sigma.value, 0.0, 1e-6);
@@ -166,7 +176,9 @@ TEST(ElementaryEffects, OfALinearFunctionAreItsSlopesWithoutSpread) {
 }
 
 TEST(ElementaryEffects, NoiseIsTakenOutOfBothMeasures) {
-  const auto f = [](std::span<const double> u) { return 3.0 * u[0] + 4.0 * (u[1] - 0.5) * (u[1] - 0.5); };
+  const auto f = [](std::span<const double> u) {
+    return 3.0 * u[0] + 4.0 * (u[1] - 0.5) * (u[1] - 0.5);
+  };
   const auto points = morris_trajectories(200, 4, 2, {6, "test"});
   Resampler resampler(6, "test");
   const auto outputs = simulate(f, points, 20, 1.0, 1.0);
@@ -176,7 +188,8 @@ TEST(ElementaryEffects, NoiseIsTakenOutOfBothMeasures) {
   expect_near(effects[1].mu_star, 4.0 / 3.0, "mu* of a parabola");
   expect_near(effects[1].sigma, 4.0 / 3.0, "sigma of a parabola");
   EXPECT_LT(effects[0].sigma.low, 0.1);
-  // sqrt(2/pi) sqrt(2 (1 + ...) / 20) / (2/3): own noise twice, shared noise as far as it is a factor.
+  // sqrt(2/pi) sqrt(2 (1 + ...) / 20) / (2/3): own noise twice, shared noise as far as it is a
+  // factor.
   EXPECT_NEAR(elementary_noise(points, outputs, morris_step(4)), 0.40, 0.05);
 }
 
@@ -188,8 +201,8 @@ TEST(ElementaryEffects, MuStarOfAParameterWithoutEffectHoldsZeroWhateverTheNoise
   for (std::uint32_t repeat = 0; repeat < 100; ++repeat) {
     const auto points = morris_trajectories(20, 4, 2, {repeat, "test"});
     Resampler resampler(repeat, "test");
-    const auto effects =
-        elementary_effects(points, simulate(f, points, 5, 3.0, 0.0, repeat), morris_step(4), resampler);
+    const auto effects = elementary_effects(points, simulate(f, points, 5, 3.0, 0.0, repeat),
+                                            morris_step(4), resampler);
     held += effects[1].mu_star.low <= 0.0;
   }
   EXPECT_GE(held, 88);
@@ -199,7 +212,8 @@ TEST(ElementaryEffects, AStepWithoutTrialsIsLeftOut) {
   const auto f = [](std::span<const double> u) { return u[0] + u[1]; };
   const auto points = morris_trajectories(10, 4, 2, {6, "test"});
   auto outputs = simulate(f, points, 4, 0.0, 0.0);
-  for (std::size_t t = 0; t < 4; ++t) outputs.at(1, t) = no_value;  // ends the first step, begins the second
+  for (std::size_t t = 0; t < 4; ++t)
+    outputs.at(1, t) = no_value;  // ends the first step, begins the second
   Resampler resampler(6, "test");
   const auto effects = elementary_effects(points, outputs, morris_step(4), resampler);
   EXPECT_EQ(effects[0].left_out, 1U);
@@ -208,7 +222,8 @@ TEST(ElementaryEffects, AStepWithoutTrialsIsLeftOut) {
 }
 
 TEST(Elasticities, OfAPowerAreItsExponentOnALogarithmicScale) {
-  // y = x^3 e^noise at x = 1, 1 +- 1 %: a small span, on which the power is a line in the logarithm.
+  // y = x^3 e^noise at x = 1, 1 +- 1 %: a small span, on which the power is a line in the
+  // logarithm.
   const std::vector<Span> spans = {{1.0, std::log(0.99), std::log(1.01)}};
   Outputs outputs(3, 50);
   const NormalStream noise(3, 0, "noise");
@@ -253,7 +268,8 @@ TEST(TrialMean, TheExcessIsWhatNoiseAddsToTheAbsoluteValue) {
     double sum = 0.0;  // E|mean + 0.7 e| by the trapezium rule
     for (int i = -6000; i <= 6000; ++i) {
       const double e = 1e-3 * i;
-      sum += std::abs(mean + 0.7 * e) * std::exp(-0.5 * e * e) * 1e-3 / std::sqrt(2.0 * std::numbers::pi);
+      sum += std::abs(mean + 0.7 * e) * std::exp(-0.5 * e * e) * 1e-3 /
+             std::sqrt(2.0 * std::numbers::pi);
     }
     EXPECT_NEAR((TrialMean{mean, 0.49}.excess()), sum - mean, 1e-6);
   }
@@ -270,8 +286,8 @@ TEST(Designs, ALatinHypercubeHasOnePointInEverySlice) {
 }
 
 TEST(Designs, TheSobolSequenceIsANet) {
-  // The first 64 points of a (0, 2)-sequence: one in each box of area 1/64, whatever its shape; a digital
-  // shift keeps that.
+  // The first 64 points of a (0, 2)-sequence: one in each box of area 1/64, whatever its shape; a
+  // digital shift keeps that.
   const auto points = sobol_sequence(64, 2, {1, "test"});
   for (int wide = 1; wide <= 64; wide *= 2) {
     std::set<std::pair<int, int>> boxes;
