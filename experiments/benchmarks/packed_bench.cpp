@@ -169,7 +169,7 @@ void simulate_and_filter(benchmark::State& state, const PackedFilter& kernel) {
 void study(benchmark::State& state) {
   Cell cell;
   cell.name = "bench";
-  cell.trials = 256;
+  cell.trials = 1024;
   for (const char* id : {"none", "kf", "stf", "sr_ukf", "sr_rsukf", "oracle"})
     cell.methods.push_back({id, id, ParameterSource::truth, {}, {}});
   RunOptions options;
