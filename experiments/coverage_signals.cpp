@@ -50,6 +50,7 @@ std::vector<Coverage> of_signals(const CoverageStudy& study, const Study& cells,
   Series series;
   for (std::uint32_t s = 0; s < study.fits; ++s) {
     cell.make_trial(cells.seed, s, series);
+    if (is_stationary_noise(cell)) series.temperature_C.clear();  // no drift to regress on it first
     for (const auto method : {FitMethod::likelihood, FitMethod::moments}) {
       if (samples < 512) continue;
       const auto fit = calibrate(series, method);
