@@ -255,6 +255,8 @@ void add_design(Study& study, const Json& cell, const std::string& place, const 
     if (!of_base.lines().empty()) return;
     design = read_design(cell, *read, study.seed, place);
   }
+  if (design.is_sampled() && cell.contains("stop"))
+    throw InputError(place + ".stop", "all points of a design of this kind run as many trials; leave it out");
   design.first_cell = study.cells.size();
   for (const auto& [point, point_place] : cells_of(design, cell, place))
     add_read_cell(study, point, point_place, place, folder, mistakes);
