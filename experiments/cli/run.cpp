@@ -42,9 +42,10 @@ struct RunArguments {
 };
 
 Study study_of(const RunArguments& arguments) {
-  Json json = read_json(arguments.study);
+  Mistakes mistakes;
+  Json json = read_json(arguments.study, &mistakes);
   if (!arguments.stop.empty()) json = with_stop(std::move(json), arguments.stop);
-  Study study = parse_study(json, arguments.study);
+  Study study = parse_study(json, arguments.study, std::move(mistakes));
   if (arguments.trials > 0) set_trials(study, arguments.trials);
   if (arguments.failure_budget >= 0.0) study.failure_budget = arguments.failure_budget;
   return study;
