@@ -15,8 +15,6 @@ from pathlib import Path
 # radius, 34 in the turn, 2 products. Philox's integer operations are not counted.
 OPERATIONS_PER_DEVIATE = 34.5
 
-# What a diagnosis goes through, in order.
-PARTS = ["baseline fit", "localisation", "starts", "screening", "fitting", "shrinkage", "transfer", "next experiment"]
 
 
 def least(runs):
@@ -33,10 +31,6 @@ def least(runs):
         unit = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}[run["time_unit"]]
         for what, value in [("elapsed", run["real_time"] * unit), ("processor", run["cpu_time"] * unit)]:
             times[name, what] = min(times.get((name, what), value), value)
-        if name.startswith("diagnosis/"):
-            parts = {key: value for key, value in run.items() if key in PARTS or key == "peak_MiB"}
-            if times[name, "elapsed"] == run["real_time"] * unit:
-                times[name, "parts"] = parts
     return times
 
 
@@ -91,16 +85,6 @@ def target_table(times):
     return "\n".join(lines)
 
 
-def diagnosis_table(times):
-    names = sorted(n for n, c in times if c == "parts")
-    lines = ["| seconds | " + " | ".join(n.split("/")[1] for n in names) + " |", "| --- |" + " ---: |" * len(names)]
-    for part in PARTS:
-        lines.append(f"| {part} | " + " | ".join(f"{times[n, 'parts'].get(part, 0.0):.2f}" for n in names) + " |")
-    lines.append("| all | " + " | ".join(f"{times[n, 'elapsed']:.1f}" for n in names) + " |")
-    lines.append("| largest memory [MiB] | " + " | ".join(f"{times[n, 'parts']['peak_MiB']:.0f}" for n in names) + " |")
-    return "\n".join(lines)
-
-
 def fill(text, times):
     def value(match):
         what, *names = match.group(1).split()
@@ -108,8 +92,6 @@ def fill(text, times):
             return filter_table(times)
         if what == "targets":
             return target_table(times)
-        if what == "diagnosis":
-            return diagnosis_table(times)
         if what == "ms":
             return three(1e3 * times[names[0], "processor"]) + " ms"
         if what == "elapsed":

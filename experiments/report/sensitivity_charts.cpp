@@ -51,8 +51,11 @@ Chart tornado(const std::vector<Sensitivity>& all, const MethodColours& colours,
 Chart sobol(const std::vector<Sensitivity>& all, const MethodColours& colours, const std::string& id) {
   auto chart = by_parameter(id + "-sobol", "Sobol' indices of " + all.front().metric, "share of the variance", "1",
                             "Bars: total index, what a parameter does alone and with others; dots: first order, what it does "
-                            "alone; each with its 95 % interval. The noise of the trials is taken out.",
+                            "alone; each with its 95 % interval. The noise of the trials is taken out of them and has a row "
+                            "of its own: the variance of a point's mean, as a share of the same variance.",
                             by_size(all.front().indices, [](const SobolIndex& e) { return e.total.value; }));
+  const auto noise_row = static_cast<double>(chart.y.names.size());
+  chart.y.names.emplace_back("trial noise");
   for (const auto& s : all) {
     auto total = colours.mark(Mark::Kind::bars, s.method), first = colours.mark(Mark::Kind::points, s.method);
     total.shown = first.shown = &s == &all.front();
@@ -64,6 +67,8 @@ Chart sobol(const std::vector<Sensitivity>& all, const MethodColours& colours, c
       total.labels.push_back("total");
       first.labels.push_back("first order");
     }
+    add(total, noise_row, s.noise);
+    total.labels.push_back("noise");
     chart.marks.push_back(std::move(total));
     chart.marks.push_back(std::move(first));
   }
