@@ -213,7 +213,8 @@ Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) 
     });
     if (listed && cell.methods.empty()) object.complain(object.place_of("filters"), "the list is empty");
     object.with_child("pieces", [&](JsonObject& pieces) { read_pieces(pieces, folder, cell); });
-    object.with_child("stop", [&](JsonObject& stop) { cell.stop = read_stop(stop, cell); });
+    if (object.has("stop") && listed)
+      object.with_child("stop", [&](JsonObject& stop) { cell.stop = read_stop(stop, cell); });
     object.finish();
   });
   if (sound) check_size(cell, object);
@@ -251,9 +252,9 @@ void add_design(Study& study, const Json& cell, const std::string& place, const 
     Mistakes of_base;
     std::optional<Cell> read;
     of_base.attempt([&] { read = read_cell({base, place, &of_base}, folder, study.cells.size()); });
+    if (read) of_base.attempt([&] { design = read_design(cell, *read, study.seed, place); });
     for (const auto& line : of_base.lines()) mistakes.note(line);
     if (!of_base.lines().empty()) return;
-    design = read_design(cell, *read, study.seed, place);
   }
   if (design.is_sampled() && cell.contains("stop"))
     throw InputError(place + ".stop", "all points of a design of this kind run as many trials; leave it out");

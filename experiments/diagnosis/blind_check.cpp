@@ -1,10 +1,15 @@
 #include "experiments/diagnosis/blind_check.hpp"
 
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cerrno>
 #include <mutex>
 #include <numeric>
 #include <ostream>
@@ -78,6 +83,25 @@ double median(std::vector<double> values) {
   if (values.empty()) return no_value;
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
+}
+
+/// Runs a program to its end, what it says of errors in `log`; its status as waitpid tells it. Unlike
+/// std::system it leaves this process its own signals.
+int run_process(std::vector<std::string> arguments, const std::string& log) {
+  std::vector<char*> argv;
+  for (auto& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  pid_t child = 0;
+  const int failed = posix_spawn(&child, argv[0], &files, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  if (failed != 0) return failed;
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+  return status;
 }
 
 }  // namespace
@@ -191,11 +215,11 @@ bool diagnose_recordings(const BlindCheck& check, const fs::path& folder, const 
     const auto& job = jobs[i];
     const auto out = file_of(folder / "diagnoses", job.number, job.without.empty() ? "json" : "without.json");
     if (!stop && !fs::exists(out)) {
-      const auto command = fmt::format(
-          "'{}' diagnose '{}' --json '{}'{} >/dev/null 2>'{}'", program,
-          file_of(folder / "recordings", job.number, "csv.gz").string(), out.string(),
-          job.without.empty() ? "" : " --without " + job.without, out.string() + ".log");
-      const int status = std::system(command.c_str());  // NOLINT: paths are this program's own
+      std::vector<std::string> arguments = {program, "diagnose",
+                                            file_of(folder / "recordings", job.number, "csv.gz").string(),
+                                            "--json", out.string()};
+      if (!job.without.empty()) arguments.insert(arguments.end(), {"--without", job.without});
+      const int status = run_process(arguments, out.string() + ".log");
       if (status != 0) {
         const std::scoped_lock lock(mutex);
         log << fmt::format("recording {:05}: the diagnosis ended with status {}; see {}.log\n", job.number,
