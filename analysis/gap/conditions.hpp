@@ -13,6 +13,8 @@ namespace gyrostat::gap {
 /// The two parts of a recording: what the diagnosis may see, and what it is judged on.
 enum class Part { train, held_out };
 inline constexpr std::array parts = {Part::train, Part::held_out};
+inline constexpr std::array train_alone = {Part::train};
+constexpr std::size_t index_of(Part part) { return static_cast<std::size_t>(part); }
 
 /// Samples [first, last) of an evenly sampled stretch.
 struct Span {
@@ -23,10 +25,9 @@ struct Span {
 /// What a recording and every replica of it share: when the gyro was sampled, how warm it was, how
 /// it moved, where the compass could be used - and how the samples are split in parts.
 ///
-/// Time is cut into eight equal blocks of whole clusters, of which the third and the seventh are held
-/// out; what is bridged or averaged never mixes the parts. Fast
-/// readings come from single samples, slow ones from the means of `cluster` samples, of which there
-/// are about three thousand.
+/// Time is cut into eight equal blocks of whole clusters, of which the third and the seventh are
+/// held out; what is bridged or averaged never mixes the parts. Fast readings come from single
+/// samples, slow ones from the means of `cluster` samples, of which there are about three thousand.
 class Conditions {
  public:
   /// Of an evenly sampled series; NaN marks a missing sample. Gaps of up to `bridged` samples are
@@ -62,18 +63,18 @@ class Conditions {
   /// Integral of the reference rate, deg, from 0.
   const std::vector<double>& turned_deg() const { return turned_deg_; }
 
-  /// 1, T - T(0), and T' over ten seconds as well as from cluster to cluster: recorders differ in what
-  /// they call T'. slow_size() x 4, or x 1 without a temperature that changes.
+  /// 1, T - T(0), and T' over ten seconds as well as from cluster to cluster: recorders differ in
+  /// what they call T'. slow_size() x 4, or x 1 without a temperature that changes.
   const Eigen::MatrixXd& drift_regressors() const { return drift_regressors_; }
-  /// Their coefficients in slow values of the train part, by least squares generalised for the random
-  /// walk that the recording shows.
+  /// Their coefficients in slow values of the train part, by least squares generalised for the
+  /// random walk that the recording shows.
   Eigen::VectorXd drift_of(const std::vector<double>& slow) const;
   /// The values at the slow points of the train part, the only ones that drift_of() looks at.
   Eigen::VectorXd train_values(const std::vector<double>& slow) const;
   /// All regressors but the constant at those points.
   Eigen::MatrixXd train_regressors() const;
-  /// What taking the drift out leaves of a random walk's Allan variance, an octave of clusters each:
-  /// the longest octaves lose most of theirs to it.
+  /// What taking the drift out leaves of a random walk's Allan variance, an octave of clusters
+  /// each: the longest octaves lose most of theirs to it.
   const std::vector<double>& walk_left() const { return walk_left_; }
   /// The slow points of the train part.
   const std::vector<std::size_t>& train_points() const { return train_points_; }
@@ -103,8 +104,8 @@ class Conditions {
 };
 
 /// A series whose intervals are all multiples of one, with NaN rows for what is missing. Throws
-/// InputError at `place` where an interval is more than 0.3 of one off such a grid, or where the grid
-/// would be fifty times longer than the series.
+/// InputError at `place` where an interval is more than 0.3 of one off such a grid, or where the
+/// grid would be fifty times longer than the series.
 Series on_grid(const Series& series, std::string_view place);
 
 }  // namespace gyrostat::gap

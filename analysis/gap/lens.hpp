@@ -39,11 +39,16 @@ struct Lens {
     return later;
   }
   template <class PerPart>
-  const auto& of(const PerPart& values) const { return values[static_cast<std::size_t>(part)]; }
+  const auto& of(const PerPart& values) const {
+    return values[index_of(part)];
+  }
 };
 
 /// A power on a scale where its sampling error is even.
 inline double level(double power) { return std::log(std::max(power, 1e-30)); }
+
+/// How many different numbers there are; in time proportional to their count.
+std::size_t distinct_values(const std::vector<double>& values);
 
 /// Bins of some coordinate, and which bin every chosen index falls in.
 class Bins {
@@ -73,7 +78,8 @@ class Bins {
       sums[bin] += v;
       counts[bin] += 1.0;
     }
-    for (std::size_t b = 0; b < at_.size(); ++b) out[b] = counts[b] > 0.0 ? sums[b] / counts[b] : 0.0;
+    for (std::size_t b = 0; b < at_.size(); ++b)
+      out[b] = counts[b] > 0.0 ? sums[b] / counts[b] : 0.0;
   }
 
  private:

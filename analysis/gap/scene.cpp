@@ -43,11 +43,13 @@ void align(const Conditions& conditions, std::vector<double>& heading) {
 }
 
 /// Takes out what slow values, in the middle of each cluster, say by linear interpolation.
-void remove_slow(const std::vector<double>& slow, std::size_t cluster, std::vector<double>& values) {
+void remove_slow(const std::vector<double>& slow, std::size_t cluster,
+                 std::vector<double>& values) {
   if (slow.empty()) return;
   const auto last = static_cast<double>(slow.size() - 1);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double at = std::clamp((static_cast<double>(i) + 0.5) / static_cast<double>(cluster) - 0.5, 0.0, last);
+    const double at =
+        std::clamp((static_cast<double>(i) + 0.5) / static_cast<double>(cluster) - 0.5, 0.0, last);
     const auto low = std::min(static_cast<std::size_t>(at), slow.size() - 1);
     const auto high = std::min(low + 1, slow.size() - 1);
     values[i] -= slow[low] + (slow[high] - slow[low]) * (at - static_cast<double>(low));
@@ -111,7 +113,7 @@ void Scene::reduce_rate(const Conditions& conditions, const Series& series) {
   remove_slow(slow_drift, conditions.cluster(), rate_error_dps);
 }
 
-Scene::Scene(const Conditions& conditions, const Series& series)
+Scene::Scene(const Conditions& conditions, const Series& series, std::span<const Part> of)
     : recorded_dps_(&series.gyro_dps) {
   const bool rate = !series.gyro_dps.empty();
   const bool heading = conditions.has_heading() && !series.heading_deg.empty();
@@ -120,10 +122,10 @@ Scene::Scene(const Conditions& conditions, const Series& series)
     heading_error_deg = heading_error(conditions, series);
     slow_heading_deg = conditions.slow_means(heading_error_deg);
   }
-  for (const Part part : parts) {
+  for (const Part part : of) {
     const auto& fast = conditions.spans(part);
     const auto& slow = conditions.slow_spans(part);
-    const auto at = static_cast<std::size_t>(part);
+    const auto at = index_of(part);
     if (heading) heading_octaves[at] = gap::octaves(slow_heading_deg, slow);
     if (!rate) continue;
     octaves[at] = gap::octaves(rate_error_dps, fast);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "analysis/gap/conditions.hpp"
@@ -9,12 +10,13 @@
 
 namespace gyrostat::gap {
 
-/// What the lenses look at: a recording, or a simulated replica of it, reduced once. A series without
-/// its gyro or its heading leaves that half empty.
+/// What the lenses look at: a recording, or a simulated replica of it, reduced once. A series
+/// without its gyro or its heading leaves that half empty; of a part that is not asked for there
+/// are no spectra and octaves.
 struct Scene {
-  Scene(const Conditions& conditions, const Series& series);
+  Scene(const Conditions& conditions, const Series& series, std::span<const Part> of = parts);
 
-  std::vector<double> rate_error_dps;     ///< gyro minus reference rate and drift, short gaps bridged
+  std::vector<double> rate_error_dps;  ///< gyro minus reference rate and drift, short gaps bridged
   const std::vector<double>& recorded_dps() const { return *recorded_dps_; }
   std::vector<double> slow_dps;           ///< its cluster means
   Eigen::VectorXd drift;                  ///< what was taken out, Conditions::drift_of()

@@ -74,18 +74,28 @@ double Contest::score_of(const ReplicaReadings& of, std::size_t replicas) const 
 }
 
 Contender Contest::judged(const std::string& effect, const Scenario& scenario, std::size_t replicas,
-                          double most_gain) const {
+                          double most_gain, std::span<const Part> of) const {
   Contender c{.effect = effect,
               .scenario = scenario,
-              .replicas = simulator_.ensemble(scenario, 0, replicas),
+              .replicas = simulator_.ensemble(scenario, 0, replicas, of),
               .score = {}};
   c.score = scoring_.of(c.replicas[0]);
   c.baseline = score_of(baseline_replicas_, replicas);
   c.before = added_.empty() ? c.baseline : score_of(added_.back().replicas, replicas);
   c.most_gain = most_gain;
-  c.misnamed = !is_what_it_is_called(scenario.effects.back(), simulator_.conditions());
-  for (const auto& any : scenario.effects) c.parameters += free_parameters(any).size();
+  for (const auto& any : scenario.effects) {
+    c.misnamed = c.misnamed || !is_what_it_is_called(any, simulator_.conditions());
+    c.parameters += free_parameters(any).size();
+  }
   return c;
+}
+
+/// A fit also moves what the effect is added to, and may gain by that alone.
+double Contest::score_without(const Contender& c) const {
+  Scenario rest = c.scenario;
+  rest.effects.pop_back();
+  const auto replicas = static_cast<std::size_t>(c.replicas[0].cols());
+  return score_of(simulator_.ensemble(rest, 0, replicas, train_alone), replicas);
 }
 
 void Contest::find_starts() {
@@ -119,7 +129,7 @@ std::vector<Contender> Contest::screened() {
     std::vector<Contender> tried;
     for (const auto& start : its_starts)
       for (const auto& scenario : with_start(evidence_.baseline, base, start))
-        tried.push_back(judged(effect, scenario, screening_replicas, start.most_gain));
+        tried.push_back(judged(effect, scenario, screening_replicas, start.most_gain, train_alone));
     if (tried.empty()) continue;
     best.push_back(*std::max_element(tried.begin(), tried.end(), [](const auto& a, const auto& b) {
       return a.gain() < b.gain();
@@ -150,9 +160,10 @@ std::vector<Contender> Contest::contend() {
     const auto fitted = judged(start.effect,
                                refine(simulator_, start.scenario, observed_,
                                       scoring_.spread(start.replicas[0]), 3, fit_replicas),
-                               screening_replicas, start.most_gain);
+                               screening_replicas, start.most_gain, train_alone);
     const auto& better = fitted.gain() > start.gain() ? fitted : start;
     best[k] = judged(better.effect, better.scenario, options_.candidate_replicas, better.most_gain);
+    best[k].idle = best[k].score.value - score_without(best[k]) < needed_gain_of_gap;
   }
   std::sort(best.begin(), best.end(), [](const auto& a, const auto& b) {
     return a.gain() - a.score.penalty(a.parameters) > b.gain() - b.score.penalty(b.parameters);

@@ -12,6 +12,8 @@
 namespace gyrostat::gap {
 
 inline constexpr std::size_t fit_replicas = 3;
+/// Nats of log score that name a cause where the gap is significant.
+inline constexpr double needed_gain_of_gap = 4.0;
 
 /// A start, or what became of it, with its replicas' readings and its score.
 struct Contender {
@@ -24,8 +26,11 @@ struct Contender {
   double baseline = 0.0;   ///< the baseline's score
   double most_gain = 0.0;  ///< more is not the effect's
   bool misnamed = false;   ///< its parameters are not what its name says
+  bool idle = false;       ///< without it, the rest as fitted foretells the recording as well
 
-  double gain() const { return std::min(score.value - before, most_gain) - (misnamed ? 1e6 : 0.0); }
+  double gain() const {
+    return std::min(score.value - before, most_gain) - (misnamed || idle ? 1e6 : 0.0);
+  }
 };
 
 /// Share of the log score beyond `from` that a simulator has of what a true one would have.
@@ -49,7 +54,7 @@ class Contest {
   std::vector<Contender> contend();
   /// A scenario whose last effect is held against what has been added so far.
   Contender judged(const std::string& effect, const Scenario& scenario, std::size_t replicas,
-                   double most_gain) const;
+                   double most_gain, std::span<const Part> of = parts) const;
   void add(Contender contender) { added_.push_back(std::move(contender)); }
 
   const std::vector<Contender>& added() const { return added_; }
@@ -60,6 +65,7 @@ class Contest {
   void find_starts();
   std::vector<Contender> screened();
   double score_of(const ReplicaReadings& of, std::size_t replicas) const;
+  double score_without(const Contender& contender) const;
 
   const Evidence& evidence_;
   const Simulator& simulator_;

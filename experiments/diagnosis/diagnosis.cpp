@@ -20,8 +20,18 @@ namespace {
 constexpr std::size_t fewest_samples = 1000;
 constexpr double needed_recovery = 0.6;  ///< less, and the cause is unknown
 constexpr double needed_gain = 8.0;      ///< of log score, to name a cause where nothing stands out
-constexpr double needed_gain_of_gap = 4.0;  ///< and where the gap is significant
 constexpr double member_probability = 0.05;
+
+/// Of each log score among all of them and `none`, the score of there being nothing.
+std::vector<double> probabilities(const std::vector<double>& scores, double none) {
+  const double best = std::max(none, *std::max_element(scores.begin(), scores.end()));
+  double total = std::exp((none - best) / Scoring::temperature);
+  std::vector<double> shares;
+  for (const double s : scores) shares.push_back(std::exp((s - best) / Scoring::temperature));
+  for (const double share : shares) total += share;
+  for (double& share : shares) share /= total;
+  return shares;
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -49,6 +59,8 @@ class Work {
   void localise();
   std::vector<Where> departures_of(const Ensemble& ensemble) const;
   void attribute();
+  /// A cause whose score is counted from `from`.
+  void keep(const Contender& c, double log_score, double from, double probability);
   void judge_claim();
   void measure_shrinkage();
   void keep_bands();
@@ -123,6 +135,15 @@ void Work::localise() {
   took("localisation");
 }
 
+void Work::keep(const Contender& c, double log_score, double from, double probability) {
+  result_.causes.push_back({.effect = c.effect,
+                            .scenario = c.scenario,
+                            .log_score = log_score,
+                            .recovered = recovered(c, from),
+                            .probability = probability});
+  held_out_scores_.push_back(held_out_scoring_->of(c.replicas[1]));
+}
+
 void Work::attribute() {
   const auto ranked = contest_->contend();
   std::vector<double> scores;
@@ -135,20 +156,12 @@ void Work::attribute() {
     if (result_.verdict == "unknown") result_.verdict_set = {"unknown"};
     return;
   }
-  const double best = scores.front();
-  double total = 0.0;
-  for (const double s : scores) total += std::exp((s - best) / Scoring::temperature);
-  for (std::size_t k = 0; k < ranked.size(); ++k) {
-    const auto& c = ranked[k];
-    Cause cause{.effect = c.effect, .scenario = c.scenario, .log_score = scores[k]};
-    cause.recovered = recovered(c, c.baseline);
-    cause.probability = std::exp((scores[k] - best) / Scoring::temperature) / total;
-    result_.causes.push_back(cause);
-    held_out_scores_.push_back(held_out_scoring_->of(c.replicas[1]));
-  }
+  const auto shares = probabilities(scores, -std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < ranked.size(); ++k)
+    keep(ranked[k], scores[k], ranked[k].baseline, shares[k]);
   contest_->add(ranked.front());
   const double by_chance =
-      static_cast<double>(catalogue().size()) * std::exp(-best / Scoring::temperature);
+      static_cast<double>(catalogue().size()) * std::exp(-scores.front() / Scoring::temperature);
   result_.p_before = std::min(result_.p_before, by_chance);
 
   // More effects, while the log score gains what a true cause would. In a long recording, where
@@ -160,25 +173,32 @@ void Work::attribute() {
     if (is_long && last.score.deficit() < 4.0) break;
     const auto next = contest_->contend();
     if (next.empty()) break;
-    const auto& c = next.front();
-    const double gain = c.gain() - c.score.penalty(c.parameters - last.parameters);
-    if (gain < std::max(needed_gain, 0.12 * (last.score.expected - last.score.value))) break;
-    Cause cause{.effect = c.effect, .scenario = c.scenario, .log_score = gain};
-    cause.recovered = recovered(c, c.before);
-    cause.probability = 1.0 - 1.0 / (1.0 + std::exp(std::min(50.0, gain / Scoring::temperature)));
-    result_.causes.push_back(cause);
-    held_out_scores_.push_back(held_out_scoring_->of(c.replicas[1]));
-    contest_->add(c);
+    std::vector<double> gains;
+    for (const auto& c : next)
+      gains.push_back(c.gain() - c.score.penalty(c.parameters - last.parameters));
+    if (gains.front() < std::max(needed_gain, 0.12 * (last.score.expected - last.score.value)))
+      break;
+    const auto shares = probabilities(gains, 0.0);
+    for (std::size_t k = 0; k < next.size(); ++k)
+      if (k == 0 || shares[k] >= member_probability)
+        keep(next[k], gains[k], next[k].before, shares[k]);
+    contest_->add(next.front());
   }
   const auto& final = contest_->added().back();
   result_.enriched = final.scenario;
   const double share = recovered(final, final.baseline);
-  const bool unexplained = share < needed_recovery && final.score.deficit() > 4.0;
+  const Ensemble enriched(simulator_.instrument(Part::train), final.replicas[0], {});
+  const bool misses =
+      final.score.deficit() > 4.0 || enriched.p_value(observed_[0]) < 0.1 * options_.significance;
+  const bool unexplained = share < needed_recovery && misses;
   result_.verdict = unexplained ? "unknown" : result_.causes.front().effect;
   if (unexplained)
     for (auto& cause : result_.causes) cause.probability *= std::clamp(share, 0.0, 1.0);
+  auto& set = result_.verdict_set;
   for (const auto& cause : result_.causes)
-    if (cause.probability >= member_probability) result_.verdict_set.push_back(cause.effect);
+    if (cause.probability >= member_probability &&
+        std::find(set.begin(), set.end(), cause.effect) == set.end())
+      set.push_back(cause.effect);
   if (unexplained) result_.verdict_set.insert(result_.verdict_set.begin(), "unknown");
 }
 
@@ -193,11 +213,7 @@ void Work::judge_claim() {
     contest_->add(contest_->judged(name, scenario, options_.candidate_replicas,
                                    std::numeric_limits<double>::infinity()));
     const auto& c = contest_->added().back();
-    Cause cause{.effect = name, .scenario = scenario, .log_score = c.gain()};
-    cause.recovered = recovered(c, c.before);
-    cause.probability = 1.0;
-    result_.causes.push_back(cause);
-    held_out_scores_.push_back(held_out_scoring_->of(c.replicas[1]));
+    keep(c, c.gain(), c.before, 1.0);
     result_.verdict_set.push_back(name);
   }
   result_.enriched = scenario;

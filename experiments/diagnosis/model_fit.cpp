@@ -17,7 +17,7 @@ namespace {
 struct Dial {
   std::function<double(const Scenario&)> get;
   std::function<void(Scenario&, double)> set;
-  double step;     ///< for a difference quotient
+  double step;      ///< for a difference quotient
   double furthest;  ///< in one iteration
 };
 
@@ -42,11 +42,13 @@ Noises noises_of(const Scenario& scenario) {
 std::vector<Dial> noise_dials(const Conditions& conditions, Noises noises) {
   std::vector<Dial> dials;
   if (conditions.has_heading() && noises != Noises::rate)
-    dials.push_back(logarithmic([](Scenario& s) -> double& { return s.compass.noise_std_deg; }, 1e-9, 180.0));
+    dials.push_back(
+        logarithmic([](Scenario& s) -> double& { return s.compass.noise_std_deg; }, 1e-9, 180.0));
   if (noises == Noises::heading) return dials;
   dials.push_back(logarithmic(
       [](Scenario& s) -> double& { return s.random_error.measurement_noise_std_dps; }, 1e-12, 1e6));
-  Dial walk = logarithmic([](Scenario& s) -> double& { return s.random_error.delta1_dps; }, 1e-12, 1e6);
+  Dial walk =
+      logarithmic([](Scenario& s) -> double& { return s.random_error.delta1_dps; }, 1e-12, 1e6);
   const auto set_delta1 = walk.set;
   walk.set = [set_delta1](Scenario& s, double x) {
     const double theta = s.random_error.delta2_dps / s.random_error.delta1_dps;
@@ -61,26 +63,29 @@ void add_effect_dials(const Scenario& scenario, std::vector<Dial>& dials) {
   for (std::size_t k = 0; k < scenario.effects.size(); ++k) {
     if (is_deterministic(scenario.effects[k])) continue;
     const auto free = free_parameters(scenario.effects[k]);
-    std::visit([&]<class E>(const E& effect) {
-      for (const auto& field : E::fields()) {
-        if (std::find(free.begin(), free.end(), field.name) == free.end()) continue;
-        const auto member = field.member;
-        const auto value = [k, member](Scenario& s) -> double& {
-          return std::get<E>(s.effects[k]).*member;
-        };
-        const double start = effect.*member;
-        if (field.range.from >= 0.0 && start > 0.0) {
-          dials.push_back(logarithmic(value, std::max(field.range.from, 1e-12), field.range.to));
-        } else {
-          const double unit = std::max(std::abs(start), 1e-12);
-          dials.push_back({[=](const Scenario& s) {
-                             Scenario copy = s;
-                             return value(copy) / unit;
-                           },
-                           [=](Scenario& s, double x) { value(s) = unit * x; }, 0.1, 1.0});
-        }
-      }
-    }, scenario.effects[k]);
+    std::visit(
+        [&]<class E>(const E& effect) {
+          for (const auto& field : E::fields()) {
+            if (std::find(free.begin(), free.end(), field.name) == free.end()) continue;
+            const auto member = field.member;
+            const auto value = [k, member](Scenario& s) -> double& {
+              return std::get<E>(s.effects[k]).*member;
+            };
+            const double start = effect.*member;
+            if (field.range.from >= 0.0 && start > 0.0) {
+              dials.push_back(
+                  logarithmic(value, std::max(field.range.from, 1e-12), field.range.to));
+            } else {
+              const double unit = std::max(std::abs(start), 1e-12);
+              dials.push_back({[=](const Scenario& s) {
+                                 Scenario copy = s;
+                                 return value(copy) / unit;
+                               },
+                               [=](Scenario& s, double x) { value(s) = unit * x; }, 0.1, 1.0});
+            }
+          }
+        },
+        scenario.effects[k]);
   }
 }
 
@@ -110,7 +115,8 @@ double compass_noise(const Conditions& conditions, const Scene& scene) {
   std::vector<double> steps;
   for (const auto& span : conditions.spans(Part::train))
     for (std::size_t i = span.first + 1; i < span.last; ++i)
-      if (const double d = scene.heading_error_deg[i] - scene.heading_error_deg[i - 1]; !is_missing(d))
+      if (const double d = scene.heading_error_deg[i] - scene.heading_error_deg[i - 1];
+          !is_missing(d))
         steps.push_back(std::abs(d));
   if (steps.empty()) return 0.0;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
@@ -128,7 +134,9 @@ Scenario refine(const Simulator& simulator, Scenario scenario, const Eigen::Vect
   const auto off = [&](const Scenario& s) -> Eigen::VectorXd {
     return (readings - simulator.mean_train(s, judging_replicas, replicas)).cwiseQuotient(spread);
   };
-  const auto cost_of = [](const Eigen::VectorXd& z) { return (z.array().square() / 4.0).log1p().sum(); };
+  const auto cost_of = [](const Eigen::VectorXd& z) {
+    return (z.array().square() / 4.0).log1p().sum();
+  };
   Eigen::VectorXd z = off(scenario);
   double cost = cost_of(z);
   double damping = 1e-2;
@@ -136,7 +144,8 @@ Scenario refine(const Simulator& simulator, Scenario scenario, const Eigen::Vect
     Eigen::MatrixXd slope(z.size(), count);
     for (Eigen::Index d = 0; d < count; ++d) {
       const double step = dials[static_cast<std::size_t>(d)].step;
-      slope.col(d) = (off(moved(scenario, dials, step * Eigen::VectorXd::Unit(count, d))) - z) / -step;
+      slope.col(d) =
+          (off(moved(scenario, dials, step * Eigen::VectorXd::Unit(count, d))) - z) / -step;
     }
     const Eigen::VectorXd weights = (1.0 + z.array().square() / 4.0).inverse();
     const Eigen::MatrixXd normal = slope.transpose() * weights.asDiagonal() * slope;
@@ -178,10 +187,12 @@ Rest fit_rest(const Conditions& conditions, const Scene& scene) {
   design.col(0).setOnes();
   if (regressors.cols() > 0) design.rightCols(2) = regressors.leftCols(2);
   const Eigen::VectorXd drift = design.colPivHouseholderQr().solve(values);
-  Rest rest{.random_error = fit_allan_components(conditions, scene, SlowComponent::none).random_error,
-            .thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = drift[0]}};
+  Rest rest{
+      .random_error = fit_allan_components(conditions, scene, SlowComponent::none).random_error,
+      .thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = drift[0]}};
   if (drift.size() > 1)
-    rest.thermal_drift = {.a_dps_per_C = drift[1], .b_dps_s_per_C = drift[2],
+    rest.thermal_drift = {.a_dps_per_C = drift[1],
+                          .b_dps_s_per_C = drift[2],
                           .c_dps = drift[0] - drift[1] * conditions.slow_temperature_C().front()};
   return rest;
 }
@@ -204,15 +215,13 @@ BaselineFit fit_baseline(const Simulator& simulator, const Scene& scene, const S
   const auto dials = noise_dials(conditions, Noises::all);
   constexpr std::size_t replicas = 6;
   const auto count = static_cast<Eigen::Index>(dials.size());
-  const auto middle = simulator.ensemble(s, judging_replicas, replicas);
-  fit.train_jacobian.resize(middle[0].rows(), count);
-  fit.held_out_jacobian.resize(middle[1].rows(), count);
+  const Eigen::VectorXd middle = simulator.mean_train(s, judging_replicas, replicas);
+  fit.train_jacobian.resize(middle.size(), count);
   for (Eigen::Index d = 0; d < count; ++d) {
     const double step = dials[static_cast<std::size_t>(d)].step;
-    const auto there = simulator.ensemble(moved(s, dials, step * Eigen::VectorXd::Unit(count, d)),
-                                          judging_replicas, replicas);
-    fit.train_jacobian.col(d) = (there[0] - middle[0]).rowwise().mean() / step;
-    fit.held_out_jacobian.col(d) = (there[1] - middle[1]).rowwise().mean() / step;
+    const Scenario there = moved(s, dials, step * Eigen::VectorXd::Unit(count, d));
+    fit.train_jacobian.col(d) =
+        (simulator.mean_train(there, judging_replicas, replicas) - middle) / step;
   }
   return fit;
 }

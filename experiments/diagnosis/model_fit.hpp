@@ -11,7 +11,7 @@ inline constexpr std::uint32_t judging_replicas = 200;
 /// parameters that every fit moves: white noise, random walk and compass noise (logarithms).
 struct BaselineFit {
   Scenario scenario;
-  Eigen::MatrixXd train_jacobian, held_out_jacobian;
+  Eigen::MatrixXd train_jacobian;
 };
 
 /// Random error by its Allan variances, and a T + b T' + c by least squares, from the train part.

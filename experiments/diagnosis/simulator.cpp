@@ -1,9 +1,9 @@
 #include "experiments/diagnosis/simulator.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <tbb/parallel_for.h>
 
 namespace gyrostat::gap {
 namespace {
@@ -24,7 +24,8 @@ double decimal_step(const std::vector<double>& values, const std::vector<Span>& 
   for (int decimals = 0; decimals <= 9; ++decimals) {
     const double scale = std::pow(10.0, decimals);
     const bool all = std::all_of(inspected.begin(), inspected.end(), [&](double v) {
-      return std::abs(v * scale - std::nearbyint(v * scale)) < 1e-6 * std::max(1.0, std::abs(v * scale) * 1e-6);
+      return std::abs(v * scale - std::nearbyint(v * scale)) <
+             1e-6 * std::max(1.0, std::abs(v * scale) * 1e-6);
     });
     if (all) return 1.0 / scale < 0.1 * *middle ? 1.0 / scale : 0.0;
   }
@@ -71,9 +72,11 @@ Series Simulator::replica(const Scenario& scenario, std::uint32_t number) const 
   return series;
 }
 
-Readings Simulator::readings(const Series& series) const {
-  const Scene scene(conditions_, series);
-  return {instruments_[0].read(scene), instruments_[1].read(scene)};
+Readings Simulator::readings(const Series& series, std::span<const Part> of) const {
+  const Scene scene(conditions_, series, of);
+  Readings result;
+  for (const Part part : of) result[index_of(part)] = instrument(part).read(scene);
+  return result;
 }
 
 void Simulator::remember(const Scenario& scenario, std::uint32_t first, std::size_t count) {
@@ -90,9 +93,10 @@ void Simulator::remember_more(std::uint32_t first, std::size_t count) {
   }
 }
 
-Readings Simulator::replica_readings(const Scenario& scenario, std::uint32_t number) const {
+Readings Simulator::replica_readings(const Scenario& scenario, std::uint32_t number,
+                                     std::span<const Part> of) const {
   const auto known = memory_.find(number);
-  if (known == memory_.end()) return readings(replica(scenario, number));
+  if (known == memory_.end()) return readings(replica(scenario, number), of);
   const bool heading = differ(scenario.compass, remembered_.compass) ||
                        effects_at(scenario, true) || effects_at(remembered_, true);
   const bool rate = differ(scenario.random_error, remembered_.random_error) ||
@@ -103,34 +107,34 @@ Readings Simulator::replica_readings(const Scenario& scenario, std::uint32_t num
   if (rate) {
     synthesise_rate_under(simulable(scenario), conditions_.series(), {seed_, number}, series);
     to_resolution(series);
-    const Scene scene(conditions_, series);
-    for (std::size_t part = 0; part < 2; ++part) instruments_[part].read(scene, "gyro_dps", result[part]);
+    const Scene scene(conditions_, series, of);
+    for (const Part part : of) instrument(part).read(scene, "gyro_dps", result[index_of(part)]);
   }
   if (heading && conditions_.has_heading()) {
     synthesise_heading_under(scenario, conditions_.series(), {seed_, number}, series);
     series.gyro_dps.clear();
-    const Scene scene(conditions_, series);
-    for (std::size_t part = 0; part < 2; ++part) instruments_[part].read(scene, "heading_deg", result[part]);
+    const Scene scene(conditions_, series, of);
+    for (const Part part : of) instrument(part).read(scene, "heading_deg", result[index_of(part)]);
   }
   return result;
 }
 
 ReplicaReadings Simulator::ensemble(const Scenario& scenario, std::uint32_t first,
-                                    std::size_t count) const {
-  const auto columns = static_cast<Eigen::Index>(count);
-  ReplicaReadings all{Eigen::MatrixXd(instruments_[0].size(), columns),
-                      Eigen::MatrixXd(instruments_[1].size(), columns)};
+                                    std::size_t count, std::span<const Part> of) const {
+  ReplicaReadings all;
+  for (const Part part : of)
+    all[index_of(part)].resize(instrument(part).size(), static_cast<Eigen::Index>(count));
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-    const auto of_one = replica_readings(scenario, first + static_cast<std::uint32_t>(k));
-    for (std::size_t part = 0; part < 2; ++part)
-      all[part].col(static_cast<Eigen::Index>(k)) = of_one[part];
+    const auto of_one = replica_readings(scenario, first + static_cast<std::uint32_t>(k), of);
+    for (const Part part : of)
+      all[index_of(part)].col(static_cast<Eigen::Index>(k)) = of_one[index_of(part)];
   });
   return all;
 }
 
 Eigen::VectorXd Simulator::mean_train(const Scenario& scenario, std::uint32_t first,
                                       std::size_t count) const {
-  return ensemble(scenario, first, count)[0].rowwise().mean();
+  return ensemble(scenario, first, count, train_alone)[0].rowwise().mean();
 }
 
 }  // namespace gyrostat::gap

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <span>
 
 #include "analysis/gap/instrument.hpp"
 #include "generators/scenario.hpp"
@@ -21,7 +22,7 @@ class Simulator {
   Simulator& operator=(const Simulator&) = delete;
 
   const Conditions& conditions() const { return conditions_; }
-  const Instrument& instrument(Part part) const { return instruments_[static_cast<std::size_t>(part)]; }
+  const Instrument& instrument(Part part) const { return instruments_[index_of(part)]; }
   /// Step of the recording's decimals, dps; 0 where none shows, or where it is so coarse that it
   /// is the sensor's own.
   double resolution_dps() const { return resolution_dps_; }
@@ -33,13 +34,17 @@ class Simulator {
   void remember_more(std::uint32_t first, std::size_t count);
 
   Series replica(const Scenario& scenario, std::uint32_t number) const;
-  Readings readings(const Series& series) const;
-  /// Of replicas [first, first + count), in parallel; the same for any number of threads.
-  ReplicaReadings ensemble(const Scenario& scenario, std::uint32_t first, std::size_t count) const;
-  Eigen::VectorXd mean_train(const Scenario& scenario, std::uint32_t first, std::size_t count) const;
+  Readings readings(const Series& series, std::span<const Part> of = parts) const;
+  /// Of replicas [first, first + count), in parallel; the same for any number of threads. A part
+  /// that is not asked for has no columns.
+  ReplicaReadings ensemble(const Scenario& scenario, std::uint32_t first, std::size_t count,
+                           std::span<const Part> of = parts) const;
+  Eigen::VectorXd mean_train(const Scenario& scenario, std::uint32_t first,
+                             std::size_t count) const;
 
  private:
-  Readings replica_readings(const Scenario& scenario, std::uint32_t number) const;
+  Readings replica_readings(const Scenario& scenario, std::uint32_t number,
+                            std::span<const Part> of) const;
   static Scenario simulable(Scenario scenario);
   void to_resolution(Series& series) const;
 

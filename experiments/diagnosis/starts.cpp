@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "analysis/gap/spectral_bands.hpp"
 #include "experiments/diagnosis/starts/start.hpp"
 
 namespace gyrostat::gap {
@@ -15,10 +16,10 @@ constexpr bool is_slow_signature =
     std::is_same_v<E, GSensitivity>;
 
 template <class E>
-constexpr bool deterministic = is_slow_signature<E> ||
-    std::is_same_v<E, Sinusoidal> || std::is_same_v<E, ScaleFactor> || std::is_same_v<E, ScaleAsymmetry> ||
-    std::is_same_v<E, SensorBandwidth> || std::is_same_v<E, Saturation> ||
-    std::is_same_v<E, DeadZone> || std::is_same_v<E, HardIron> ||
+constexpr bool deterministic =
+    is_slow_signature<E> || std::is_same_v<E, Sinusoidal> || std::is_same_v<E, ScaleFactor> ||
+    std::is_same_v<E, ScaleAsymmetry> || std::is_same_v<E, SensorBandwidth> ||
+    std::is_same_v<E, Saturation> || std::is_same_v<E, DeadZone> || std::is_same_v<E, HardIron> ||
     std::is_same_v<E, SoftIron> || std::is_same_v<E, CompassLag>;
 
 }  // namespace
@@ -31,33 +32,39 @@ double Evidence::seconds_of_train() const {
 }
 
 std::vector<Start> starts(const Effects::Any& effect, const Evidence& evidence) {
-  return std::visit([&](const auto& any) {
-    if (!is_slow_signature<std::decay_t<decltype(any)>>) return start(any, evidence);
-    // The effect itself inflated the random walk of the baseline: first as if there were none, then
-    // with what is left without the effect.
-    Evidence cleaner = evidence;
-    cleaner.baseline.random_error.delta1_dps = cleaner.baseline.random_error.delta2_dps = 0.0;
-    for (int pass = 0; pass < 2; ++pass)
-      cleaner.baseline.random_error = start(any, cleaner).front().rest.random_error;
-    auto found = start(any, cleaner);
-    cleaner.baseline.random_error = found.front().rest.random_error;
-    const auto seen = trace_of(cleaner, Trace::slow_rate);
-    const double unexplained =
-        match(signatures(cleaner, Trace::slow_rate, {found.front().effect}), seen).unexplained;
-    found.front().most_gain =
-        0.5 * static_cast<double>(seen.size()) * (1.0 / std::max(unexplained, 1e-12) - 1.0);
-    return found;
-  }, effect);
+  return std::visit(
+      [&](const auto& any) {
+        if (!is_slow_signature<std::decay_t<decltype(any)>>) return start(any, evidence);
+        // The effect itself inflated the random walk of the baseline: first as if there were none,
+        // then with what is left without the effect.
+        Evidence cleaner = evidence;
+        cleaner.baseline.random_error.delta1_dps = cleaner.baseline.random_error.delta2_dps = 0.0;
+        for (int pass = 0; pass < 2; ++pass)
+          cleaner.baseline.random_error = start(any, cleaner).front().rest.random_error;
+        auto found = start(any, cleaner);
+        cleaner.baseline.random_error = found.front().rest.random_error;
+        const auto seen = trace_of(cleaner, Trace::slow_rate);
+        const double unexplained =
+            match(signatures(cleaner, Trace::slow_rate, {found.front().effect}), seen).unexplained;
+        found.front().most_gain =
+            0.5 * static_cast<double>(seen.size()) * (1.0 / std::max(unexplained, 1e-12) - 1.0);
+        return found;
+      },
+      effect);
 }
 
 bool is_what_it_is_called(const Effects::Any& effect, const Conditions& conditions) {
   const double shortest_s = 5.0 * conditions.interval_s();
   const double longest_s = conditions.interval_s() * static_cast<double>(conditions.size());
-  if (const auto* v = std::get_if<Vibration>(&effect))
-    return v->bandwidth_hz < 0.5 * v->centre_hz && v->bandwidth_hz > 0.02 * v->centre_hz;
+  if (const auto* v = std::get_if<Vibration>(&effect)) {
+    const double line_hz =  // what its spectrum would show of a line
+        3.0 * spectrum_resolution_hz(conditions.spans(Part::train), conditions.rate_hz());
+    return v->bandwidth_hz < 0.5 * v->centre_hz &&
+           v->bandwidth_hz > std::max(0.02 * v->centre_hz, line_hz);
+  }
   if (const auto* g = std::get_if<GaussMarkov>(&effect)) return g->correlation_time_s > shortest_s;
   if (const auto* t = std::get_if<Telegraph>(&effect))  // it is seen to come back to its levels
-    return t->mean_dwell_s > shortest_s && t->mean_dwell_s < longest_s / 6.0;
+    return t->mean_dwell_s > shortest_s && t->mean_dwell_s < longest_s / 10.0;
   if (const auto* b = std::get_if<MagneticBursts>(&effect)) return b->std_deg < 90.0;
   return true;
 }
@@ -68,11 +75,13 @@ bool is_deterministic(const Effects::Any& effect) {
 
 std::vector<std::string_view> free_parameters(const Effects::Any& effect) {
   std::vector<std::string_view> names;
-  std::visit([&](const auto& any) {
-    for (const auto& field : any.fields())
-      if (field.name != "reference_C" && field.name != "lsb_dps" && field.name != "poles")
-        names.push_back(field.name);
-  }, effect);
+  std::visit(
+      [&](const auto& any) {
+        for (const auto& field : any.fields())
+          if (field.name != "reference_C" && field.name != "lsb_dps" && field.name != "poles")
+            names.push_back(field.name);
+      },
+      effect);
   return names;
 }
 

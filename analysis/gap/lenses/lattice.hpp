@@ -20,7 +20,7 @@ struct Lattice : Lens {
   }
 
   void read(const Scene& scene, double* out) const {
-    std::vector<double> sorted;
+    std::vector<double> values;
     double pairs = 0.0, triples = 0.0, count = 0.0;
     for (const auto& span : spans())
       for (std::size_t i = span.first + 2; i < span.last; ++i) {
@@ -29,13 +29,13 @@ struct Lattice : Lens {
         pairs += pair ? 1.0 : 0.0;
         triples += pair && z[i] == z[i - 2] ? 1.0 : 0.0;
         count += 1.0;
-        if (sorted.size() < inspected) sorted.push_back(z[i]);
+        if (values.size() < inspected && !is_missing(z[i])) values.push_back(z[i]);
       }
-    std::sort(sorted.begin(), sorted.end());
-    double distinct = 1.0;
-    for (std::size_t i = 1; i < sorted.size(); ++i)
-      if (sorted[i] != sorted[i - 1]) distinct += 1.0;
-    out[0] = std::log(distinct / static_cast<double>(sorted.size()));
+    const auto share_of = [](std::size_t some, std::size_t all) {
+      return static_cast<double>(std::max<std::size_t>(1, some)) /
+             static_cast<double>(std::max<std::size_t>(1, all));
+    };
+    out[0] = std::log(share_of(distinct_values(values), values.size()));
     out[1] = std::log((pairs + 2.0) / count);
     out[2] = std::log((triples + 2.0) / count);
   }

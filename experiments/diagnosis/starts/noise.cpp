@@ -44,30 +44,32 @@ std::vector<Start> start(Quantization, const Evidence& e) {
   return {{Quantization{lsb}, with_white(e, std::sqrt(std::max(rest, 0.01 * lsb * lsb)))}};
 }
 
+/// A step is wider where one of its two samples was hit: two normal components, their widths and
+/// shares by maximum likelihood (expectation-maximisation; Dempster, Laird and Rubin, J. R. Stat.
+/// Soc. B 39, 1977).
 std::vector<Start> start(Outliers, const Evidence& e) {
   const auto steps = train_steps(e);
   std::vector<double> sizes(steps.size());
   std::transform(steps.begin(), steps.end(), sizes.begin(), [](double d) { return std::abs(d); });
   const double deviation = quantile(sizes, 0.5) / 0.6744897501960817;
-  const double white = deviation / std::numbers::sqrt2;
-  std::vector<Start> found;
-  for (const double limit : {4.5, 3.5}) {
-    double count = 0.0, square = 0.0;
-    for (const double size : sizes)
-      if (size > limit * deviation) {
-        count += 1.0;
-        square += size * size;
-      }
-    const double mean = count > 0.0 ? square / count : 36.0 * deviation * deviation;
-    const double std = std::sqrt(std::max(mean - 2.0 * white * white, white * white)) * 0.8;
-    const double seen = std::erfc(limit * deviation / (std * std::numbers::sqrt2));
-    found.push_back(
-        {Outliers{std::clamp(0.5 * count / static_cast<double>(sizes.size()) / std::max(seen, 0.05),
-                             1e-6, 0.5),
-                  std},
-         with_white(e, white)});
+  double narrow = deviation * deviation, wide = 25.0 * narrow, share = 0.005;
+  for (int pass = 0; pass < 60; ++pass) {
+    const double log_odds = std::log(share / (1.0 - share)) + 0.5 * std::log(narrow / wide);
+    const double curve = 0.5 * (1.0 / narrow - 1.0 / wide);
+    double weight = 0.0, of_wide = 0.0, of_narrow = 0.0;
+    for (const double d : steps) {
+      const double hit = 1.0 / (1.0 + std::exp(-(log_odds + curve * d * d)));
+      weight += hit;
+      of_wide += hit * d * d;
+      of_narrow += (1.0 - hit) * d * d;
+    }
+    const double count = static_cast<double>(steps.size());
+    share = std::clamp(weight / count, 1e-6, 0.75);
+    narrow = of_narrow / std::max(1.0, count - weight);
+    wide = std::max(of_wide / std::max(1e-9, weight), 2.0 * narrow);
   }
-  return found;
+  return {{Outliers{1.0 - std::sqrt(1.0 - share), std::sqrt(wide - narrow)},
+           with_white(e, std::sqrt(0.5 * narrow))}};
 }
 
 /// From the variance and the first autocorrelation of the steps from sample to sample.

@@ -2,17 +2,15 @@
 
 #include "experiments/diagnosis/diagnosis.hpp"
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include <gmock/gmock.h>
+#include <tbb/global_control.h>
 
 #include "analysis/gap/ensemble.hpp"
 #include "core/error.hpp"
-#include "experiments/diagnosis/blind_check.hpp"
 #include "experiments/diagnosis/diagnosis_json.hpp"
 #include "experiments/diagnosis/model_fit.hpp"
 #include "experiments/diagnosis/simulator.hpp"
@@ -24,7 +22,8 @@ namespace {
 Scenario still() {
   Scenario s;
   s.sampling = {1200.0, 20.0};
-  s.random_error = {.phi = 0.8, .delta1_dps = 3e-4, .delta2_dps = 2.8e-4, .measurement_noise_std_dps = 0.05};
+  s.random_error = {
+      .phi = 0.8, .delta1_dps = 3e-4, .delta2_dps = 2.8e-4, .measurement_noise_std_dps = 0.05};
   s.thermal_drift = {.a_dps_per_C = -0.002, .b_dps_s_per_C = 0.1, .c_dps = 0.1};
   s.temperature = temperature::Cycle{23.0, 57.0, 800.0};
   s.compass.noise_std_deg = 0.3;
@@ -49,19 +48,21 @@ Series recorded(const Scenario& scenario, std::uint64_t seed, bool with_rate) {
   return s;
 }
 
-/// p-values of 500 recordings of 40 s that the simulator made itself, known or fitted to each of them.
+/// p-values of 500 recordings of 40 s that the simulator made itself, known or fitted to each of
+/// them.
 std::vector<double> own_p_values(bool fitted) {
   Scenario s;
   s.sampling = {40.0, 50.0};
-  s.random_error = {.phi = 0.5, .delta1_dps = 2e-3, .delta2_dps = 5e-4, .measurement_noise_std_dps = 0.05};
+  s.random_error = {
+      .phi = 0.5, .delta1_dps = 2e-3, .delta2_dps = 5e-4, .measurement_noise_std_dps = 0.05};
   std::vector<double> p;
   for (std::uint64_t k = 0; k < 500; ++k) {
     const Series series = recorded(s, 1000 + k, false);
     const Simulator simulator(series, k);
-    BaselineFit fit{.scenario = s, .train_jacobian = {}, .held_out_jacobian = {}};
+    BaselineFit fit{.scenario = s, .train_jacobian = {}};
     if (fitted) fit = fit_baseline(simulator, Scene(simulator.conditions(), series), series);
-    const Ensemble ensemble(simulator.instrument(Part::train), simulator.ensemble(fit.scenario, 0, 80)[0],
-                            fit.train_jacobian);
+    const Ensemble ensemble(simulator.instrument(Part::train),
+                            simulator.ensemble(fit.scenario, 0, 80)[0], fit.train_jacobian);
     p.push_back(ensemble.p_value(simulator.readings(series)[0]));
   }
   std::sort(p.begin(), p.end());
@@ -93,7 +94,8 @@ TEST(Diagnosis, TheHeldOutPartChangesNeitherFitNorChoice) {
   const NormalStream noise(6, 0, "other");
   const Conditions conditions(series);
   for (const auto& span : conditions.spans(Part::held_out))
-    for (std::size_t i = span.first; i < span.last; ++i) other.gyro_dps[i] += 0.02 * noise.normal(i);
+    for (std::size_t i = span.first; i < span.last; ++i)
+      other.gyro_dps[i] += 0.02 * noise.normal(i);
   const auto a = diagnose(series, {}), b = diagnose(other, {});
   const Json left = to_json(a), right = to_json(b);
   EXPECT_EQ(left["baseline"], right["baseline"]);
@@ -221,8 +223,8 @@ TEST(Diagnosis, RefusesWhatHoldsNothing) {
 
 TEST(Diagnosis, TheJsonKeepsTheContract) {
   const Json json = to_json(diagnose(recorded(still(), 21, false), {}));
-  for (const char* key : {"recording", "baseline", "where", "gap", "causes", "verdict", "verdict_set", "steps",
-                          "not_assessable", "transfer", "next_experiment"})
+  for (const char* key : {"recording", "baseline", "where", "gap", "causes", "verdict",
+                          "verdict_set", "steps", "not_assessable", "transfer", "next_experiment"})
     EXPECT_TRUE(json.contains(key)) << key;
   for (const char* key : {"before", "after", "closed", "closed_interval", "p_before", "p_after"})
     EXPECT_TRUE(json["gap"].contains(key)) << key;
@@ -234,7 +236,9 @@ TEST(Diagnosis, NamesThePracticeRecordings) {
   const std::filesystem::path folder =
       given != nullptr ? std::filesystem::path(given)
                        : std::filesystem::path(GYROSTAT_SOURCE_DIR) / "../shared/recordings";
-  if (!std::filesystem::exists(folder / "practice")) GTEST_SKIP() << folder / "practice" << " is not there";
+  if (!std::filesystem::exists(folder / "practice"))
+    GTEST_SKIP() << folder / "practice"
+                 << " is not there";
   for (const std::string name : {"none", "gauss_markov", "thermal_hysteresis", "scale_factor"}) {
     const auto recording = read_recording(folder / "practice" / (name + ".csv.gz"));
     EXPECT_EQ(diagnose(recording.series, {}).verdict, name);
