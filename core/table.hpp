@@ -23,6 +23,12 @@ struct Table {
   std::vector<std::string> notes;
 };
 
+/// A table under the name that pages and files call it by.
+struct NamedTable {
+  std::string name;
+  Table table;
+};
+
 /// A number, or an empty cell for NaN.
 inline TableCell cell(double value) { return value == value ? TableCell(value) : TableCell(); }
 

@@ -11,18 +11,13 @@
 
 namespace gyrostat {
 
-/// A table under the name that a page calls it by.
-struct NamedTable {
-  std::string name;
-  Table table;
-};
-
 /// A published page: page.json says which tables to make of which studies, page.md is the text with
 /// {{…}} where tables and numbers go, README.md is what comes out.
 struct Page {
   std::string folder;
-  std::string output;         ///< the page, by a path from the folder
-  std::vector<Json> sources;  ///< each a study with its tables, a ledger, a match or a coverage study
+  std::string output;  ///< the page, by a path from the folder
+  std::vector<Json>
+      sources;  ///< each a study with its tables, a ledger, a match or a coverage study
   std::vector<std::string> places;
   std::vector<Json> figures;  ///< each lines or a heat map of one of the tables
   std::string text;
@@ -52,8 +47,8 @@ std::string page_text(const Page& page, const std::vector<NamedTable>& tables);
 std::vector<std::pair<std::string, std::string>> page_files(const std::vector<NamedTable>& tables);
 
 /// The page's figures as SVG files by name.
-std::vector<std::pair<std::string, std::string>> page_figures(const Page& page,
-                                                              const std::vector<NamedTable>& tables);
+std::vector<std::pair<std::string, std::string>> page_figures(
+    const Page& page, const std::vector<NamedTable>& tables);
 
 /// The tables back from tables.json of a page's folder.
 std::vector<NamedTable> read_page_tables(const std::string& folder);

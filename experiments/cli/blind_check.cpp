@@ -5,17 +5,22 @@
 #include "experiments/atomic_file.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/verbs.hpp"
+#include "experiments/diagnosis/blind_score.hpp"
+#include "experiments/outcome_file.hpp"
+#include "experiments/page.hpp"
 
 namespace gyrostat::cli {
 namespace {
 
 constexpr const char* examples = R"(Examples:
   gyrostat blind-check CHECK.json
-  gyrostat blind-check CHECK.json --recordings 2 --out runs/short)";
+  gyrostat blind-check CHECK.json --recordings 2 --out runs/short
+  gyrostat blind-check CHECK.json --tables PAGE && gyrostat publish PAGE)";
 
 struct BlindCheckArguments {
   std::string file;
   std::string folder;
+  std::string tables;
   std::uint32_t recordings = 0;
   FormatOption format;
 };
@@ -23,15 +28,22 @@ struct BlindCheckArguments {
 int run(const BlindCheckArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   auto check = gap::read_blind_check(arguments.file);
+  if (!arguments.tables.empty()) make_result_folder(arguments.tables);
   if (arguments.recordings > 0) check.recordings = arguments.recordings;
   const std::filesystem::path folder =
-      arguments.folder.empty() ? std::filesystem::path("runs") / std::filesystem::path(arguments.file).stem()
-                               : std::filesystem::path(arguments.folder);
+      arguments.folder.empty()
+          ? std::filesystem::path("runs") / std::filesystem::path(arguments.file).stem()
+          : std::filesystem::path(arguments.folder);
   gap::make_recordings(check, folder);
   const auto program = std::filesystem::read_symlink("/proc/self/exe").string();
   const bool whole = gap::diagnose_recordings(check, folder, program, console.log, console.stop);
-  const auto tables = gap::score_recordings(check, folder);
-  console.out << render(tables, format);
+  const auto tables = gap::score_recordings(check.title, folder);
+  if (!arguments.tables.empty())
+    for (const auto& [name, text] : page_files(tables))
+      write_atomically(std::filesystem::path(arguments.tables) / name, text);
+  std::vector<Table> shown;
+  for (const auto& named : tables) shown.push_back(named.table);
+  console.out << render(shown, format);
   return whole ? complete : stopped;
 }
 
@@ -42,9 +54,13 @@ void add_blind_check(CLI::App& program, Console& console, int& exit_code) {
       "blind-check", "diagnose recordings whose effects are sealed, then open the seals and score");
   auto arguments = std::make_shared<BlindCheckArguments>();
   verb->add_option("check", arguments->file, "blind check file (JSON)")->required();
-  verb->add_option("--out", arguments->folder, "folder of recordings, labels and diagnoses (default: runs/<name>)");
-  verb->add_option("--recordings", arguments->recordings, "of each effect and strength, instead of the file's")
+  verb->add_option("--out", arguments->folder,
+                   "folder of recordings, labels and diagnoses (default: runs/<name>)");
+  verb->add_option("--recordings", arguments->recordings,
+                   "of each effect and strength, instead of the file's")
       ->check(CLI::Range(1U, 4294967295U));
+  verb->add_option("--tables", arguments->tables,
+                   "folder to write the tables to, tables.json and CSV, as a page reads them");
   arguments->format.add_to(verb);
   verb->footer(examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

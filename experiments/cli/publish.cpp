@@ -27,7 +27,8 @@ struct PublishArguments {
   bool check = false;
 };
 
-std::vector<NamedTable> made(const PublishArguments& arguments, const Page& page, Console& console) {
+std::vector<NamedTable> made(const PublishArguments& arguments, const Page& page,
+                             Console& console) {
   const auto run = [&](const Study& study, const Cell& cell) {
     Cell shown = cell;
     if (arguments.trials > 0) {
@@ -68,7 +69,8 @@ int check(const std::vector<std::pair<fs::path, std::string>>& files, Console& c
   int exit_code = complete;
   for (const auto& [path, expected] : files) {
     std::ifstream file(path, std::ios::binary);
-    const std::string found((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    const std::string found((std::istreambuf_iterator<char>(file)),
+                            std::istreambuf_iterator<char>());
     if (found == expected) continue;
     console.log << path.string() << ": is not what tables.json and page.md make\n";
     exit_code = error;
@@ -78,10 +80,12 @@ int check(const std::vector<std::pair<fs::path, std::string>>& files, Console& c
 
 int run(const PublishArguments& arguments, Console& console) {
   const Page page = read_page(arguments.folder);
-  const bool from_data = arguments.text || arguments.check;
-  if (from_data && arguments.trials > 0)
+  // A page without sources has its tables from another program.
+  const bool from_data = arguments.text || arguments.check || page.sources.empty();
+  if ((arguments.text || arguments.check) && arguments.trials > 0)
     throw InputError("--trials", "nothing is run with --text or --check");
-  const auto tables = from_data ? read_page_tables(arguments.folder) : made(arguments, page, console);
+  const auto tables =
+      from_data ? read_page_tables(arguments.folder) : made(arguments, page, console);
   if (console.stop) return stopped;
   const fs::path folder = arguments.out.empty() ? arguments.folder : arguments.out;
   const auto files = files_of(page, folder, tables);
@@ -102,7 +106,8 @@ void add_publish(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--out", arguments->out, "folder to write to (default: the page's own)");
   verb->add_option("--threads", arguments->threads, "threads (default: all)")
       ->check(CLI::Range(1, 1024));
-  verb->add_option("--trials", arguments->trials, "trials of every cell; tuning and matching shortened")
+  verb->add_option("--trials", arguments->trials,
+                   "trials of every cell; tuning and matching shortened")
       ->check(CLI::Range(2U, 4294967295U));
   verb->add_flag("--text", arguments->text, "fill in the text from tables.json, running nothing");
   verb->add_flag("--check", arguments->check,

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/table.hpp"
 #include "generators/scenario.hpp"
 
 namespace gyrostat::gap {
@@ -22,9 +21,9 @@ struct BlindCase {
 struct BlindCheck {
   std::string title;
   std::uint64_t seed = 1;
-  std::uint32_t recordings = 10;   ///< of each case with an effect
+  std::uint32_t recordings = 10;  ///< of each case with an effect
   std::uint32_t none_recordings = 40;
-  bool left_out = true;            ///< each strong effect is diagnosed without itself, too
+  bool left_out = true;  ///< each strong effect is diagnosed without itself, too
   std::vector<BlindCase> cases;
 };
 
@@ -41,9 +40,5 @@ void make_recordings(const BlindCheck& check, const std::filesystem::path& folde
 bool diagnose_recordings(const BlindCheck& check, const std::filesystem::path& folder,
                          const std::string& program, std::ostream& log,
                          const std::atomic<bool>& stop);
-
-/// Opens the labels and scores: the aims with their Wilson intervals, what each effect was taken
-/// for, and how far the stated probabilities can be trusted.
-std::vector<Table> score_recordings(const BlindCheck& check, const std::filesystem::path& folder);
 
 }  // namespace gyrostat::gap
