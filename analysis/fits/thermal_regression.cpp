@@ -1,10 +1,12 @@
 #include "analysis/fits/thermal_regression.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include <Eigen/LU>
+#include <Eigen/QR>
 
 #include "core/error.hpp"
 #include "core/models/compass_aiding.hpp"
@@ -77,51 +79,50 @@ Eigen::MatrixXd whitened(const Eigen::MatrixXd& columns, double ratio, double& l
   return out;
 }
 
-/// Residuals that wander: white variance and variance of the random walk's step over that.
-struct Wander {
-  double white_variance;
-  double ratio;
+struct Estimate {
+  Eigen::VectorXd mean, variance;
 };
 
-/// The most likely wander of y - X b, b profiled out, on a logarithmic grid.
-Wander most_likely_wander(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, int parameters) {
+/// Generalised least squares of y = X b under white noise and a random walk that starts at zero,
+/// averaged over the walk's share: by restricted likelihood (Patterson and Thompson, Biometrika 58,
+/// 1971), evenly over the logarithm, from the least that so many rows could show.
+Estimate regress(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
   Eigen::MatrixXd columns(X.rows(), X.cols() + 1);
   columns << X, y;
-  const double n = static_cast<double>(X.rows());
-  Wander best{};
-  double best_deviance = std::numeric_limits<double>::infinity();
-  for (int step = -1; step <= 40; ++step) {
-    const double ratio = step < 0 ? 0.0 : std::pow(10.0, -5.0 + 0.25 * step);
+  const double n = static_cast<double>(X.rows()), freedom = n - static_cast<double>(X.cols());
+  std::vector<Estimate> estimates;
+  std::vector<double> deviances;
+  for (double ratio = 1.0 / (n * n); ratio < 100.0; ratio *= std::pow(10.0, 0.25)) {
     double log_variances = 0.0;
     const Eigen::MatrixXd white = whitened(columns, ratio, log_variances);
-    const auto W = white.leftCols(X.cols());
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(white.leftCols(X.cols()));
     const Eigen::VectorXd w = white.rightCols(1);
-    const double squares = (w - W * W.completeOrthogonalDecomposition().solve(w)).squaredNorm();
-    const double deviance = n * std::log(squares / n) + log_variances;
-    if (deviance < best_deviance) {
-      best_deviance = deviance;
-      best = {squares / (n - parameters), ratio};
-    }
+    const Eigen::VectorXd b = qr.solve(w);
+    const double variance = (w - white.leftCols(X.cols()) * b).squaredNorm() / freedom;
+    const Eigen::MatrixXd information =
+        white.leftCols(X.cols()).transpose() * white.leftCols(X.cols());
+    estimates.push_back({b, variance * information.inverse().diagonal()});
+    deviances.push_back(freedom * std::log(std::max(variance, 1e-300)) + log_variances +
+                        2.0 * qr.logAbsDeterminant());
   }
-  return best;
-}
-
-/// Covariance of ordinary least squares under such residuals: their covariance is
-/// white (I + ratio L L^T) with L the running sum.
-Eigen::MatrixXd least_squares_covariance(const Eigen::MatrixXd& X, const Wander& wander) {
-  Eigen::MatrixXd sums = X;
-  for (Eigen::Index k = X.rows() - 2; k >= 0; --k) sums.row(k) += sums.row(k + 1);
-  sums.row(0).setZero();
-  const Eigen::MatrixXd bread =
-      (X.transpose() * X).completeOrthogonalDecomposition().pseudoInverse();
-  return wander.white_variance * bread *
-         (X.transpose() * X + wander.ratio * sums.transpose() * sums) * bread;
+  const double least = *std::min_element(deviances.begin(), deviances.end());
+  Estimate all{Eigen::VectorXd::Zero(X.cols()), Eigen::VectorXd::Zero(X.cols())};
+  double total = 0.0;
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    const double weight = std::exp(-0.5 * (deviances[k] - least));
+    total += weight;
+    all.mean += weight * estimates[k].mean;
+    all.variance += weight * (estimates[k].variance + estimates[k].mean.cwiseAbs2());
+  }
+  all.mean /= total;
+  all.variance = (all.variance / total - all.mean.cwiseAbs2()).cwiseMax(0.0);
+  return all;
 }
 
 }  // namespace
 
 ThermalFit fit_thermal_drift(const Series& series, double interval_s) {
-  auto [X, y] = interval_means(series, interval_s);
+  const auto [X, y] = interval_means(series, interval_s);
   ThermalFit fit;
   fit.points = static_cast<std::size_t>(y.size());
   if (y.size() < 4)
@@ -129,21 +130,21 @@ ThermalFit fit_thermal_drift(const Series& series, double interval_s) {
                                         short_number(interval_s) + " s; at least 4 are needed");
   fit.temperature_span_C = X.col(0).maxCoeff() - X.col(0).minCoeff();
   const bool assessable = fit.temperature_span_C >= least_temperature_span_C;
-  if (!assessable) X.leftCols<2>().setZero();
-
-  const Eigen::Vector3d solution = X.completeOrthogonalDecomposition().solve(y);
-  const Eigen::VectorXd residual = y - X * solution;
-  const int parameters = assessable ? 3 : 1;
-  const Eigen::Vector3d errors =
-      least_squares_covariance(X, most_likely_wander(X, y, parameters)).diagonal().cwiseSqrt();
-  fit.parameters = {solution(0), solution(1), solution(2)};
-  fit.standard_errors = {errors(0), errors(1), errors(2)};
-  fit.residual_std_dps =
-      std::sqrt(residual.squaredNorm() / static_cast<double>(y.size() - parameters));
-  fit.message = "least squares";
-  if (!assessable) {
-    fit.standard_errors.a_dps_per_C = fit.standard_errors.b_dps_s_per_C =
-        std::numeric_limits<double>::infinity();
+  const Eigen::MatrixXd judged =
+      assessable ? Eigen::MatrixXd(X) : Eigen::MatrixXd(X.rightCols<1>());
+  const auto [mean, variance] = regress(judged, y);
+  const Eigen::VectorXd errors = variance.cwiseSqrt();
+  const Eigen::VectorXd residual = y - judged * mean;
+  fit.residual_std_dps = std::sqrt((residual.array() - residual.mean()).square().sum() /
+                                   static_cast<double>(y.size() - judged.cols()));
+  if (assessable) {
+    fit.parameters = {mean(0), mean(1), mean(2)};
+    fit.standard_errors = {errors(0), errors(1), errors(2)};
+    fit.message = "least squares beside a random walk";
+  } else {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    fit.parameters = {0.0, 0.0, mean(0)};
+    fit.standard_errors = {unknown, unknown, errors(0)};
     fit.message = "the temperature spans less than 1 °C: a and b are not assessable";
   }
   return fit;

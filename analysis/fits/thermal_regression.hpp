@@ -7,11 +7,11 @@
 
 namespace gyrostat {
 
-/// A least-squares fit of B_f = a T + b T' + c, with its uncertainty.
+/// A fit of B_f = a T + b T' + c, with its uncertainty.
 struct ThermalFit {
   ThermalDrift<double> parameters;
   ThermalDrift<double> standard_errors;
-  double residual_std_dps = 0.0;   ///< of one interval's mean rate
+  double residual_std_dps = 0.0;  ///< of one interval's mean rate
   double temperature_span_C = 0.0;
   std::size_t points = 0;
   std::string message;
@@ -19,10 +19,11 @@ struct ThermalFit {
 
 /// Regresses the mean rate error of successive intervals (gyro minus reference, or the gyro itself
 /// where there is no reference: a static recording) on the temperature at their ends and its
-/// difference over them, [B eq. 2, 5]. Standard errors are those of least squares under residuals
-/// that wander: white noise and a random walk, in the proportion of greatest likelihood. Where the temperature spans less than 1 °C, a and b are not
-/// assessable: they are 0, with infinite standard errors, and c is the mean. Throws InputError for
-/// fewer than 4 whole intervals.
+/// difference over them, [B eq. 2, 5], by generalised least squares: what is left is white noise
+/// and a random walk that starts at zero, so c belongs to the start. How strong the walk is, is
+/// averaged over, and so in the standard errors. Where the temperature spans less than 1 °C, a and
+/// b are not assessable: they are 0, with infinite standard errors. Throws InputError for fewer
+/// than 4 whole intervals.
 ThermalFit fit_thermal_drift(const Series& series, double interval_s = 10.0);
 
 /// Standard deviation, dps, of the bias measurements M that the compass of `series` gives against
@@ -32,8 +33,9 @@ double bias_measurement_std(const Series& series, const ThermalDrift<double>& dr
 
 /// Standard deviation, deg, of one compass reading, from what neighbouring bias measurements share:
 /// with M = drift - n_k + n_{k-1} + w_k (n the reading's noise over the interval, w white), the
-/// differences of M have the autocovariance n^2 at lag 2, to which neither w nor a bias that wanders
-/// adds. 0 where that covariance is negative, NaN where there are no four measurements in a row.
+/// differences of M have the autocovariance n^2 at lag 2, to which neither w nor a bias that
+/// wanders adds. 0 where that covariance is negative, NaN where there are no four measurements in a
+/// row.
 double compass_noise_std(const Series& series, const ThermalDrift<double>& drift,
                          double interval_s = 10.0);
 
