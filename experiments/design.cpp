@@ -65,21 +65,22 @@ double end_of(JsonObject& object, const std::string& key, const DesignParameter&
 }
 
 void read_span(JsonObject& object, DesignParameter& p) {
-  p.from = end_of(object, "from", p, p.range.from, p.range.open_from);
-  p.to = end_of(object, "to", p, p.range.to, p.range.open_to);
-  if (!(p.from < p.to))
-    throw InputError(object.place(), fmt::format("\"from\" {} is not below \"to\" {}",
-                                                 short_number(p.from), short_number(p.to)));
+  const bool starts =
+      object.attempt([&] { p.from = end_of(object, "from", p, p.range.from, p.range.open_from); });
+  const bool ends =
+      object.attempt([&] { p.to = end_of(object, "to", p, p.range.to, p.range.open_to); });
+  if (starts && ends && !(p.from < p.to))
+    object.complain(object.place(), fmt::format("\"from\" {} is not below \"to\" {}",
+                                                short_number(p.from), short_number(p.to)));
   const auto scale = object.text("scale", "linear");
   const std::array<std::string, 2> scales = {"linear", "log"};
   if (scale != scales[0] && scale != scales[1])
-    throw InputError(object.place_of("scale"), unknown_name("scale", scale, scales));
+    object.complain(object.place_of("scale"), unknown_name("scale", scale, scales));
   p.logarithmic = scale == "log";
-  if (p.logarithmic && p.from <= 0.0)
-    throw InputError(
-        object.place_of("from"),
-        fmt::format("{} {} has no logarithm; allowed with \"scale\": \"log\": (0, inf)",
-                    short_number(p.from), p.unit));
+  if (p.logarithmic && starts && p.from <= 0.0)
+    object.complain(object.place_of("from"),
+                    fmt::format("{} {} has no logarithm; allowed with \"scale\": \"log\": (0, inf)",
+                                short_number(p.from), p.unit));
 }
 
 /// One combination of all values after the other, the last parameter's changing fastest.
@@ -106,12 +107,12 @@ std::vector<Json> listed(const Json& values, const std::string& place) {
 /// Values of a grid's parameter: listed, or "levels" of them from "from" to "to" where there is a
 /// cell to know the parameter from.
 std::vector<Json> grid_values(const Json& spec, const std::string& place, const Cell* base,
-                              DesignParameter& p) {
+                              DesignParameter& p, Mistakes* mistakes) {
   if (!spec.is_object() || base == nullptr) return listed(spec, place);
   const auto known = parameter_at(*base, p.path, place);
   p.unit = known.unit;
   p.range = known.range;
-  JsonObject object(spec, place);
+  JsonObject object(spec, place, mistakes);
   read_span(object, p);
   const double levels = object.number("levels", 5, study_ranges::levels, "levels");
   object.finish();
@@ -142,27 +143,34 @@ void read_list(JsonObject& object, Design& design) {
   for (const auto& values : design.values) design.labels.push_back(named_values(design, values));
 }
 
-/// Spans of the parameters, and where they have a "base" that.
-void read_spans(const JsonObject& object, const Json& parameters, const Cell& cell,
-                Design& design) {
-  for (const auto& [path, spec] : parameters.items()) {
-    const auto place = object.place_of("parameters") + "." + path;
-    const auto known = parameter_at(cell, path, place);
-    auto& p = design.parameters.emplace_back(
-        DesignParameter{.path = path, .unit = known.unit, .range = known.range});
-    JsonObject span(spec, place);
-    read_span(span, p);
-    if (design.kind == DesignKind::one_at_a_time) {
-      design.base.push_back(span.number("base", known.value, p.range, p.unit));
-      if (std::isnan(design.base.back()))
-        throw InputError(place, "\"base\" is missing: the value comes from a calibration");
-      if (p.logarithmic && design.base.back() <= 0.0)
-        throw InputError(
-            place, fmt::format("the base {} has no logarithm", short_number(design.base.back())));
-    }
-    span.finish();
+void read_parameter(const std::string& path, JsonObject span, const Cell& cell, Design& design) {
+  const auto known = parameter_at(cell, path, span.place());
+  auto& p = design.parameters.emplace_back(
+      DesignParameter{.path = path, .unit = known.unit, .range = known.range});
+  read_span(span, p);
+  if (design.kind == DesignKind::one_at_a_time) {
+    design.base.push_back(span.number("base", known.value, p.range, p.unit));
+    if (std::isnan(design.base.back()))
+      span.complain(span.place(), "\"base\" is missing: the value comes from a calibration");
+    if (p.logarithmic && design.base.back() <= 0.0)
+      span.complain(span.place(),
+                    fmt::format("the base {} has no logarithm", short_number(design.base.back())));
   }
+  span.finish();
+}
+
+/// Spans of the parameters, and where they have a "base" that; whether there was no mistake in
+/// them.
+bool read_spans(const JsonObject& object, const Json& parameters, const Cell& cell,
+                Design& design) {
+  bool sound = true;
+  for (const auto& [path, spec] : parameters.items())
+    sound = object.attempt([&] {
+      read_parameter(path, object.at(spec, object.place_of("parameters") + "." + path), cell,
+                     design);
+    }) && sound;
   name_parameters(design.parameters);
+  return sound;
 }
 
 void require_size(std::size_t points, const std::string& place) {
@@ -201,19 +209,56 @@ std::vector<std::string> around_labels(const Design& design) {
   return labels;
 }
 
-/// Points in the unit cube, and what each is called.
-void place_points(JsonObject& object, std::uint64_t seed, Design& design) {
-  const std::size_t parameters = design.parameters.size();
-  const DesignSource source{seed, design.name};
-  const auto count = [&](const char* key, double fallback) {
-    return static_cast<std::size_t>(object.number(key, fallback, study_ranges::points, key));
+/// How many points of which kind; whether there was no mistake in it.
+struct PointCount {
+  std::size_t points = 0;  ///< or trajectories, or rows
+  bool sound = true;
+};
+
+PointCount read_count(JsonObject& object, Design& design) {
+  PointCount count;
+  const auto read = [&](const char* key, double fallback, std::size_t points_each) {
+    count.sound = object.attempt([&] {
+      count.points =
+          static_cast<std::size_t>(object.number(key, fallback, study_ranges::points, key));
+      require_size(count.points * points_each, object.place());
+    });
   };
+  const std::size_t parameters = design.parameters.size();
   switch (design.kind) {
     case DesignKind::latin_hypercube:
-      design.points = latin_hypercube(count("points", 100), parameters, source);
+      read("points", 100, 1);
       break;
     case DesignKind::sobol:
-      design.points = sobol_sequence(count("points", 128), parameters, source);
+      read("points", 128, 1);
+      break;
+    case DesignKind::one_at_a_time:
+      break;
+    case DesignKind::morris:
+      read("trajectories", 20, parameters + 1);
+      design.levels =
+          static_cast<std::size_t>(object.number("levels", 4, study_ranges::levels, "levels"));
+      if (design.levels % 2 != 0)
+        object.complain(object.place_of("levels"),
+                        fmt::format("{} is odd; allowed: even numbers", design.levels));
+      count.sound = count.sound && design.levels % 2 == 0;
+      break;
+    default:
+      read("rows", 128, parameters + 2);
+  }
+  return count;
+}
+
+/// Points in the unit cube, and what each is called.
+void place_points(std::size_t count, std::uint64_t seed, Design& design) {
+  const std::size_t parameters = design.parameters.size();
+  const DesignSource source{seed, design.name};
+  switch (design.kind) {
+    case DesignKind::latin_hypercube:
+      design.points = latin_hypercube(count, parameters, source);
+      break;
+    case DesignKind::sobol:
+      design.points = sobol_sequence(count, parameters, source);
       break;
     case DesignKind::one_at_a_time: {
       std::vector<double> base;
@@ -223,23 +268,13 @@ void place_points(JsonObject& object, std::uint64_t seed, Design& design) {
       design.labels = around_labels(design);
       break;
     }
-    case DesignKind::morris: {
-      const auto trajectories = count("trajectories", 20);
-      design.levels = static_cast<std::size_t>(object.number("levels", 4, study_ranges::levels, "levels"));
-      if (design.levels % 2 != 0)
-        throw InputError(object.place_of("levels"),
-                         fmt::format("{} is odd; allowed: even numbers", design.levels));
-      require_size(trajectories * (parameters + 1), object.place());
-      design.points = morris_trajectories(trajectories, design.levels, parameters, source);
+    case DesignKind::morris:
+      design.points = morris_trajectories(count, design.levels, parameters, source);
       design.labels = morris_labels(design);
       break;
-    }
-    default: {
-      const auto rows = count("rows", 128);
-      require_size(rows * (parameters + 2), object.place());
-      design.points = saltelli_rows(rows, parameters, source);
+    default:
+      design.points = saltelli_rows(count, parameters, source);
       design.labels = saltelli_labels(design);
-    }
   }
   for (std::size_t i = design.labels.size(); i < design.points.size(); ++i)
     design.labels.push_back(fmt::format("point_{}", i + 1));
@@ -259,14 +294,17 @@ std::string design_name(const Json& cell, const std::string& place) {
 }
 
 void read_grid_parameters(const Json& grid, const std::string& place, const Cell* base,
-                          Design& design) {
+                          Design& design, Mistakes* mistakes) {
   if (!grid.is_object()) throw InputError(place, "an object {\"path\": [values]} is needed here");
   for (const auto& [path, unused] : grid.items()) design.parameters.push_back({.path = path});
   name_parameters(design.parameters);
   std::vector<std::vector<Json>> values;
+  const JsonObject object(grid, place, mistakes);
   for (auto& p : design.parameters)
-    values.push_back(grid_values(grid.at(p.path), place + "." + p.path, base, p));
-  combine(design, values);
+    object.attempt([&] {
+      values.push_back(grid_values(grid.at(p.path), place + "." + p.path, base, p, mistakes));
+    });
+  if (values.size() == design.parameters.size()) combine(design, values);
 }
 
 }  // namespace
@@ -291,16 +329,16 @@ std::string name_of(DesignKind kind) {
   return std::string(kind_names[static_cast<std::size_t>(kind)]);
 }
 
-Design read_grid(const Json& cell, const std::string& place) {
+Design read_grid(const Json& cell, const std::string& place, Mistakes* mistakes) {
   Design design{.name = design_name(cell, place), .kind = DesignKind::grid};
-  read_grid_parameters(cell.at("grid"), place + ".grid", nullptr, design);
+  read_grid_parameters(cell.at("grid"), place + ".grid", nullptr, design, mistakes);
   return design;
 }
 
-Design read_design(const Json& cell, const Cell& base, std::uint64_t seed,
-                   const std::string& place) {
+Design read_design(const Json& cell, const Cell& base, std::uint64_t seed, const std::string& place,
+                   Mistakes* mistakes) {
   Design design{.name = design_name(cell, place)};
-  JsonObject object(cell.at("design"), place + ".design");
+  JsonObject object(cell.at("design"), place + ".design", mistakes);
   design.kind = kind_named(object.required_text("kind"), object.place_of("kind"));
   if (design.kind == DesignKind::list) {
     read_list(object, design);
@@ -310,10 +348,11 @@ Design read_design(const Json& cell, const Cell& base, std::uint64_t seed,
                        "an object {\"path\": {\"from\": …, \"to\": …}} is needed here");
     const Json& parameters = cell.at("design").at("parameters");
     if (design.kind == DesignKind::grid) {
-      read_grid_parameters(parameters, object.place_of("parameters"), &base, design);
+      read_grid_parameters(parameters, object.place_of("parameters"), &base, design, mistakes);
     } else {
-      read_spans(object, parameters, base, design);
-      place_points(object, seed, design);
+      const bool sound = read_spans(object, parameters, base, design);
+      const auto count = read_count(object, design);
+      if (sound && count.sound) place_points(count.points, seed, design);
     }
   }
   object.finish();

@@ -51,12 +51,13 @@ std::string name_of(DesignKind kind);
 
 /// A cell with a "grid": {"path": [values], …} as a design of that kind: one point for each
 /// combination.
-Design read_grid(const Json& cell, const std::string& place);
+Design read_grid(const Json& cell, const std::string& place, Mistakes* mistakes = nullptr);
 
-/// A cell's "design". `base` is the cell without it, read; `seed` is the study's. Throws InputError
-/// with path, value, unit, range and the nearest name.
-Design read_design(const Json& cell, const Cell& base, std::uint64_t seed,
-                   const std::string& place);
+/// A cell's "design". `base` is the cell without it, read; `seed` is the study's. InputErrors name
+/// path, value, unit, range and the nearest name; where they are gathered in `mistakes`, a design
+/// with any has no values.
+Design read_design(const Json& cell, const Cell& base, std::uint64_t seed, const std::string& place,
+                   Mistakes* mistakes = nullptr);
 
 /// The cells of a design, as JSON, with the places that mistakes in them are reported at.
 std::vector<std::pair<Json, std::string>> cells_of(const Design& design, const Json& cell,

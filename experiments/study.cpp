@@ -53,7 +53,9 @@ struct RecordingSource {
   RecordingLayout layout;
 
   RecordingSource(JsonObject& object, const std::string& folder)
-      : path((std::filesystem::path(folder) / object.required_text("file")).lexically_normal().string()),
+      : path((std::filesystem::path(folder) / object.required_text("file"))
+                 .lexically_normal()
+                 .string()),
         axis(object.text("axis", "")),
         layout{object.texts("columns"), object.texts("units"), object.place()} {}
 
@@ -70,15 +72,17 @@ struct FittedSpan {
   Calibration fit;
 };
 
-/// Reads and fits; the last one is kept, since all points of a design are around the same recording.
+/// Reads and fits; the last one is kept, since all points of a design are around the same
+/// recording.
 FittedSpan fitted_span(const RecordingSource& source, double from_s, double to_s, FitMethod method,
                        const std::string& place) {
   namespace fs = std::filesystem;
   std::error_code absent;
-  const auto key = fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", fs::absolute(source.path).string(), source.axis,
-                               Json(source.layout.columns).dump(), Json(source.layout.units).dump(),
-                               from_s, to_s, static_cast<int>(method), fs::file_size(source.path, absent),
-                               fs::last_write_time(source.path, absent).time_since_epoch().count());
+  const auto key =
+      fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", fs::absolute(source.path).string(), source.axis,
+                  Json(source.layout.columns).dump(), Json(source.layout.units).dump(), from_s,
+                  to_s, static_cast<int>(method), fs::file_size(source.path, absent),
+                  fs::last_write_time(source.path, absent).time_since_epoch().count());
   thread_local std::pair<std::string, FittedSpan> last;
   if (last.first == key) return last.second;
   const auto recording = source.read();
@@ -124,7 +128,8 @@ void read_pieces(JsonObject object, const std::string& folder, Cell& cell) {
   cell.scenario.sampling = {duration_s, cell.recording->rate_hz()};
   const auto pieces = cell.recording->size() / cell.scenario.sampling.samples();
   if (pieces == 0)
-    throw InputError(object.place(), fmt::format("no whole piece of {} s after {} s", duration_s, from_s));
+    throw InputError(object.place(),
+                     fmt::format("no whole piece of {} s after {} s", duration_s, from_s));
   cell.trials = static_cast<std::uint32_t>(pieces);
   for (const auto& method : cell.methods)
     if (!method.tune.empty())
@@ -150,8 +155,10 @@ CalibrationPlan read_calibration(JsonObject object) {
 TuningPlan read_tuning(JsonObject object) {
   TuningPlan plan;
   plan.metric = object.named("metric", "bias_rmse", metric_named);
-  plan.trials = static_cast<std::uint32_t>(object.number("trials", 20, study_ranges::budget, "trials"));
-  plan.evaluations = static_cast<int>(object.number("evaluations", 60, study_ranges::budget, "evaluations"));
+  plan.trials =
+      static_cast<std::uint32_t>(object.number("trials", 20, study_ranges::budget, "trials"));
+  plan.evaluations =
+      static_cast<int>(object.number("evaluations", 60, study_ranges::budget, "evaluations"));
   plan.undisturbed = object.number("undisturbed", 0, ranges::flag, "1") != 0.0;
   object.finish();
   return plan;
@@ -186,32 +193,39 @@ void check_size(const Cell& cell, JsonObject& object) {
                      fmt::format("duration_s x rate_hz is {:g} samples; allowed: up to {:g}",
                                  sampling.duration_s * sampling.rate_hz, most_samples));
   if (!cell.needs_calibration()) return;
-  const double seconds = cell.calibration.duration_s > 0.0 ? cell.calibration.duration_s
-                                                           : sampling.duration_s;
+  const double seconds =
+      cell.calibration.duration_s > 0.0 ? cell.calibration.duration_s : sampling.duration_s;
   const double samples = cell.recording ? static_cast<double>(cell.calibration_span.size())
                                         : std::round(seconds * sampling.rate_hz);
   const double least = cell.calibration.method == FitMethod::likelihood ? 50 : 512;
   if (samples < least)
-    throw InputError(object.place(),
-                     fmt::format("{} samples to calibrate on; at least {} are needed", samples, least));
+    throw InputError(
+        object.place(),
+        fmt::format("{} samples to calibrate on; at least {} are needed", samples, least));
 }
 
 Cell read_cell(JsonObject object, const std::string& folder, std::size_t index) {
   Cell cell;
   cell.name = object.named("name", fmt::format("cell_{}", index + 1), plain_name);
   const bool sound = object.attempt([&] {
-    cell.trials = static_cast<std::uint32_t>(object.number("trials", 1000, study_ranges::trials, "trials"));
-    object.with_child("scenario", [&](JsonObject& scenario) { cell.scenario = read_scenario(scenario, folder); });
-    object.with_child("calibration", [&](JsonObject& plan) { cell.calibration = read_calibration(plan); });
+    cell.trials =
+        static_cast<std::uint32_t>(object.number("trials", 1000, study_ranges::trials, "trials"));
+    object.with_child(
+        "scenario", [&](JsonObject& scenario) { cell.scenario = read_scenario(scenario, folder); });
+    object.with_child("calibration",
+                      [&](JsonObject& plan) { cell.calibration = read_calibration(plan); });
     cell.tuning = read_tuning(object.at(no_keys, object.place()));
     object.with_child("tuning", [&](JsonObject& plan) { cell.tuning = read_tuning(plan); });
-    object.with_child("assumed", [&](JsonObject& factors) { cell.assumed = read_assumed(factors); });
+    object.with_child("assumed",
+                      [&](JsonObject& factors) { cell.assumed = read_assumed(factors); });
     cell.denoise = object.number("denoise", 0, ranges::flag, "1") != 0.0;
     const auto source = object.named("parameters_from", "calibration", source_for_all);
     const bool listed = object.attempt([&] {
-      cell.methods = object.has("filters") ? read_methods(object, "filters", source) : all_methods(source);
+      cell.methods =
+          object.has("filters") ? read_methods(object, "filters", source) : all_methods(source);
     });
-    if (listed && cell.methods.empty()) object.complain(object.place_of("filters"), "the list is empty");
+    if (listed && cell.methods.empty())
+      object.complain(object.place_of("filters"), "the list is empty");
     object.with_child("pieces", [&](JsonObject& pieces) { read_pieces(pieces, folder, cell); });
     if (object.has("stop") && listed)
       object.with_child("stop", [&](JsonObject& stop) { cell.stop = read_stop(stop, cell); });
@@ -228,12 +242,15 @@ void add_cell(Study& study, Cell cell, const std::string& place) {
   study.cells.push_back(std::move(cell));
 }
 
-/// Reads a cell and adds it. Its mistakes are told with the place of the cell that stands in the file, so
-/// that one which all cells of a grid share is told once.
-void add_read_cell(Study& study, const Json& cell, const std::string& place, const std::string& written_place,
-                   const std::string& folder, Mistakes& mistakes) {
+/// Reads a cell and adds it. Its mistakes are told with the place of the cell that stands in the
+/// file, so that one which all cells of a grid share is told once.
+void add_read_cell(Study& study, const Json& cell, const std::string& place,
+                   const std::string& written_place, const std::string& folder,
+                   Mistakes& mistakes) {
   Mistakes own;
-  own.attempt([&] { add_cell(study, read_cell({cell, place, &own}, folder, study.cells.size()), place); });
+  own.attempt([&] {
+    add_cell(study, read_cell({cell, place, &own}, folder, study.cells.size()), place);
+  });
   for (const auto& line : own.lines())
     mistakes.note(line.starts_with(place) ? written_place + line.substr(place.size()) : line);
 }
@@ -242,22 +259,25 @@ void add_read_cell(Study& study, const Json& cell, const std::string& place, con
 void add_design(Study& study, const Json& cell, const std::string& place, const std::string& folder,
                 Mistakes& mistakes) {
   if (cell.contains("grid") && cell.contains("design"))
-    throw InputError(place, "has a \"grid\" and a \"design\"; a design of kind \"grid\" is the same");
+    throw InputError(place,
+                     "has a \"grid\" and a \"design\"; a design of kind \"grid\" is the same");
   Design design;
   if (cell.contains("grid")) {
-    design = read_grid(cell, place);
+    design = read_grid(cell, place, &mistakes);
   } else {
     Json base = cell;
     base.erase("design");
     Mistakes of_base;
     std::optional<Cell> read;
     of_base.attempt([&] { read = read_cell({base, place, &of_base}, folder, study.cells.size()); });
-    if (read) of_base.attempt([&] { design = read_design(cell, *read, study.seed, place); });
+    if (read)
+      of_base.attempt([&] { design = read_design(cell, *read, study.seed, place, &of_base); });
     for (const auto& line : of_base.lines()) mistakes.note(line);
     if (!of_base.lines().empty()) return;
   }
   if (design.is_sampled() && cell.contains("stop"))
-    throw InputError(place + ".stop", "all points of a design of this kind run as many trials; leave it out");
+    throw InputError(place + ".stop",
+                     "all points of a design of this kind run as many trials; leave it out");
   design.first_cell = study.cells.size();
   for (const auto& [point, point_place] : cells_of(design, cell, place))
     add_read_cell(study, point, point_place, place, folder, mistakes);
@@ -273,9 +293,8 @@ void add_design(Study& study, const Json& cell, const std::string& place, const 
 
 Scenario read_scenario(JsonObject object, const std::string& folder) {
   Scenario scenario;
-  const bool recording_read = object.with_child("from_recording", [&](JsonObject& recorded) {
-    read_recorded(recorded, folder, scenario);
-  });
+  const bool recording_read = object.with_child(
+      "from_recording", [&](JsonObject& recorded) { read_recorded(recorded, folder, scenario); });
   object.fields(scenario.sampling);
   const auto nested = [&](const std::string& key, auto& parameters) {
     object.with_child(key, [&](JsonObject& child) {
@@ -298,7 +317,8 @@ Scenario read_scenario(JsonObject object, const std::string& folder) {
   object.with_child("acceleration", [&](JsonObject& acceleration) {
     scenario.acceleration = read_plugin<Accelerations>(acceleration, "profile", "profile");
   });
-  object.with_child("compass", [&](JsonObject& compass) { scenario.compass = read_compass(compass); });
+  object.with_child("compass",
+                    [&](JsonObject& compass) { scenario.compass = read_compass(compass); });
   for (const auto& entry : object.list("effects"))
     object.attempt([&] {
       scenario.effects.push_back(
@@ -349,12 +369,14 @@ std::uint64_t Study::trials() const {
 
 const Design* design_of(const Study& study, std::size_t cell) {
   for (const auto& design : study.designs)
-    if (cell >= design.first_cell && cell < design.first_cell + design.values.size()) return &design;
+    if (cell >= design.first_cell && cell < design.first_cell + design.values.size())
+      return &design;
   return nullptr;
 }
 
 void set_trials(Study& study, std::uint32_t trials) {
-  for (auto& cell : study.cells) cell.trials = cell.recording ? std::min(cell.trials, trials) : trials;
+  for (auto& cell : study.cells)
+    cell.trials = cell.recording ? std::min(cell.trials, trials) : trials;
 }
 
 const Cell& cell_named(const Study& study, const std::string& name, const std::string& place) {

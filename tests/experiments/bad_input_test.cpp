@@ -356,34 +356,46 @@ TEST(BadInput, AllMistakesOfAStudyAreToldAtOnce) {
       {"name": "b", "filters": []},
       {"name": "a", "grid": {"trials": []}}]})");
   const Words expected = {
-      "title: the key stands twice", "failure_budget: 2 of all trials is out of range; allowed: [0, 1]",
+      "title: the key stands twice",
+      "failure_budget: 2 of all trials is out of range; allowed: [0, 1]",
       "cells[0].trials: 0 trials is out of range; allowed: [1, 1e+08]",
       "cells[0]: unknown key 'trails'; did you mean 'trials'?",
-      "cells[0].scenario.from_recording.axis: 3 is not a text", "absent.csv",
+      "cells[0].scenario.from_recording.axis: 3 is not a text",
+      "absent.csv",
       "cells[0].scenario.duration_s: 0 s is out of range; allowed: (0, 1e+07] s",
       "cells[0].scenario: unknown key 'rate'; did you mean 'rate_hz'?",
       "cells[0].scenario.random_error.phi: 2 is out of range; allowed: (-1, 1)",
       "cells[0].scenario.random_error: unknown key 'delta'",
       "cells[0].scenario.motion.profile: unknown profile 'rate_tabel'; did you mean 'rate_table'?",
       "cells[0].scenario.temperature.period_s: 0 s is out of range; allowed: (0, inf) s",
-      "cells[0].scenario.compass.disturbances[1].start_s: -1 s is out of range; allowed: [0, inf) s",
+      "cells[0].scenario.compass.disturbances[1].start_s: -1 s is out of range; allowed: [0, inf) "
+      "s",
       "cells[0].scenario.effects[0].effect: unknown effect 'outlier'; did you mean 'outliers'?",
       "cells[0].scenario.effects[1].probability: 2 is out of range; allowed: [0, 1]",
       "cells[0].scenario.effects[1]: unknown key 'std'; did you mean 'std_dps'?",
-      "cells[0].calibration.fit: unknown", "cells[0].calibration: unknown key 'duration'; did you mean 'duration_s'?",
-      "cells[0].tuning.metric: unknown metric 'bias_rms'", "cells[0].tuning.trials: 0 trials is out of range",
-      "cells[0].assumed: unknown key 'delta1'", "cells[0].filters[0]: unknown filter 'kv'; did you mean 'kf'?",
-      "cells[0].filters[2]: the id 'kf' stands twice", "cells[0].filters[3].id: 'x,y'",
+      "cells[0].calibration.fit: unknown",
+      "cells[0].calibration: unknown key 'duration'; did you mean 'duration_s'?",
+      "cells[0].tuning.metric: unknown metric 'bias_rms'",
+      "cells[0].tuning.trials: 0 trials is out of range",
+      "cells[0].assumed: unknown key 'delta1'",
+      "cells[0].filters[0]: unknown filter 'kv'; did you mean 'kf'?",
+      "cells[0].filters[2]: the id 'kf' stands twice",
+      "cells[0].filters[3].id: 'x,y'",
       "cells[0].filters[3].parameters.forgetting: 2 is out of range; allowed: [0, 1]",
-      "cells[0].filters[3].tune.forgetting: the lower bound", "cells[0].filters[3].parameters_from: unknown",
-      "cells[1]: an object", "cells[2].filters: the list is empty", "cells[3].grid.trials: a list",
+      "cells[0].filters[3].tune.forgetting: the lower bound",
+      "cells[0].filters[3].parameters_from: unknown",
+      "cells[1]: an object",
+      "cells[2].filters: the list is empty",
+      "cells[3].grid.trials: a list",
       "study.json: unknown key 'sed'; did you mean 'seed'?"};
   for (const Words& verb : {Words{"validate", "study.json"}, Words{"run", "study.json"}}) {
     const auto lines = lines_of(folder, verb);
     for (const auto& line : lines) EXPECT_THAT(line, testing::StartsWith("gyrostat: "));
     for (const auto& mistake : expected) {
       const auto tells = [&](const auto& line) { return line.find(mistake) != line.npos; };
-      EXPECT_EQ(std::ranges::count_if(lines, tells), 1) << mistake << '\n' << fmt::format("{}", fmt::join(lines, "\n"));
+      EXPECT_EQ(std::ranges::count_if(lines, tells), 1)
+          << mistake << '\n'
+          << fmt::format("{}", fmt::join(lines, "\n"));
     }
     EXPECT_EQ(lines.size(), expected.size()) << fmt::format("{}", fmt::join(lines, "\n"));
   }
@@ -398,29 +410,69 @@ TEST(BadInput, AMistakeThatAllCellsOfAGridShareIsToldOnce) {
   ASSERT_EQ(lines.size(), 3U) << fmt::format("{}", fmt::join(lines, "\n"));
   EXPECT_THAT(lines[0], testing::HasSubstr("cells[0].filters[0]: unknown filter 'kv'"));
   EXPECT_THAT(lines[1], testing::HasSubstr("cells[0]: unknown key 'trails'"));
-  EXPECT_THAT(lines[2], testing::HasSubstr("cells[0].scenario.random_error.phi: 2 is out of range"));
+  EXPECT_THAT(lines[2],
+              testing::HasSubstr("cells[0].scenario.random_error.phi: 2 is out of range"));
+}
+
+TEST(BadInput, AllMistakesOfADesignAreToldAtOnce) {
+  const TestFolder folder;
+  folder.write("study.json", R"({"cells": [
+      {"name": "a", "trails": 5, "filters": ["kf"], "design": {"kind": "morris", "trajectories": 0, "levels": 5, "seed": 1,
+        "parameters": {"scenario.random_error.phy": {"from": 0, "to": 0.5},
+                       "scenario.random_error.phi": {"from": 2, "to": "x", "scale": "lin", "step": 1},
+                       "scenario.random_error.delta1_dps": {"from": 0, "to": 1, "scale": "log"}}}},
+      {"name": "b", "filters": ["kf"], "design": {"kind": "one_at_a_time", "parameters": {
+        "scenario.random_error.phi": {"from": 0.5, "to": 0.4, "base": 3}}}},
+      {"name": "c", "filters": ["kf"], "design": {"kind": "grid", "parameters": {
+        "scenario.random_error.phi": {"from": 0.1, "to": 0.4, "levels": 1}, "trials": []}}}]})");
+  const auto lines = lines_of(folder, {"validate", "study.json"});
+  const Words expected = {
+      "cells[0]: unknown key 'trails'",
+      "cells[0].design.parameters.scenario.random_error.phy: ",
+      "cells[0].design.parameters.scenario.random_error.phi.from: 2 is out of range; allowed: (-1, "
+      "1)",
+      "cells[0].design.parameters.scenario.random_error.phi.to: \"x\" is not a number",
+      "cells[0].design.parameters.scenario.random_error.phi.scale: unknown scale 'lin'",
+      "cells[0].design.parameters.scenario.random_error.phi: unknown key 'step'",
+      "cells[0].design.parameters.scenario.random_error.delta1_dps.from: 0 dps has no logarithm",
+      "cells[0].design.trajectories: 0 trajectories is out of range",
+      "cells[0].design.levels: 5 is odd",
+      "cells[0].design: unknown key 'seed'",
+      "cells[1].design.parameters.scenario.random_error.phi: \"from\" 0.5 is not below",
+      "cells[1].design.parameters.scenario.random_error.phi.base: 3 is out of range",
+      "cells[2].design.parameters.scenario.random_error.phi.levels: 1 levels is out of range",
+      "cells[2].design.parameters.trials: a list of values"};
+  for (const auto& mistake : expected) {
+    const auto tells = [&](const auto& line) { return line.find(mistake) != line.npos; };
+    EXPECT_EQ(std::ranges::count_if(lines, tells), 1) << mistake;
+  }
+  EXPECT_EQ(lines.size(), expected.size()) << fmt::format("{}", fmt::join(lines, "\n"));
 }
 
 TEST(BadInput, AllMistakesOfAConfigAreToldAtOnce) {
   const TestFolder folder;
   folder.write("rec.csv", sound_recording());
-  folder.write("config.json", R"({"filters": ["kv", {"filter": "kf", "parameters": {"phi": 2, "fi": 1}}], "out": 1})");
+  folder.write(
+      "config.json",
+      R"({"filters": ["kv", {"filter": "kf", "parameters": {"phi": 2, "fi": 1}}], "out": 1})");
   EXPECT_EQ(lines_of(folder, {"apply", "rec.csv", "--config", "config.json"}).size(), 4U);
 }
 
 TEST(BadInput, AFolderWithoutARunIsNamed) {
   const TestFolder folder;
   folder.write("empty/notes.txt", "nothing here");
-  for (const Words& arguments : {Words{"status", "empty"}, Words{"export", "empty"}, Words{"export", "absent"},
-                                 Words{"merge", "all", "empty"}})
-    expect_refused(folder, arguments, {arguments.back(), "holds no outcomes", "store.db", "runs/STUDY"});
+  for (const Words& arguments : {Words{"status", "empty"}, Words{"export", "empty"},
+                                 Words{"export", "absent"}, Words{"merge", "all", "empty"}})
+    expect_refused(folder, arguments,
+                   {arguments.back(), "holds no outcomes", "store.db", "runs/STUDY"});
 }
 
 TEST(BadInput, AReplayOfATrialThatThereIsNotIsToldTheRange) {
   const TestFolder folder;
   folder.write("study.json", sound_study().dump());
   for (const std::string trial : {"2", "99999", "99999999999", "-1", "x"})
-    expect_refused(folder, {"replay", "study:a:" + trial + ":kf", "--study", "study.json"}, {"study:a:" + trial, trial});
+    expect_refused(folder, {"replay", "study:a:" + trial + ":kf", "--study", "study.json"},
+                   {"study:a:" + trial, trial});
   expect_refused(folder, {"replay", "study:a:2:kf", "--study", "study.json"}, {"0 to 1", "'a'"});
   EXPECT_EQ(run_program(folder, {"run", "study.json", "--trials", "4"}).exit_code, 0);
   EXPECT_EQ(run_program(folder, {"replay", "study:a:3:kf", "--study", "study.json"}).exit_code, 0);
@@ -598,7 +650,9 @@ TEST(BadInput, Diagnosis) {
   expect_refused(folder, {"diagnose", "rec.csv", "--format", "html"}, {"html"});
   expect_refused(folder, {"diagnose", "rec.csv", "--claim", "absent.json"}, {"absent.json"});
   expect_refused(folder, {"diagnose", "rec.csv", "--json", "nowhere/out.json"}, {"nowhere"});
-  expect_refused(folder, {"diagnose", "rec.csv", "--json", "out.json", "--scenario", "nowhere/s.json"}, {"nowhere"});
+  expect_refused(folder,
+                 {"diagnose", "rec.csv", "--json", "out.json", "--scenario", "nowhere/s.json"},
+                 {"nowhere"});
 }
 
 TEST(BadInput, BlindCheck) {
@@ -609,12 +663,15 @@ TEST(BadInput, BlindCheck) {
   };
   refused(R"({"title": "x"})", {"check.json", "scenarios"});
   refused(R"({"scenarios": {"a": {}}, "record": 3})", {"record", "recordings"});
-  refused(R"({"scenarios": {"a": {}}, "cases": [{"effect": "outlier", "scenario": "a", "strong": {}}]})",
-          {"cases[0]", "outlier", "outliers"});
-  refused(R"({"scenarios": {"a": {}}, "cases": [{"effect": "outliers", "scenario": "b", "strong": {}}]})",
-          {"cases[0].scenario", "'b'", "'a'"});
-  refused(R"({"scenarios": {"a": {}}, "cases": [{"effect": "outliers", "scenario": "a", "strong": {"probability": 2}}]})",
-          {"probability", "2", "[0, 1]"});
+  refused(
+      R"({"scenarios": {"a": {}}, "cases": [{"effect": "outlier", "scenario": "a", "strong": {}}]})",
+      {"cases[0]", "outlier", "outliers"});
+  refused(
+      R"({"scenarios": {"a": {}}, "cases": [{"effect": "outliers", "scenario": "b", "strong": {}}]})",
+      {"cases[0].scenario", "'b'", "'a'"});
+  refused(
+      R"({"scenarios": {"a": {}}, "cases": [{"effect": "outliers", "scenario": "a", "strong": {"probability": 2}}]})",
+      {"probability", "2", "[0, 1]"});
   refused(R"({"scenarios": {"a": {}}, "cases": [{"effect": "outliers", "scenario": "a"}]})",
           {"cases[0]", "strong"});
 }
