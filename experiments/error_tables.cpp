@@ -1,9 +1,9 @@
 #include "experiments/error_tables.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "experiments/consistency.hpp"
 #include "experiments/metric_names.hpp"
@@ -12,22 +12,32 @@
 namespace gyrostat {
 namespace {
 
-TableCell out_of(std::size_t count, std::size_t total) { return fmt::format("{}/{}", count, total); }
+TableCell out_of(std::size_t count, std::size_t total) {
+  return fmt::format("{}/{}", count, total);
+}
 
 Table metric_table(const Cell& cell, const CellSummary& summary, std::string_view metric,
                    std::string_view title, std::string_view unit) {
   const std::string u(unit);
   Table table{.title = fmt::format("{}: {}", cell.name, title),
-              .columns = {{"method", ""}, {"mean", u}, {"± 95 %", u}, {"std", u}, {"median", u},
-                          {"95 % of |·|", u}, {"worst |·|", u}, {"diverged", ""}, {"broke down", ""}},
-              .rows = {}, .notes = {}};
+              .columns = {{"method", ""},
+                          {"mean", u},
+                          {"± 95 %", u},
+                          {"std", u},
+                          {"median", u},
+                          {"95 % of |·|", u},
+                          {"worst |·|", u},
+                          {"diverged", ""},
+                          {"broke down", ""}},
+              .rows = {},
+              .notes = {}};
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
     const auto& s = summary.of(m, metric);
     const auto& method = summary.methods[m];
-    table.rows.push_back({cell.methods[m].id, gyrostat::cell(s.mean), gyrostat::cell(s.half_width_95),
-                          gyrostat::cell(s.std), gyrostat::cell(s.median),
-                          gyrostat::cell(s.percentile_95), gyrostat::cell(s.worst),
-                          out_of(method.diverged, summary.finished),
+    table.rows.push_back({cell.methods[m].id, gyrostat::cell(s.mean),
+                          gyrostat::cell(s.half_width_95), gyrostat::cell(s.std),
+                          gyrostat::cell(s.median), gyrostat::cell(s.percentile_95),
+                          gyrostat::cell(s.worst), out_of(method.diverged, summary.finished),
                           out_of(method.broken_down, summary.finished)});
   }
   return table;
@@ -39,17 +49,25 @@ Table comparison_table(const Cell& cell, const CellSummary& summary, std::string
   const std::size_t family = cell.methods.size() * (cell.methods.size() - 1) / 2;
   Table table{.title = fmt::format("{}: {}, minus that of {}, paired by trial", cell.name, title,
                                    cell.methods[best].id),
-              .columns = {{"method", ""}, {"difference", unit}, {"± 95 % simultaneous", unit},
-                          {"p adjusted", "1"}, {"verdict", ""}, {"diverged", ""}, {"broke down", ""}},
-              .rows = {}, .notes = {}};
+              .columns = {{"method", ""},
+                          {"difference", unit},
+                          {"± 95 % simultaneous", unit},
+                          {"p adjusted", "1"},
+                          {"verdict", ""},
+                          {"diverged", ""},
+                          {"broke down", ""}},
+              .rows = {},
+              .notes = {}};
   constexpr double rounding = 1e-9;
   const double scale = summary.of(best, judging_metric(cell)).mean;
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
     if (m == best) continue;
     const auto& d = summary.methods[m].difference;
     std::string verdict = "not separable";
-    if (std::abs(d.mean) <= rounding * scale) verdict = "equal to rounding";
-    else if (d.separable) verdict = d.mean > 0.0 ? "worse" : "better";
+    if (std::abs(d.mean) <= rounding * scale)
+      verdict = "equal to rounding";
+    else if (d.separable)
+      verdict = d.mean > 0.0 ? "worse" : "better";
     else if (!std::isnan(d.trials_needed))
       verdict += fmt::format("; about {:.0f} trials would tell", d.trials_needed);
     table.rows.push_back({cell.methods[m].id, gyrostat::cell(d.mean), gyrostat::cell(d.half_width),
@@ -57,9 +75,9 @@ Table comparison_table(const Cell& cell, const CellSummary& summary, std::string
                           out_of(summary.methods[m].diverged, summary.finished),
                           out_of(summary.methods[m].broken_down, summary.finished)});
   }
-  table.notes.push_back(
-      fmt::format("Bonferroni over all {} pairs of methods{}, so the pair may be picked after looking", family,
-                  summary.comparisons > family ? " and over the looks of the stop rule" : ""));
+  table.notes.push_back(fmt::format(
+      "Bonferroni over all {} pairs of methods{}, so the pair may be picked after looking", family,
+      summary.comparisons > family ? " and over the looks of the stop rule" : ""));
   return table;
 }
 
@@ -69,9 +87,13 @@ Table calibration_table(const Cell& cell, const Calibration& fit, const CellSumm
   Table table{.title = fmt::format("{}: parameters fitted on {}", cell.name,
                                    cell.recording ? "the recording before the trials"
                                                   : "a calibration signal of the same scenario"),
-              .columns = {{"parameter", ""}, {"unit", ""}, {"fitted", ""}, {"standard error", ""},
+              .columns = {{"parameter", ""},
+                          {"unit", ""},
+                          {"fitted", ""},
+                          {"standard error", ""},
                           {"true", ""}},
-              .rows = {}, .notes = {}};
+              .rows = {},
+              .notes = {}};
   const auto add = [&](const auto& fitted, const auto& errors, const auto& truth) {
     using P = std::remove_cvref_t<decltype(fitted)>;
     for (const auto& f : P::fields())
@@ -85,9 +107,10 @@ Table calibration_table(const Cell& cell, const Calibration& fit, const CellSumm
   table.notes.push_back("random error: " + fit.random_error.message);
   if (fit.thermal) table.notes.push_back("thermal drift: " + fit.thermal->message);
   if (cell.calibration.each_trial) {
-    table.notes.push_back(fmt::format("this is trial 0's; each trial has its own, of which {} of {} "
-                                      "did not converge",
-                                      summary.unconverged, summary.finished));
+    table.notes.push_back(
+        fmt::format("this is trial 0's; each trial has its own, of which {} of {} "
+                    "did not converge",
+                    summary.unconverged, summary.finished));
   }
   return table;
 }
@@ -95,16 +118,23 @@ Table calibration_table(const Cell& cell, const Calibration& fit, const CellSumm
 Table tuning_table(const Cell& cell, const std::vector<TunedMethod>& tuned) {
   const auto metric = Metrics::ids()[cell.tuning.metric];
   const auto unit = metric_unit(cell.tuning.metric);
-  Table table{.title = fmt::format("{}: tuned on {} trials of their own, {} evaluations each", cell.name,
-                                   cell.tuning.trials, cell.tuning.evaluations),
-              .columns = {{"method", ""}, {"parameter", ""}, {"tuned", ""},
-                          {metric + " before", unit}, {metric + " after", unit}},
-              .rows = {}, .notes = {}};
+  Table table{.title = fmt::format("{}: tuned on {} trials of their own, {} evaluations each",
+                                   cell.name, cell.tuning.trials, cell.tuning.evaluations),
+              .columns = {{"method", ""},
+                          {"parameter", ""},
+                          {"tuned", ""},
+                          {metric + " before", unit},
+                          {"broke down before", ""},
+                          {metric + " after", unit},
+                          {"broke down after", ""}},
+              .rows = {},
+              .notes = {}};
   for (std::size_t m = 0; m < tuned.size(); ++m)
     for (const auto& [name, value] : tuned[m].values)
-      table.rows.push_back({cell.methods[m].id, name, value,
-                            gyrostat::cell(tuned[m].objective_before),
-                            gyrostat::cell(tuned[m].objective_after)});
+      table.rows.push_back({cell.methods[m].id, name, value, gyrostat::cell(tuned[m].before.mean),
+                            out_of(tuned[m].before.broken_down, cell.tuning.trials),
+                            gyrostat::cell(tuned[m].after.mean),
+                            out_of(tuned[m].after.broken_down, cell.tuning.trials)});
   return table;
 }
 
@@ -115,7 +145,8 @@ std::vector<Table> error_tables(const Cell& cell, const CellSummary& summary) {
     const char* unit;
   };
   static constexpr Shown shown[] = {
-      {"bias_rmse", "bias estimation error (estimate - drift - random error), RMSE over time", "dps"},
+      {"bias_rmse", "bias estimation error (estimate - drift - random error), RMSE over time",
+       "dps"},
       {"log_score", "logarithmic score of the innovations (small: foretells the gyro well)", "nat"},
       {"rate_rmse", "compensated rate error, RMSE over time", "dps"},
       {"rate_std", "compensated rate error, standard deviation over time", "dps"},
@@ -148,7 +179,8 @@ std::vector<Table> error_tables(const Cell& cell, const CellSummary& summary) {
 Table timing_table(const Cell& cell, const std::vector<double>& nanoseconds_per_step) {
   Table table{.title = cell.name + ": time per step, metrics included (this run, this machine)",
               .columns = {{"method", ""}, {"time", "ns"}},
-              .rows = {}, .notes = {}};
+              .rows = {},
+              .notes = {}};
   for (std::size_t m = 0; m < cell.methods.size(); ++m)
     table.rows.push_back({cell.methods[m].id, gyrostat::cell(nanoseconds_per_step[m])});
   return table;

@@ -96,7 +96,8 @@ Request read_request(const Study& study, const Json& json, const std::string& pl
     request.metrics.push_back(metric_named(metric, object.place_of("metrics")));
   if (request.metrics.empty()) request.metrics.push_back(metric_named("bias_rmse", place));
   request.quantity = object.text("quantity", "rate");
-  request.trial = static_cast<std::uint32_t>(object.number("trial", 0, Range{0, 1e6, false, false, true}, ""));
+  request.trial =
+      static_cast<std::uint32_t>(object.number("trial", 0, Range{0, 1e6, false, false, true}, ""));
   request.points = static_cast<std::size_t>(object.number("points", 120, ranges::count, ""));
   object.finish();
   for (const auto* cell : request.cells) {
@@ -131,7 +132,8 @@ std::int64_t trials_with_breakdown(const CellResult& result, std::size_t method)
 
 /// One row a cell and method: the mean of each metric with its interval.
 Table means(const Request& request, Results& results) {
-  Table table{.title = request.title, .columns = {{"cell", ""}, {"method", ""}}, .rows = {}, .notes = {}};
+  Table table{
+      .title = request.title, .columns = {{"cell", ""}, {"method", ""}}, .rows = {}, .notes = {}};
   const auto metrics = Metrics::ids();
   for (const std::size_t metric : request.metrics) {
     table.columns.push_back({metrics[metric], unit_of(metric)});
@@ -142,8 +144,7 @@ Table means(const Request& request, Results& results) {
   for (const auto* cell : request.cells) {
     const auto& result = results.of(*cell);
     for (const std::size_t m : methods_of(request, *cell)) {
-      auto& row = table.rows.emplace_back(
-          std::vector<TableCell>{cell->name, cell->methods[m].id});
+      auto& row = table.rows.emplace_back(std::vector<TableCell>{cell->name, cell->methods[m].id});
       for (const std::size_t metric : request.metrics) {
         const auto s = summarise(metric_values(result, m, metric));
         row.push_back(gyrostat::cell(s.mean));
@@ -153,7 +154,8 @@ Table means(const Request& request, Results& results) {
       row.emplace_back(static_cast<std::int64_t>(result.finished()));
     }
   }
-  table.notes.push_back("mean over trials ± 95 % (Student t); every trial counts, broken down or not");
+  table.notes.push_back(
+      "mean over trials ± 95 % (Student t); every trial counts, broken down or not");
   return table;
 }
 
@@ -163,9 +165,11 @@ Table map_of(const Request& request, Results& results) {
   const Cell& first = *request.cells.front();
   Table table{.title = request.title, .columns = {{"cell", ""}}, .rows = {}, .notes = {}};
   const auto methods = methods_of(request, first);
-  for (const std::size_t m : methods) table.columns.push_back({first.methods[m].id, unit_of(metric)});
+  for (const std::size_t m : methods)
+    table.columns.push_back({first.methods[m].id, unit_of(metric)});
   table.columns.push_back({"lowest", ""});
   table.columns.push_back({"not separable from it", ""});
+  table.columns.push_back({"broke down", "trials"});
   std::size_t rivals = 0;
   for (const std::size_t m : methods) rivals += first.methods[m].filter != "oracle";
   const std::size_t family = request.cells.size() * rivals * (rivals - 1) / 2;
@@ -185,7 +189,10 @@ Table map_of(const Request& request, Results& results) {
       least = mean;
       best = values.size() - 1;
     }
-    std::string tied;
+    std::string tied, broken;
+    for (const std::size_t m : own)
+      if (const auto trials = trials_with_breakdown(result, m); trials > 0)
+        broken += fmt::format("{}{} {}", broken.empty() ? "" : ", ", cell->methods[m].id, trials);
     for (std::size_t i = 0; i < own.size(); ++i) {
       if (i == best || cell->methods[own[i]].filter == "oracle") continue;
       if (paired_difference(values[i], values[best], family).separable) continue;
@@ -193,21 +200,30 @@ Table map_of(const Request& request, Results& results) {
     }
     row.push_back(cell->methods[own[best]].id);
     row.push_back(tied.empty() ? TableCell() : TableCell(tied));
+    row.push_back(broken.empty() ? TableCell(std::int64_t{0}) : TableCell(broken));
   }
-  table.notes.push_back(fmt::format(
-      "mean {} over {} trials a cell, all methods on the same signals; lowest: of all but the oracle; "
-      "separable: paired, 95 % simultaneous over all pairs and cells (Bonferroni, {})",
-      Metrics::ids()[metric], results.of(first).finished(), family));
+  table.notes.push_back(
+      fmt::format("mean {} over {} trials a cell, all methods on the same signals; lowest: of all "
+                  "but the oracle; "
+                  "separable: paired, 95 % simultaneous over all pairs and cells (Bonferroni, {})",
+                  Metrics::ids()[metric], results.of(first).finished(), family));
   return table;
 }
 
 /// `methods` each against each of `than`, paired, in each cell.
 Table versus(const Request& request, Results& results) {
   Table table{.title = request.title,
-              .columns = {{"cell", ""}, {"method", ""}, {"than", ""}, {"ratio", ""},
+              .columns = {{"cell", ""},
+                          {"method", ""},
+                          {"than", ""},
+                          {"ratio", ""},
                           {"difference", unit_of(request.metrics.front())},
-                          {"± 95 % simultaneous", unit_of(request.metrics.front())}, {"verdict", ""}},
-              .rows = {}, .notes = {}};
+                          {"± 95 % simultaneous", unit_of(request.metrics.front())},
+                          {"verdict", ""},
+                          {"broke down", "trials"},
+                          {"than broke down", "trials"}},
+              .rows = {},
+              .notes = {}};
   std::size_t family = 0;
   for (const auto* cell : request.cells)
     for (const std::size_t m : methods_of(request, *cell))
@@ -218,21 +234,27 @@ Table versus(const Request& request, Results& results) {
     for (const std::size_t m : methods_of(request, *cell))
       for (const auto& than : request.than) {
         if (cell->methods[m].id == than) continue;
+        const std::size_t other = index_of(*cell, than, request.name);
         const auto ours = metric_values(result, m, metric);
-        const auto theirs = metric_values(result, index_of(*cell, than, request.name), metric);
+        const auto theirs = metric_values(result, other, metric);
         const auto d = paired_difference(ours, theirs, family);
         std::string verdict = "not separable";
-        if (d.separable) verdict = d.mean < 0.0 ? "lower" : "higher";
+        if (d.separable)
+          verdict = d.mean < 0.0 ? "lower" : "higher";
         else if (!std::isnan(d.trials_needed))
           verdict += fmt::format(", about {:.0f} more trials would tell",
                                  std::max(0.0, d.trials_needed - static_cast<double>(d.count)));
         table.rows.push_back({cell->name, cell->methods[m].id, than,
                               gyrostat::cell(summarise(ours).mean / summarise(theirs).mean),
-                              gyrostat::cell(d.mean), gyrostat::cell(d.half_width), verdict});
+                              gyrostat::cell(d.mean), gyrostat::cell(d.half_width), verdict,
+                              trials_with_breakdown(result, m),
+                              trials_with_breakdown(result, other)});
       }
   }
-  table.notes.push_back(fmt::format("{}, paired by trial; intervals simultaneous over the {} rows "
-                                    "(Bonferroni)", Metrics::ids()[metric], family));
+  table.notes.push_back(
+      fmt::format("{}, paired by trial; intervals simultaneous over the {} rows "
+                  "(Bonferroni)",
+                  Metrics::ids()[metric], family));
   return table;
 }
 
@@ -323,25 +345,34 @@ Table allan(const Request& request, Results& results) {
         table.rows[p].push_back(v);
     }
   }
-  table.notes.push_back(fmt::format("{}, trial {}; lower and upper bound the 95 % confidence interval "
-                                    "by equivalent degrees of freedom", cell.name, request.trial));
+  table.notes.push_back(
+      fmt::format("{}, trial {}; lower and upper bound the 95 % confidence interval "
+                  "by equivalent degrees of freedom",
+                  cell.name, request.trial));
   return table;
 }
 
 /// The tuned values of all cells, one below the other.
 Table tuned(const Request& request, Results& results) {
   Table table{.title = request.title,
-              .columns = {{"cell", ""}, {"method", ""}, {"parameter", ""}, {"tuned", ""},
-                          {"before", ""}, {"after", ""}},
-              .rows = {}, .notes = {}};
+              .columns = {{"cell", ""},
+                          {"method", ""},
+                          {"parameter", ""},
+                          {"tuned", ""},
+                          {"before", ""},
+                          {"broke down before", ""},
+                          {"after", ""},
+                          {"broke down after", ""}},
+              .rows = {},
+              .notes = {}};
   for (const auto* cell : request.cells) {
     for (auto& row : tuning_table(*cell, results.of(*cell).tuned).rows) {
       row.insert(row.begin(), TableCell(cell->name));
       table.rows.push_back(std::move(row));
     }
-    table.notes = {fmt::format("before, after: mean {} over {} trials of their own; {} evaluations each",
-                               Metrics::ids()[cell->tuning.metric], cell->tuning.trials,
-                               cell->tuning.evaluations)};
+    table.notes = {fmt::format(
+        "before, after: mean {} over {} trials of their own; {} evaluations each",
+        Metrics::ids()[cell->tuning.metric], cell->tuning.trials, cell->tuning.evaluations)};
   }
   return table;
 }
@@ -361,7 +392,8 @@ Table sensitivity(const Request& request, Results& results) {
       sensitivities(study, CellTrials(trials), {.metric = Metrics::ids()[request.metrics.front()]});
   auto tables = sensitivity_tables(found, study);
   if (tables.empty())
-    throw InputError(request.name, "the chosen cells are no one_at_a_time, morris or saltelli design");
+    throw InputError(request.name,
+                     "the chosen cells are no one_at_a_time, morris or saltelli design");
   tables.front().title = request.title;
   return tables.front();
 }
@@ -372,9 +404,8 @@ std::vector<NamedTable> study_tables(const std::string& path,
                                      const std::vector<std::pair<const Json*, std::string>>& specs,
                                      const RunCell& run) {
   static const std::vector<std::pair<std::string, Table (*)(const Request&, Results&)>> kinds = {
-      {"means", means}, {"map", map_of},  {"versus", versus},
-      {"traces", traces}, {"allan", allan}, {"tuned", tuned},
-      {"sensitivity", sensitivity}};
+      {"means", means}, {"map", map_of},  {"versus", versus},          {"traces", traces},
+      {"allan", allan}, {"tuned", tuned}, {"sensitivity", sensitivity}};
   Results results(path, run);
   std::vector<Request> requests;
   for (const auto& [spec, place] : specs) {

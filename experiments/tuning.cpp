@@ -1,8 +1,8 @@
 #include "experiments/tuning.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include <tbb/parallel_for.h>
 
 #include "analysis/search/box_search.hpp"
 #include "experiments/trial.hpp"
@@ -14,8 +14,8 @@ struct Signal {
   Series series, denoised;
 };
 
-/// Where tuning signals begin under the calibration's seed, whatever the number of trials: above trial
-/// 0 where that is the only calibration, above every trial where each has its own.
+/// Where tuning signals begin under the calibration's seed, whatever the number of trials: above
+/// trial 0 where that is the only calibration, above every trial where each has its own.
 std::uint32_t first_tuning_trial(const Cell& cell) {
   return cell.calibration.each_trial ? 4'000'000'000U : 1000U;
 }
@@ -26,26 +26,30 @@ std::vector<Signal> tuning_signals(const Cell& cell, std::uint64_t seed) {
   Scenario scenario = cell.scenario;
   if (cell.tuning.undisturbed) scenario.compass.disturbances.clear();
   tbb::parallel_for(std::size_t{0}, signals.size(), [&](std::size_t i) {
-    synthesise(scenario, calibration_noise(seed, first_tuning_trial(cell) + static_cast<std::uint32_t>(i)),
+    synthesise(scenario,
+               calibration_noise(seed, first_tuning_trial(cell) + static_cast<std::uint32_t>(i)),
                signals[i].series);
     (void)cell.judged(signals[i].series, signals[i].denoised);
   });
   return signals;
 }
 
-double mean_metric(const Cell& cell, const Method& method, const Calibration& calibration,
-                   const std::vector<Signal>& signals) {
-  std::vector<double> values(signals.size());
+TuningScore score(const Cell& cell, const Method& method, const Calibration& calibration,
+                  const std::vector<Signal>& signals) {
+  std::vector<Outcome> outcomes(signals.size());
   tbb::parallel_for(std::size_t{0}, signals.size(), [&](std::size_t i) {
     thread_local Track track;
     const auto& [series, denoised] = signals[i];
     const auto parameters = told_parameters(cell, method, calibration, series);
-    values[i] = run_method(method, parameters, series, cell.denoise ? denoised : series, track)
-                    .metrics[cell.tuning.metric];
+    outcomes[i] = run_method(method, parameters, series, cell.denoise ? denoised : series, track);
   });
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
+  TuningScore score{.mean = 0.0};
+  for (const auto& outcome : outcomes) {
+    score.mean += outcome.metrics[cell.tuning.metric];
+    score.broken_down += outcome.breakdowns() > 0;
+  }
+  score.mean /= static_cast<double>(outcomes.size());
+  return score;
 }
 
 }  // namespace
@@ -60,7 +64,7 @@ std::vector<TunedMethod> tune_methods(const Cell& cell, const Calibration& calib
   for (std::size_t m = 0; m < tuned.size(); ++m) {
     Method method = cell.methods[m];
     if (!is_tuned(method)) continue;
-    tuned[m].objective_before = mean_metric(cell, method, calibration, signals);
+    tuned[m].before = score(cell, method, calibration, signals);
     std::vector<SearchRange> ranges;
     for (const auto& [name, range] : method.tune) ranges.push_back(range);
     const auto set = [&](const std::vector<double>& values) {
@@ -69,11 +73,11 @@ std::vector<TunedMethod> tune_methods(const Cell& cell, const Calibration& calib
     };
     const auto found = box_search(ranges, cell.tuning.evaluations, [&](const auto& values) {
       set(values);
-      return mean_metric(cell, method, calibration, signals);
+      return score(cell, method, calibration, signals).mean;
     });
     set(found.values);
     for (const auto& [name, range] : method.tune) tuned[m].values[name] = method.overrides[name];
-    tuned[m].objective_after = found.objective;
+    tuned[m].after = score(cell, method, calibration, signals);
   }
   return tuned;
 }

@@ -6,11 +6,16 @@
 
 namespace gyrostat {
 
+/// A method over the tuning trials.
+struct TuningScore {
+  double mean = no_value;       ///< of the plan's metric
+  std::size_t broken_down = 0;  ///< trials of them that broke down, which count as well
+};
+
 /// What tuning made of one method.
 struct TunedMethod {
   ParameterMap values;
-  double objective_before = no_value;  ///< mean of the metric over the tuning trials
-  double objective_after = no_value;
+  TuningScore before, after;
 };
 
 /// Tunes every method of the cell that names parameters to "tune", each by the same procedure: the
