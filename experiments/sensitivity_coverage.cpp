@@ -1,8 +1,10 @@
 #include "experiments/sensitivity_coverage.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <mutex>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -182,13 +184,52 @@ void one_at_a_time_case(Table& table, const Case& c, std::uint32_t repeats, std:
   add_rows(table, "one_at_a_time", c, repeats, tallies);
 }
 
+std::string kind_of(const std::string& quantity) {
+  if (quantity.starts_with("elasticity")) return "elasticities";
+  if (quantity.starts_with("sigma")) return "σ";
+  return quantity.starts_with("mu*") ? "μ*" : "Sobol' indices";
+}
+
+/// In the order of their first rows.
+Table groups_of(const Table& intervals) {
+  struct Group {
+    std::string kind, noise;
+    std::vector<double> coverages;
+  };
+  std::vector<Group> groups;
+  for (const auto& row : intervals.rows) {
+    const auto kind = kind_of(std::get<std::string>(row[4]));
+    const auto& noise = std::get<std::string>(row[2]);
+    auto at = std::find_if(groups.begin(), groups.end(),
+                           [&](const Group& g) { return g.kind == kind && g.noise == noise; });
+    if (at == groups.end()) at = groups.insert(at, {kind, noise, {}});
+    at->coverages.push_back(std::get<double>(row[7]));
+  }
+  Table table{.title = "Coverage by kind of interval",
+              .columns = {{"intervals of", ""},
+                          {"trial noise", ""},
+                          {"how many", ""},
+                          {"smallest", "%"},
+                          {"mean", "%"},
+                          {"largest", "%"}},
+              .rows = {},
+              .notes = {}};
+  for (const auto& [kind, noise, of] : groups) {
+    const auto [low, high] = std::minmax_element(of.begin(), of.end());
+    const auto count = static_cast<double>(of.size());
+    table.rows.push_back({kind, noise, static_cast<std::int64_t>(of.size()), *low,
+                          std::accumulate(of.begin(), of.end(), 0.0) / count, *high});
+  }
+  return table;
+}
+
 double polynomial(std::span<const double> u) {
   return (1.0 + u[0]) * (1.0 + u[1]) * (1.0 + u[1]) + 1.0 + u[2];
 }
 
 }  // namespace
 
-Table sensitivity_coverage(std::uint32_t repeats, std::uint64_t seed) {
+std::vector<NamedTable> sensitivity_coverage(std::uint32_t repeats, std::uint64_t seed) {
   Table table{.title = fmt::format("Coverage of nominal 95 % intervals, {} repeats", repeats),
               .columns = {{"design", ""},
                           {"function", ""},
@@ -230,7 +271,7 @@ Table sensitivity_coverage(std::uint32_t repeats, std::uint64_t seed) {
   table.notes.push_back(
       "standard error: of the coverage, binomial; truth below: share of intervals that lie "
       "wholly above the truth, 2.5 % for equal tails");
-  return table;
+  return {{"intervals", table}, {"groups", groups_of(table)}};
 }
 
 }  // namespace gyrostat

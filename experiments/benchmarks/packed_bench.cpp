@@ -1,8 +1,9 @@
-// Packed kernels beside the same filters one trial at a time, an Eigen yardstick and the core's peak.
-
-#include <benchmark/benchmark.h>
+// Packed kernels beside the same filters one trial at a time, an Eigen yardstick and the core's
+// peak.
 
 #include <map>
+
+#include <benchmark/benchmark.h>
 
 #include "core/filters/list.hpp"
 #include "core/packed/kernels.hpp"
@@ -11,14 +12,21 @@
 #include "experiments/benchmarks/counted.hpp"
 #include "experiments/benchmarks/eigen_sr_ukf.hpp"
 #include "experiments/benchmarks/peak.hpp"
+#include "experiments/benchmarks/recursion.hpp"
 #include "experiments/runner.hpp"
 #include "generators/random_error.hpp"
 
 namespace gyrostat {
 
 extern template double multiply_add_peak<targets::Sse2>(std::size_t, double, double);
+extern template double recursion<targets::Sse2, filters::Kf, 8>(std::size_t, double);
+extern template double recursion<targets::Sse2, filters::Stf, 8>(std::size_t, double);
 extern template double multiply_add_peak<targets::Avx2>(std::size_t, double, double);
+extern template double recursion<targets::Avx2, filters::Kf, 8>(std::size_t, double);
+extern template double recursion<targets::Avx2, filters::Stf, 8>(std::size_t, double);
 extern template double multiply_add_peak<targets::Avx512>(std::size_t, double, double);
+extern template double recursion<targets::Avx512, filters::Kf, 8>(std::size_t, double);
+extern template double recursion<targets::Avx512, filters::Stf, 8>(std::size_t, double);
 
 namespace {
 
@@ -40,9 +48,13 @@ void peak(benchmark::State& state, double (*run)(std::size_t, double, double),
           std::size_t operations) {
   constexpr std::size_t rounds = 10'000;
   for (auto _ : state) benchmark::DoNotOptimize(run(rounds, 0.999, 0.001));
-  state.counters["operations_per_s"] =
-      benchmark::Counter(static_cast<double>(rounds * operations),
-                         benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["operations_per_s"] = benchmark::Counter(
+      static_cast<double>(rounds * operations), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void recursion_alone(benchmark::State& state, double (*run)(std::size_t, double)) {
+  for (auto _ : state) benchmark::DoNotOptimize(run(samples, 0.05));
+  per(state, "s_per_trial_step", 8.0 * samples);
 }
 
 void eigen_yardstick(benchmark::State& state, bool risk) {
@@ -165,7 +177,8 @@ void simulate_and_filter(benchmark::State& state, const PackedFilter& kernel) {
   per(state, "s_per_trial_step", static_cast<double>(samples * lanes));
 }
 
-/// Processor time of a minute at 100 Hz through none, kf, stf, sr_ukf, sr_rsukf and oracle, metrics included.
+/// Processor time of a minute at 100 Hz through none, kf, stf, sr_ukf, sr_rsukf and oracle, metrics
+/// included.
 void study(benchmark::State& state) {
   Cell cell;
   cell.name = "bench";
@@ -179,14 +192,25 @@ void study(benchmark::State& state) {
   per(state, "s_per_trial", cell.trials);
 }
 
+/// What is compiled for one instruction set here.
+struct Compiled {
+  double (*peak)(std::size_t, double, double);
+  std::size_t operations;
+  double (*kf)(std::size_t, double);
+  double (*stf)(std::size_t, double);
+};
+
+template <class Target>
+Compiled compiled_for() {
+  return {&multiply_add_peak<Target>, operations_per_round<Target>,
+          &recursion<Target, filters::Kf, 8>, &recursion<Target, filters::Stf, 8>};
+}
+
 const bool registered = [] {
-  const std::map<std::string_view, std::pair<double (*)(std::size_t, double, double), std::size_t>>
-      peaks = {{targets::Sse2::name,
-                {&multiply_add_peak<targets::Sse2>, operations_per_round<targets::Sse2>}},
-               {targets::Avx2::name,
-                {&multiply_add_peak<targets::Avx2>, operations_per_round<targets::Avx2>}},
-               {targets::Avx512::name,
-                {&multiply_add_peak<targets::Avx512>, operations_per_round<targets::Avx512>}}};
+  const std::map<std::string_view, Compiled> by_target = {
+      {targets::Sse2::name, compiled_for<targets::Sse2>()},
+      {targets::Avx2::name, compiled_for<targets::Avx2>()},
+      {targets::Avx512::name, compiled_for<targets::Avx512>()}};
   using benchmark::RegisterBenchmark;
   const auto named = [](std::string what, std::string_view target, int lanes = 0) {
     what += "/" + std::string(target);
@@ -194,8 +218,13 @@ const bool registered = [] {
     return what;
   };
   for (const auto* kernels : available_kernels()) {
-    const auto& [run, operations] = peaks.at(kernels->target);
-    RegisterBenchmark(named("peak", kernels->target).c_str(), peak, run, operations);
+    const auto& compiled = by_target.at(kernels->target);
+    RegisterBenchmark(named("peak", kernels->target).c_str(), peak, compiled.peak,
+                      compiled.operations);
+    RegisterBenchmark(named("recursion/kf", kernels->target, 8).c_str(), recursion_alone,
+                      compiled.kf);
+    RegisterBenchmark(named("recursion/stf", kernels->target, 8).c_str(), recursion_alone,
+                      compiled.stf);
     RegisterBenchmark(named("normals", kernels->target).c_str(), packed_normals, *kernels);
   }
   RegisterBenchmark("eigen/sr_ukf", eigen_yardstick, false);

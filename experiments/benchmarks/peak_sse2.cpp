@@ -1,8 +1,11 @@
 #include "core/packed/target.hpp"
 #include "experiments/benchmarks/peak.hpp"
+#include "experiments/benchmarks/recursion.hpp"
 
 namespace gyrostat {
 
 template double multiply_add_peak<targets::Sse2>(std::size_t, double, double);
+template double recursion<targets::Sse2, filters::Kf, 8>(std::size_t, double);
+template double recursion<targets::Sse2, filters::Stf, 8>(std::size_t, double);
 
 }  // namespace gyrostat

@@ -1,10 +1,11 @@
-// sensitivity_coverage [repeats] [seed]: the coverage of sensitivity intervals as JSON, and as
-// Markdown on standard error.
+// sensitivity_coverage [repeats] [seed]: the coverage of sensitivity intervals, as tables.json of a
+// page, and as Markdown on standard error.
 #include "experiments/sensitivity_coverage.hpp"
 
 #include <cstdlib>
 #include <iostream>
 
+#include "experiments/page.hpp"
 #include "results/render/render.hpp"
 
 int main(int argc, char** argv) {
@@ -12,8 +13,9 @@ int main(int argc, char** argv) {
   const auto number = [&](int i, unsigned long fallback) {
     return i < argc ? std::strtoul(argv[i], nullptr, 10) : fallback;
   };
-  const auto table =
+  const auto tables =
       sensitivity_coverage(static_cast<std::uint32_t>(number(1, 2000)), number(2, 1));
-  std::cout << render({&table, 1}, Format::json);
-  std::cerr << render({&table, 1}, Format::markdown);
+  for (const auto& [name, text] : page_files(tables))
+    if (name == "tables.json") std::cout << text;
+  for (const auto& named : tables) std::cerr << render({&named.table, 1}, Format::markdown);
 }
