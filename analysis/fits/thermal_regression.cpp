@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include "core/error.hpp"
@@ -79,44 +78,43 @@ Eigen::MatrixXd whitened(const Eigen::MatrixXd& columns, double ratio, double& l
   return out;
 }
 
-struct Estimate {
-  Eigen::VectorXd mean, variance;
-};
-
-/// Generalised least squares of y = X b under white noise and a random walk that starts at zero,
-/// averaged over the walk's share: by restricted likelihood (Patterson and Thompson, Biometrika 58,
-/// 1971), evenly over the logarithm, from the least that so many rows could show.
-Estimate regress(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
+/// Variances of the ordinary least squares of y = X b under white noise and a random walk that
+/// starts at zero: a covariance of white (I + ratio L L^T) with L the running sum, averaged over
+/// ratio by restricted likelihood (Patterson and Thompson, Biometrika 58, 1971), evenly over its
+/// logarithm from less than so many rows could show.
+Eigen::VectorXd least_squares_variances(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
   Eigen::MatrixXd columns(X.rows(), X.cols() + 1);
   columns << X, y;
+  Eigen::MatrixXd sums = X;
+  for (Eigen::Index k = X.rows() - 2; k >= 0; --k) sums.row(k) += sums.row(k + 1);
+  sums.row(0).setZero();
+  const Eigen::MatrixXd bread =
+      (X.transpose() * X).completeOrthogonalDecomposition().pseudoInverse();
   const double n = static_cast<double>(X.rows()), freedom = n - static_cast<double>(X.cols());
-  std::vector<Estimate> estimates;
   std::vector<double> deviances;
-  for (double ratio = 1.0 / (n * n); ratio < 100.0; ratio *= std::pow(10.0, 0.25)) {
+  std::vector<Eigen::VectorXd> variances;
+  for (double ratio = 0.1 / (n * n); ratio < 100.0; ratio *= std::pow(10.0, 0.25)) {
     double log_variances = 0.0;
     const Eigen::MatrixXd white = whitened(columns, ratio, log_variances);
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(white.leftCols(X.cols()));
+    const auto W = white.leftCols(X.cols());
     const Eigen::VectorXd w = white.rightCols(1);
-    const Eigen::VectorXd b = qr.solve(w);
-    const double variance = (w - white.leftCols(X.cols()) * b).squaredNorm() / freedom;
-    const Eigen::MatrixXd information =
-        white.leftCols(X.cols()).transpose() * white.leftCols(X.cols());
-    estimates.push_back({b, variance * information.inverse().diagonal()});
-    deviances.push_back(freedom * std::log(std::max(variance, 1e-300)) + log_variances +
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(W);
+    const double white_variance = (w - W * qr.solve(w)).squaredNorm() / freedom;
+    deviances.push_back(freedom * std::log(std::max(white_variance, 1e-300)) + log_variances +
                         2.0 * qr.logAbsDeterminant());
+    variances.push_back(
+        white_variance *
+        (bread * (X.transpose() * X + ratio * sums.transpose() * sums) * bread).diagonal());
   }
   const double least = *std::min_element(deviances.begin(), deviances.end());
-  Estimate all{Eigen::VectorXd::Zero(X.cols()), Eigen::VectorXd::Zero(X.cols())};
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(X.cols());
   double total = 0.0;
-  for (std::size_t k = 0; k < estimates.size(); ++k) {
+  for (std::size_t k = 0; k < deviances.size(); ++k) {
     const double weight = std::exp(-0.5 * (deviances[k] - least));
     total += weight;
-    all.mean += weight * estimates[k].mean;
-    all.variance += weight * (estimates[k].variance + estimates[k].mean.cwiseAbs2());
+    sum += weight * variances[k];
   }
-  all.mean /= total;
-  all.variance = (all.variance / total - all.mean.cwiseAbs2()).cwiseMax(0.0);
-  return all;
+  return sum / total;
 }
 
 }  // namespace
@@ -132,18 +130,17 @@ ThermalFit fit_thermal_drift(const Series& series, double interval_s) {
   const bool assessable = fit.temperature_span_C >= least_temperature_span_C;
   const Eigen::MatrixXd judged =
       assessable ? Eigen::MatrixXd(X) : Eigen::MatrixXd(X.rightCols<1>());
-  const auto [mean, variance] = regress(judged, y);
-  const Eigen::VectorXd errors = variance.cwiseSqrt();
-  const Eigen::VectorXd residual = y - judged * mean;
-  fit.residual_std_dps = std::sqrt((residual.array() - residual.mean()).square().sum() /
+  const Eigen::VectorXd values = judged.completeOrthogonalDecomposition().solve(y);
+  const Eigen::VectorXd errors = least_squares_variances(judged, y).cwiseSqrt();
+  fit.residual_std_dps = std::sqrt((y - judged * values).squaredNorm() /
                                    static_cast<double>(y.size() - judged.cols()));
   if (assessable) {
-    fit.parameters = {mean(0), mean(1), mean(2)};
+    fit.parameters = {values(0), values(1), values(2)};
     fit.standard_errors = {errors(0), errors(1), errors(2)};
-    fit.message = "least squares beside a random walk";
+    fit.message = "least squares";
   } else {
     constexpr double unknown = std::numeric_limits<double>::infinity();
-    fit.parameters = {0.0, 0.0, mean(0)};
+    fit.parameters = {0.0, 0.0, values(0)};
     fit.standard_errors = {unknown, unknown, errors(0)};
     fit.message = "the temperature spans less than 1 °C: a and b are not assessable";
   }

@@ -7,7 +7,7 @@
 
 namespace gyrostat {
 
-/// A fit of B_f = a T + b T' + c, with its uncertainty.
+/// A least-squares fit of B_f = a T + b T' + c, with its uncertainty.
 struct ThermalFit {
   ThermalDrift<double> parameters;
   ThermalDrift<double> standard_errors;
@@ -19,11 +19,10 @@ struct ThermalFit {
 
 /// Regresses the mean rate error of successive intervals (gyro minus reference, or the gyro itself
 /// where there is no reference: a static recording) on the temperature at their ends and its
-/// difference over them, [B eq. 2, 5], by generalised least squares: what is left is white noise
-/// and a random walk that starts at zero, so c belongs to the start. How strong the walk is, is
-/// averaged over, and so in the standard errors. Where the temperature spans less than 1 °C, a and
-/// b are not assessable: they are 0, with infinite standard errors. Throws InputError for fewer
-/// than 4 whole intervals.
+/// difference over them, [B eq. 2, 5]. Standard errors are those of least squares under residuals
+/// that wander, white noise and a random walk whose strength is averaged over. Where the
+/// temperature spans less than 1 °C, a and b are not assessable: they are 0, with infinite standard
+/// errors, and c is the mean. Throws InputError for fewer than 4 whole intervals.
 ThermalFit fit_thermal_drift(const Series& series, double interval_s = 10.0);
 
 /// Standard deviation, dps, of the bias measurements M that the compass of `series` gives against

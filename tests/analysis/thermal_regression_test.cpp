@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include <Eigen/QR>
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
@@ -70,36 +69,6 @@ TEST(ThermalRegression, KnowsItsErrorsWhenTheResidualWanders) {
   EXPECT_GE(coverage, 0.90);
   EXPECT_LE(coverage, 0.99);
   EXPECT_NEAR(stated, 1.0, 0.2);
-}
-
-// Where the walk rules, the differences of successive rows tell b, and ordinary least squares,
-// which weighs the walk's whole excursion, is off by several times as much (here by four, in the
-// trials of docs/decisions.md).
-TEST(ThermalRegression, IsBetterThanOrdinaryLeastSquaresWhereTheResidualWanders) {
-  Series series;
-  double weighted = 0.0, ordinary = 0.0;
-  for (std::uint32_t trial = 0; trial < 60; ++trial) {
-    synthesise(warm_up(0.002), {9, trial}, series);
-    const auto fit = fit_thermal_drift(series);
-    weighted += std::pow(fit.parameters.b_dps_s_per_C - 0.2, 2);
-    // Interval means on temperature and its change, as rows of [T, T', 1].
-    const auto rows = static_cast<Eigen::Index>(fit.points);
-    Eigen::MatrixXd X(rows, 3);
-    Eigen::VectorXd y(rows);
-    const auto per = static_cast<Eigen::Index>(50);
-    for (Eigen::Index k = 0; k < rows; ++k) {
-      const auto from = static_cast<std::size_t>(k * per),
-                 to = from + static_cast<std::size_t>(per);
-      double sum = 0.0;
-      for (std::size_t i = from + 1; i <= to && i < series.size(); ++i) sum += series.gyro_dps[i];
-      const std::size_t end = std::min(to, series.size() - 1);
-      X.row(k) << series.temperature_C[end],
-          (series.temperature_C[end] - series.temperature_C[from]) / 10.0, 1.0;
-      y[k] = sum / static_cast<double>(std::min(to, series.size() - 1) - from);
-    }
-    ordinary += std::pow(X.colPivHouseholderQr().solve(y)[1] - 0.2, 2);
-  }
-  EXPECT_LT(std::sqrt(weighted), 0.6 * std::sqrt(ordinary));
 }
 
 TEST(ThermalRegression, DoesNotJudgeATemperatureThatStandsStill) {
