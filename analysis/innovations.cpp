@@ -32,7 +32,8 @@ void correlate(const std::vector<double>& z, Innovations& result) {
   result.ljung_box = 0.0;
   for (std::size_t l = 0; l < lags; ++l) {
     const double correlation = products[l] / squares;
-    result.ljung_box += n * (n + 2.0) * correlation * correlation / (n - static_cast<double>(lags - l));
+    result.ljung_box +=
+        n * (n + 2.0) * correlation * correlation / (n - static_cast<double>(lags - l));
   }
 }
 

@@ -34,10 +34,9 @@ std::size_t distance(std::string_view name, std::string_view candidate) {
 }  // namespace
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
-  const auto nearest =
-      std::min_element(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
-        return distance(name, a) < distance(name, b);
-      });
+  const auto nearest = std::min_element(
+      candidates.begin(), candidates.end(),
+      [&](const auto& a, const auto& b) { return distance(name, a) < distance(name, b); });
   return nearest == candidates.end() ? std::string{} : *nearest;
 }
 

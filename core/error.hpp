@@ -7,7 +7,8 @@
 
 namespace gyrostat {
 
-/// What the user handed in cannot be used: one line that names the place, the value and what would do.
+/// What the user handed in cannot be used: one line that names the place, the value and what would
+/// do.
 class InputError : public std::runtime_error {
  public:
   InputError(std::string_view place, std::string_view problem)

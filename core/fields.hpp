@@ -8,7 +8,8 @@
 
 namespace gyrostat {
 
-/// The values a parameter may take: [from, to], either end open on request, whole numbers on request.
+/// The values a parameter may take: [from, to], either end open on request, whole numbers on
+/// request.
 struct Range {
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();

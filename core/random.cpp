@@ -1,8 +1,8 @@
 #include "core/random.hpp"
 
-#include <Random123/philox.h>
-
 #include <array>
+
+#include <Random123/philox.h>
 
 #include "core/packed/kernels.hpp"
 #include "core/packed/normals.hpp"
@@ -16,11 +16,11 @@ std::uint64_t fnv1a(std::string_view text) {
   return hash;
 }
 
-r123::Philox4x32::ctr_type words(std::uint64_t seed, std::uint64_t stream_hash,
-                                 std::uint32_t trial, std::uint64_t block) {
-  const r123::Philox4x32::ctr_type counter = {
-      {static_cast<std::uint32_t>(block), trial, static_cast<std::uint32_t>(stream_hash),
-       static_cast<std::uint32_t>(stream_hash >> 32U)}};
+r123::Philox4x32::ctr_type words(std::uint64_t seed, std::uint64_t stream_hash, std::uint32_t trial,
+                                 std::uint64_t block) {
+  const r123::Philox4x32::ctr_type counter = {{static_cast<std::uint32_t>(block), trial,
+                                               static_cast<std::uint32_t>(stream_hash),
+                                               static_cast<std::uint32_t>(stream_hash >> 32U)}};
   const r123::Philox4x32::key_type key = {
       {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U)}};
   return r123::Philox4x32{}(counter, key);

@@ -10,8 +10,9 @@ namespace gyrostat {
 /// so adding a stream or a sample moves nothing else.
 ///
 /// Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC11) gives four
-/// 32-bit words per counter; Box-Muller turns them into four normals (largest magnitude 6.76). Both,
-/// with logarithm, sine and cosine, are NormalBlocks, whose bits are the same on every machine.
+/// 32-bit words per counter; Box-Muller turns them into four normals (largest magnitude 6.76).
+/// Both, with logarithm, sine and cosine, are NormalBlocks, whose bits are the same on every
+/// machine.
 class NormalStream {
  public:
   NormalStream(std::uint64_t seed, std::uint32_t trial, std::string_view stream);

@@ -25,9 +25,9 @@ Series Series::slice(std::size_t first, std::size_t count) const {
 
 Series cut(const Series& series, double from_s, double to_s, std::string_view place) {
   const auto index_at = [&](double after_s) {
-    return static_cast<std::size_t>(std::lower_bound(series.t_s.begin(), series.t_s.end(),
-                                                     series.t_s.front() + after_s) -
-                                    series.t_s.begin());
+    return static_cast<std::size_t>(
+        std::lower_bound(series.t_s.begin(), series.t_s.end(), series.t_s.front() + after_s) -
+        series.t_s.begin());
   };
   const std::size_t first = index_at(from_s), last = index_at(to_s);
   if (last <= first)

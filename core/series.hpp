@@ -33,8 +33,8 @@ struct Series {
   void clear();
 };
 
-/// The samples from `from_s` until before `to_s`, counted from the first; throws InputError at `place`
-/// where there are none.
+/// The samples from `from_s` until before `to_s`, counted from the first; throws InputError at
+/// `place` where there are none.
 Series cut(const Series& series, double from_s, double to_s, std::string_view place);
 
 struct Channel {

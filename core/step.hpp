@@ -35,7 +35,7 @@ struct StatusOf {
   using type = Status;
 };
 template <class T>
-  requires requires { T::lanes; }
+requires requires { T::lanes; }
 struct StatusOf<T> {
   struct type {
     T code;
@@ -117,6 +117,8 @@ concept Filter = std::copyable<F> && requires(F filter, Sample<typename F::Scala
 
 /// Whether a filter's estimates are Monte Carlo draws: it says so by a static `draws_noise`.
 template <class F>
-inline constexpr bool draws_noise = requires { F::draws_noise; };
+inline constexpr bool draws_noise = requires {
+  F::draws_noise;
+};
 
 }  // namespace gyrostat

@@ -32,8 +32,10 @@ std::vector<std::string> missing_channels(const Needs& needs, const Series& seri
 
 template <Filter F>
 LearnedParameters learned_by(const F& filter) {
-  if constexpr (requires { filter.learned(); }) return filter.learned();
-  else return {};
+  if constexpr (requires { filter.learned(); })
+    return filter.learned();
+  else
+    return {};
 }
 
 /// Runs `filter` over every sample of `series` into `track`, whose memory is reused.

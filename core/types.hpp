@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include <Eigen/Core>
 
 namespace gyrostat {
 

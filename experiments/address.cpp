@@ -1,8 +1,8 @@
 #include "experiments/address.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
+
+#include <fmt/format.h>
 
 #include "core/error.hpp"
 
@@ -17,8 +17,10 @@ std::uint32_t trial_number(const std::string& text, const Cell& cell, const std:
   if (failure != std::errc() || end != text.data() + text.size())
     throw InputError(address, fmt::format("'{}' is no trial number; {}", text, form));
   if (trial >= cell.trials)
-    throw InputError(address, fmt::format("trial {} is out of range; allowed: 0 to {}, the trials of cell "
-                                          "'{}'", trial, cell.trials - 1, cell.name));
+    throw InputError(address,
+                     fmt::format("trial {} is out of range; allowed: 0 to {}, the trials of cell "
+                                 "'{}'",
+                                 trial, cell.trials - 1, cell.name));
   return static_cast<std::uint32_t>(trial);
 }
 
@@ -47,7 +49,8 @@ std::string study_of_address(const std::string& address) {
 TrialAddress parse_address(const std::string& address, const Study& study) {
   const auto rest = address.substr(study_of_address(address).size() + 1);
   const auto last = rest.rfind(':');
-  const auto middle = last == std::string::npos || last == 0 ? std::string::npos : rest.rfind(':', last - 1);
+  const auto middle =
+      last == std::string::npos || last == 0 ? std::string::npos : rest.rfind(':', last - 1);
   if (middle == std::string::npos) throw InputError(address, form);
   const auto& cell = cell_named(study, rest.substr(0, middle), address);
   const auto trial = trial_number(rest.substr(middle + 1, last - middle - 1), cell, address);

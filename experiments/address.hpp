@@ -20,8 +20,8 @@ std::string address_text(const std::string& study, const std::string& cell, std:
 /// The study's name in an address: what stands before the first colon.
 std::string study_of_address(const std::string& address);
 
-/// What an address means in a study. Throws InputError with the nearest known name for a cell or filter
-/// that the study has not, and with the allowed range for a trial beyond its cell's.
+/// What an address means in a study. Throws InputError with the nearest known name for a cell or
+/// filter that the study has not, and with the allowed range for a trial beyond its cell's.
 TrialAddress parse_address(const std::string& address, const Study& study);
 
 }  // namespace gyrostat

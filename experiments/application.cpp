@@ -1,9 +1,9 @@
 #include "experiments/application.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "analysis/error_series.hpp"
 #include "analysis/errors.hpp"
@@ -40,33 +40,43 @@ std::vector<std::size_t> decade_clusters(const Series& series) {
 Table statistics_table(const Series& judged, const std::vector<Track>& tracks,
                        const std::vector<Method>& methods, const std::string& title) {
   Table table{.title = title + ": raw (none) against compensated rate",
-              .columns = {{"method", ""}, {"mean", "dps"}, {"std", "dps"}, {"RMSE", "dps"},
-                          {"heading end", "deg"}, {"heading range", "deg"}, {"NIS", "1"},
-                          {"log score", "nat"}, {"breakdown steps", ""}},
-              .rows = {}, .notes = {}};
+              .columns = {{"method", ""},
+                          {"mean", "dps"},
+                          {"std", "dps"},
+                          {"RMSE", "dps"},
+                          {"heading end", "deg"},
+                          {"heading range", "deg"},
+                          {"NIS", "1"},
+                          {"log score", "nat"},
+                          {"breakdown steps", ""}},
+              .rows = {},
+              .notes = {}};
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const TrackErrors errors = track_errors(judged, tracks[m]);
     const auto counts = tracks[m].status_counts();
     std::int64_t breakdowns = 0;
     for (std::size_t s = 0; s < counts.size(); ++s)
       if (is_breakdown(static_cast<Status>(s))) breakdowns += counts[s];
-    table.rows.push_back({methods[m].id, cell(errors.rate.mean), cell(errors.rate.std),
-                          cell(errors.rate.rmse), errors.heading.end_deg,
-                          errors.heading.max_deg - errors.heading.min_deg, cell(errors.innovations.nis),
-                          cell(errors.innovations.log_score), breakdowns});
+    table.rows.push_back(
+        {methods[m].id, cell(errors.rate.mean), cell(errors.rate.std), cell(errors.rate.rmse),
+         errors.heading.end_deg, errors.heading.max_deg - errors.heading.min_deg,
+         cell(errors.innovations.nis), cell(errors.innovations.log_score), breakdowns});
   }
   table.notes.push_back(judged.rate_ref_dps.empty()
                             ? "no rate_ref_dps: the gyro counts as static, so all rate is error"
                             : "rate error against rate_ref_dps");
-  table.notes.push_back("a small std alone proves little, a gain near one removes motion as well; the log "
-                        "score, small for who foretells the next sample well, cannot be cheated so");
+  table.notes.push_back(
+      "a small std alone proves little, a gain near one removes motion as well; the log "
+      "score, small for who foretells the next sample well, cannot be cheated so");
   return table;
 }
 
 Table allan_table(const Series& judged, const std::vector<Track>& tracks,
                   const std::vector<Method>& methods, const std::string& title) {
   Table table{.title = title + ": overlapping Allan deviation, raw (none) against compensated",
-              .columns = {{"method", ""}}, .rows = {}, .notes = {}};
+              .columns = {{"method", ""}},
+              .rows = {},
+              .notes = {}};
   const auto clusters = decade_clusters(judged);
   for (const std::size_t cluster : clusters)
     table.columns.push_back(
@@ -95,8 +105,7 @@ std::vector<Method> read_application_config(const std::string& path) {
 }
 
 Application calibrated(const Series& series, double fraction, FitMethod method) {
-  const auto samples =
-      static_cast<std::size_t>(fraction * static_cast<double>(series.size()));
+  const auto samples = static_cast<std::size_t>(fraction * static_cast<double>(series.size()));
   Application application;
   application.calibration = calibrate(series.slice(0, samples), method);
   application.judged_from_s = series.t_s[samples] - series.t_s.front();

@@ -1,15 +1,15 @@
 #include "experiments/atomic_file.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-#include <zlib.h>
-
 #include <array>
 #include <cerrno>
 #include <new>
 #include <random>
 #include <system_error>
 #include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <zlib.h>
 
 #include "core/error.hpp"
 
@@ -49,7 +49,8 @@ void AtomicFile::commit() {
 
 void AtomicFile::require(bool done) const {
   if (!done)
-    throw InputError(path_.string(), "cannot be written: " + std::generic_category().message(errno));
+    throw InputError(path_.string(),
+                     "cannot be written: " + std::generic_category().message(errno));
 }
 
 void write_atomically(const fs::path& path, std::string_view contents) {

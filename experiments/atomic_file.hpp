@@ -9,8 +9,8 @@
 
 namespace gyrostat {
 
-/// A file that is written piece by piece and comes into being whole or not at all: the pieces go to a
-/// temporary beside it, which is renamed once it is on disk and removed when anything fails, so a
+/// A file that is written piece by piece and comes into being whole or not at all: the pieces go to
+/// a temporary beside it, which is renamed once it is on disk and removed when anything fails, so a
 /// previous file stays until then. A symbolic link is followed; a pipe or a device is written to
 /// directly. Every member throws InputError with the system's reason.
 class AtomicFile {

@@ -1,12 +1,12 @@
 #include "experiments/build.hpp"
 
-#include <fmt/chrono.h>
-#include <fmt/format.h>
-#include <sys/utsname.h>
-
 #include <chrono>
 #include <fstream>
 #include <thread>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/utsname.h>
 
 #include "experiments/build_info.hpp"
 

@@ -4,7 +4,8 @@
 
 namespace gyrostat {
 
-/// Of this very program: version and commit (with a digest of what is not committed), compiler, flags.
+/// Of this very program: version and commit (with a digest of what is not committed), compiler,
+/// flags.
 Build this_build();
 
 /// Processor, number of threads, host and system.

@@ -26,7 +26,8 @@ std::vector<double> without_drift(const Series& series, const std::optional<Ther
     rest[i] = series.gyro_dps[i] - (series.rate_ref_dps.empty() ? 0.0 : series.rate_ref_dps[i]);
     if (!thermal) continue;
     const std::size_t before = i < lag ? 0 : i - lag;
-    const double slope = i == before ? 0.0 : (T[i] - T[before]) / (series.t_s[i] - series.t_s[before]);
+    const double slope =
+        i == before ? 0.0 : (T[i] - T[before]) / (series.t_s[i] - series.t_s[before]);
     rest[i] -= drift_at(thermal->parameters, T[i], slope);
   }
   return rest;
@@ -55,8 +56,8 @@ Calibration calibrate(const Series& series, FitMethod method) {
         compass_noise_std(series, calibration.thermal->parameters, aiding_interval_s);
   }
   const auto rest = without_drift(series, calibration.thermal);
-  calibration.random_error = method == FitMethod::likelihood ? fit_arima_likelihood(rest)
-                                                             : fit_arima_moments(rest);
+  calibration.random_error =
+      method == FitMethod::likelihood ? fit_arima_likelihood(rest) : fit_arima_moments(rest);
   double sum = 0.0;
   std::size_t count = 0;
   for (const double v : rest)
@@ -64,7 +65,8 @@ Calibration calibrate(const Series& series, FitMethod method) {
       sum += v;
       ++count;
     }
-  if (!calibration.thermal) calibration.mean_dps = sum / static_cast<double>(std::max<std::size_t>(count, 1));
+  if (!calibration.thermal)
+    calibration.mean_dps = sum / static_cast<double>(std::max<std::size_t>(count, 1));
   return calibration;
 }
 

@@ -23,7 +23,7 @@ struct Calibration {
   double bias_measurement_std_dps = no_value;  ///< of M; NaN without a compass
   double compass_noise_std_deg = no_value;     ///< of one reading; NaN without a compass
   double start_temperature_C = no_value;
-  double mean_dps = 0.0;   ///< of the rate error over the span
+  double mean_dps = 0.0;       ///< of the rate error over the span
   double level_std_dps = 0.0;  ///< spread of the 10 s means about the drift
 };
 

@@ -39,8 +39,8 @@ std::size_t best_of(const Cell& cell, const CellSummary& summary) {
 std::vector<std::size_t> consistency_metrics() {
   std::vector<std::size_t> indices;
   for (const char* id : {"innovations", "nis", "innovation_lag_1", "ljung_box", "nees", "nees_end",
-                         "within_1_sigma", "within_3_sigma", "pit_0", "pit_1", "pit_2", "pit_3", "pit_4",
-                         "pit_5", "pit_6", "pit_7", "pit_8", "pit_9"})
+                         "within_1_sigma", "within_3_sigma", "pit_0", "pit_1", "pit_2", "pit_3",
+                         "pit_4", "pit_5", "pit_6", "pit_7", "pit_8", "pit_9"})
     indices.push_back(metric_named(id, "tables"));
   return indices;
 }
@@ -62,10 +62,13 @@ const Running& CellSummary::running(std::size_t method, std::string_view metric)
   return methods[method].running[metric_named(std::string(metric), "tables")];
 }
 
-std::string_view judging_metric(const Cell& cell) { return cell.recording ? "log_score" : "bias_rmse"; }
+std::string_view judging_metric(const Cell& cell) {
+  return cell.recording ? "log_score" : "bias_rmse";
+}
 
 std::vector<std::string_view> error_metrics(const Cell& cell) {
-  return {judging_metric(cell), "rate_rmse", "rate_std", "rate_mean", "heading_end", "heading_range"};
+  return {judging_metric(cell), "rate_rmse",   "rate_std",
+          "rate_mean",          "heading_end", "heading_range"};
 }
 
 CellSummary summarise_cell(const Cell& cell, const TrialSource& trials) {

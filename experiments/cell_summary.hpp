@@ -24,7 +24,8 @@ struct CellSummary {
   std::size_t finished = 0;
   std::size_t unconverged = 0;  ///< trials whose own calibration did not converge
   std::size_t best = 0;         ///< of all but the oracle, the smallest mean of the judging metric
-  std::size_t comparisons = 0;  ///< that intervals of differences allow for: pairs, and looks of a stop rule
+  std::size_t comparisons =
+      0;  ///< that intervals of differences allow for: pairs, and looks of a stop rule
   std::vector<MethodSummary> methods;
 
   const Summary& of(std::size_t method, std::string_view metric) const;
@@ -42,8 +43,8 @@ std::vector<std::string_view> error_metrics(const Cell& cell);
 using TrialSource = std::function<void(
     const std::function<void(bool calibrated, std::span<const double> outcomes)>& visit)>;
 
-/// Three passes over the trials, or a few more for millions of them; memory does not grow with their
-/// number. The statistics are those of `summarise` and `paired_difference`, to the bit.
+/// Three passes over the trials, or a few more for millions of them; memory does not grow with
+/// their number. The statistics are those of `summarise` and `paired_difference`, to the bit.
 CellSummary summarise_cell(const Cell& cell, const TrialSource& trials);
 
 }  // namespace gyrostat

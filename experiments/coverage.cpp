@@ -73,11 +73,12 @@ CoverageStudy read_coverage(const std::string& path) {
   study.population = count(object, "population", study.population);
   study.samples = count(object, "samples", study.samples);
   study.fits = count(object, "fits", study.fits);
-  study.seed = static_cast<std::uint64_t>(object.number("seed", 1, {.from = 0, .to = 9e15, .whole = true}, ""));
+  study.seed = static_cast<std::uint64_t>(
+      object.number("seed", 1, {.from = 0, .to = 9e15, .whole = true}, ""));
   const auto counts = [&](const char* key, std::vector<std::uint32_t>& list) {
     for (const auto& [value, place] : object.list(key))
-      list.push_back(
-          static_cast<std::uint32_t>(JsonObject::checked_number(*value, place, sample_range, "trials")));
+      list.push_back(static_cast<std::uint32_t>(
+          JsonObject::checked_number(*value, place, sample_range, "trials")));
     if (list.empty()) throw InputError(object.place_of(key), "the list is missing or empty");
   };
   counts("sizes", study.sizes);
@@ -86,8 +87,8 @@ CoverageStudy read_coverage(const std::string& path) {
   return study;
 }
 
-std::vector<Coverage> measure_coverage(const CoverageStudy& wanted,
-                                       const std::function<CellResult(const Study&, const Cell&)>& run) {
+std::vector<Coverage> measure_coverage(
+    const CoverageStudy& wanted, const std::function<CellResult(const Study&, const Cell&)>& run) {
   const Study study = read_study(wanted.study);
   std::vector<Coverage> all;
   const auto append = [&](std::vector<Coverage> more) {
@@ -99,13 +100,15 @@ std::vector<Coverage> measure_coverage(const CoverageStudy& wanted,
     cell.trials = wanted.population;
     const auto population = population_of(cell, run(study, cell));
     const auto scaled = in_proportion(wanted, population.trials.size());
-    for (const auto size : wanted.sizes) append(coverage_detail::of_samples(scaled, population, size));
+    for (const auto size : wanted.sizes)
+      append(coverage_detail::of_samples(scaled, population, size));
     for (const auto first : wanted.first_looks)
       append(coverage_detail::of_stopped_samples(scaled, population, first));
     shortened = scaled;
   }
   const Study signals = read_study(wanted.signals);
-  for (const auto& cell : signals.cells) append(coverage_detail::of_signals(shortened, signals, cell));
+  for (const auto& cell : signals.cells)
+    append(coverage_detail::of_signals(shortened, signals, cell));
   std::stable_sort(all.begin(), all.end(),
                    [](const Coverage& a, const Coverage& b) { return a.interval < b.interval; });
   return all;
@@ -113,9 +116,18 @@ std::vector<Coverage> measure_coverage(const CoverageStudy& wanted,
 
 Table coverage_table(const CoverageStudy& study, const std::vector<Coverage>& coverages) {
   Table table{.title = study.title,
-              .columns = {{"interval", ""}, {"cell", ""}, {"n", ""}, {"of", ""}, {"lowest", "%"}, {"which", ""},
-                          {"highest", "%"}, {"standard error", "%"}, {"no interval", "%"}, {"verdict", ""}},
-              .rows = {}, .notes = {}};
+              .columns = {{"interval", ""},
+                          {"cell", ""},
+                          {"n", ""},
+                          {"of", ""},
+                          {"lowest", "%"},
+                          {"which", ""},
+                          {"highest", "%"},
+                          {"standard error", "%"},
+                          {"no interval", "%"},
+                          {"verdict", ""}},
+              .rows = {},
+              .notes = {}};
   for (const auto& coverage : coverages) {
     std::vector<Coverage::Count> counts;
     double none = 0.0, draws = 0.0;
@@ -125,18 +137,21 @@ Table coverage_table(const CoverageStudy& study, const std::vector<Coverage>& co
       draws += c.none + c.intervals;
     }
     if (counts.empty()) continue;
-    const auto [least, most] = std::minmax_element(
-        counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.share() < b.share(); });
+    const auto [least, most] =
+        std::minmax_element(counts.begin(), counts.end(),
+                            [](const auto& a, const auto& b) { return a.share() < b.share(); });
     const double error = std::sqrt(nominal * (1.0 - nominal) / least->intervals);
     table.rows.push_back({coverage.interval, coverage.cell, std::int64_t{coverage.size},
-                          static_cast<std::int64_t>(counts.size()), 100.0 * least->share(), least->name,
-                          100.0 * most->share(), 100.0 * error, 100.0 * none / draws,
+                          static_cast<std::int64_t>(counts.size()), 100.0 * least->share(),
+                          least->name, 100.0 * most->share(), 100.0 * error, 100.0 * none / draws,
                           verdict(least->share(), most->share())});
   }
-  table.notes.push_back(fmt::format(
-      "shares of intervals that hold the truth, nominally 95 %; lowest and highest of those that the interval "
-      "was made of (methods, metrics, parameters); populations of {} trials, {} samples of each, {} signals",
-      study.population, study.samples, study.fits));
+  table.notes.push_back(
+      fmt::format("shares of intervals that hold the truth, nominally 95 %; lowest and highest of "
+                  "those that the interval "
+                  "was made of (methods, metrics, parameters); populations of {} trials, {} "
+                  "samples of each, {} signals",
+                  study.population, study.samples, study.fits));
   return table;
 }
 

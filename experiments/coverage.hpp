@@ -9,20 +9,20 @@
 
 namespace gyrostat {
 
-/// A measurement of how often the program's 95 % intervals hold what they are for. Each cell of a study is
-/// run many times over: its trials are a population, whose own mean, CVaR and so on are the truth.
-/// Samples are drawn from it with replacement, which makes them independent however large they are, and
-/// each interval is made of the sample by the code that makes it in a run.
+/// A measurement of how often the program's 95 % intervals hold what they are for. Each cell of a
+/// study is run many times over: its trials are a population, whose own mean, CVaR and so on are
+/// the truth. Samples are drawn from it with replacement, which makes them independent however
+/// large they are, and each interval is made of the sample by the code that makes it in a run.
 struct CoverageStudy {
   std::string title;
-  std::string study;                 ///< path of the study whose cells are the populations
-  std::uint32_t population = 20000;  ///< trials of each cell
-  std::uint32_t samples = 4000;      ///< drawn of each size
-  std::vector<std::uint32_t> sizes;  ///< trials of a sample
+  std::string study;                       ///< path of the study whose cells are the populations
+  std::uint32_t population = 20000;        ///< trials of each cell
+  std::uint32_t samples = 4000;            ///< drawn of each size
+  std::vector<std::uint32_t> sizes;        ///< trials of a sample
   std::vector<std::uint32_t> first_looks;  ///< trials before a stop rule looks first
-  std::string signals;               ///< path of the study whose cells' signals are fitted
-  std::uint32_t fits = 1000;         ///< signals of each, fitted and looked at by Allan deviation
-  std::uint64_t seed = 1;            ///< of the draws
+  std::string signals;                     ///< path of the study whose cells' signals are fitted
+  std::uint32_t fits = 1000;  ///< signals of each, fitted and looked at by Allan deviation
+  std::uint64_t seed = 1;     ///< of the draws
 };
 
 /// How often intervals of one kind held: each of `names` has its own truth.
@@ -47,8 +47,8 @@ struct Coverage {
 CoverageStudy read_coverage(const std::string& path);
 
 /// Every kind of interval, by cell and size of sample. `run` gives the result of a cell.
-std::vector<Coverage> measure_coverage(const CoverageStudy& study,
-                                       const std::function<CellResult(const Study&, const Cell&)>& run);
+std::vector<Coverage> measure_coverage(
+    const CoverageStudy& study, const std::function<CellResult(const Study&, const Cell&)>& run);
 
 /// One row a kind of interval, cell and size.
 Table coverage_table(const CoverageStudy& study, const std::vector<Coverage>& coverages);

@@ -38,7 +38,8 @@ bool all_differences_hold(const CellRanking& ranking, const CellRanking& truth) 
   return std::all_of(ranking.pairs.begin(), ranking.pairs.end(), [&](const RankedPair& pair) {
     const double expected = signed_difference(truth, ranking.methods[pair.worse].method,
                                               ranking.methods[pair.better].method);
-    return std::abs(pair.difference.mean - expected) <= pair.difference.half_width * (1.0 + 1e-9) + 1e-15;
+    return std::abs(pair.difference.mean - expected) <=
+           pair.difference.half_width * (1.0 + 1e-9) + 1e-15;
   });
 }
 
@@ -61,7 +62,8 @@ double threshold(const Population& population, std::size_t at, double share) {
 class Consistency {
  public:
   Consistency(const Cell& cell, std::size_t method) {
-    for (const char* metric : {"nis", "nees", "nees_end", "innovation_lag_1", "ljung_box", "innovations", "pit_0"})
+    for (const char* metric :
+         {"nis", "nees", "nees_end", "innovation_lag_1", "ljung_box", "innovations", "pit_0"})
       columns_.push_back(column(method, metric));
     told_truth_ = cell.methods[method].filter == "oracle";
   }
@@ -78,7 +80,8 @@ class Consistency {
     constexpr double alpha = 0.05;
     const double innovations = count.count * count.mean;
     double statistic = 0.0;
-    for (const auto& share : pit) statistic += innovations * (share.mean - 0.1) * (share.mean - 0.1) / 0.1;
+    for (const auto& share : pit)
+      statistic += innovations * (share.mean - 0.1) * (share.mean - 0.1) / 0.1;
     const double q = chi_squared_bound(Innovations::lags * box.count, alpha).high / box.count;
     coverage.add("nis", mean_square_bounds(innovations, alpha).contains(nis.mean));
     coverage.add("lag_1", correlation_bounds(innovations, alpha).contains(lag.mean));
@@ -104,10 +107,12 @@ std::vector<Coverage> of_samples(const CoverageStudy& study, const Population& p
   const auto heading_truth = rank_cell(cell, source_of(everything), "heading_worst");
   const auto make = [&](const char* interval) { return Coverage{interval, cell.name, size, {}}; };
   Coverage means = make("mean (t)"), tails = make("CVaR95 (Hall)");
-  Coverage pairs = make("differences, all pairs at once"), shares = make("share of trials (Wilson)");
+  Coverage pairs = make("differences, all pairs at once"),
+           shares = make("share of trials (Wilson)");
   Coverage worst = make("share worse than the worst"), consistent = make("consistency bounds");
   const std::size_t judged = column(cell.methods.size() - 1, judging_metric(cell).data());
-  const double half = threshold(population, judged, 0.5), tenth = threshold(population, judged, 0.1);
+  const double half = threshold(population, judged, 0.5),
+               tenth = threshold(population, judged, 0.1);
 
   std::vector<Consistency> checks;
   for (std::size_t m = 0; m < cell.methods.size(); ++m) checks.emplace_back(cell, m);
@@ -160,9 +165,11 @@ std::vector<Coverage> of_stopped_samples(const CoverageStudy& study, const Popul
     Running spread;
     const std::size_t at = column(m, judging_metric(cell).data());
     for (const auto& trial : population.trials) spread.add(trial[at]);
-    cell.stop = StopRule{.metric = metric_named(std::string(judging_metric(cell)), "coverage"),
-                         .methods = {m}, .at_least = first,
-                         .half_width_below = 1.96 * std::sqrt(spread.squares / spread.count / trials_wanted)};
+    cell.stop = StopRule{
+        .metric = metric_named(std::string(judging_metric(cell)), "coverage"),
+        .methods = {m},
+        .at_least = first,
+        .half_width_below = 1.96 * std::sqrt(spread.squares / spread.count / trials_wanted)};
     for (std::uint32_t s = 0; s < study.samples; ++s) {
       const Draws draw(study, population, s, "width/" + std::to_string(m));
       for (const auto n : counts) {
@@ -182,12 +189,15 @@ std::vector<Coverage> of_stopped_samples(const CoverageStudy& study, const Popul
   for (std::size_t m = 0; m + 1 < cell.methods.size(); ++m) {
     const std::size_t a = column(m, judging_metric(cell).data()), b = a + column_count;
     cell.stop = StopRule{.metric = metric_named(std::string(judging_metric(cell)), "coverage"),
-                         .methods = {m, m + 1}, .at_least = first};
+                         .methods = {m, m + 1},
+                         .at_least = first};
     std::vector<std::size_t> families;
     for (const auto n : counts) families.push_back(comparisons_after_looks(cell, 1, n));
-    const double expected = of(truth, cell.methods[m].id).mean - of(truth, cell.methods[m + 1].id).mean;
+    const double expected =
+        of(truth, cell.methods[m].id).mean - of(truth, cell.methods[m + 1].id).mean;
     const auto name = cell.methods[m].id + " - " + cell.methods[m + 1].id;
-    // As it is, and with the two exchanged at random: then they do not differ, and every stop is an error.
+    // As it is, and with the two exchanged at random: then they do not differ, and every stop is an
+    // error.
     for (const bool exchanged : {false, true})
       for (std::uint32_t s = 0; s < study.samples; ++s) {
         const Draws draw(study, population, s, "separation/" + std::to_string(m));

@@ -15,7 +15,8 @@ void add_parameters(Coverage& coverage, const P& fitted, const P& errors, const 
   for (const auto& field : P::fields()) {
     const double error = errors.*(field.member), estimate = fitted.*(field.member);
     const double reach = std::isfinite(error) && error > 0.0 ? normal_95 * error : no_value;
-    coverage.add(std::string(field.name), estimate - reach, truth.*(field.member), estimate + reach);
+    coverage.add(std::string(field.name), estimate - reach, truth.*(field.member),
+                 estimate + reach);
   }
 }
 
@@ -42,7 +43,9 @@ bool is_stationary_noise(const Cell& cell) {
 
 std::vector<Coverage> of_signals(const CoverageStudy& study, const Study& cells, const Cell& cell) {
   const auto samples = static_cast<std::uint32_t>(cell.scenario.sampling.samples());
-  const auto make = [&](const char* interval) { return Coverage{interval, cell.name, samples, {}}; };
+  const auto make = [&](const char* interval) {
+    return Coverage{interval, cell.name, samples, {}};
+  };
   Coverage likelihood = make("fit by likelihood, ± 1.96 standard errors");
   Coverage moments = make("fit by moments, ± 1.96 standard errors");
   Coverage drift = make("fit of thermal drift, ± 1.96 standard errors");
@@ -69,8 +72,8 @@ std::vector<Coverage> of_signals(const CoverageStudy& study, const Study& cells,
       cell.make_trial(cells.seed, s, series);
       const auto points = overlapping_allan_deviation(series.gyro_dps, series.rate_hz());
       for (std::size_t p = 0; p < points.size(); ++p)
-        allan.add(fmt::format("{:.3g} s", points[p].tau_s), points[p].lower, std::sqrt(variances[p]),
-                  points[p].upper);
+        allan.add(fmt::format("{:.3g} s", points[p].tau_s), points[p].lower,
+                  std::sqrt(variances[p]), points[p].upper);
     }
   }
   return {likelihood, moments, drift, allan};

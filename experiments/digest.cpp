@@ -34,11 +34,13 @@ void resolve_recording(SortedJson& object, const fs::path& folder) {
   object["file"] = file_digest(folder / object["file"].get<std::string>());
 }
 
-/// The cells that a grid stands for; a design is a function of what is written and stands for itself.
+/// The cells that a grid stands for; a design is a function of what is written and stands for
+/// itself.
 std::vector<Json> without_grid(const Json& written, const std::string& path) {
   if (!written.contains("grid")) return {written};
   std::vector<Json> cells;
-  for (auto& [cell, place] : cells_of(read_grid(written, path), written, path)) cells.push_back(cell);
+  for (auto& [cell, place] : cells_of(read_grid(written, path), written, path))
+    cells.push_back(cell);
   return cells;
 }
 

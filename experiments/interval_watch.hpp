@@ -9,8 +9,8 @@
 
 namespace gyrostat {
 
-/// Follows the 95 % intervals of a cell's means while trials come in, in whatever order: for people who
-/// watch. The tables have the exact ones.
+/// Follows the 95 % intervals of a cell's means while trials come in, in whatever order: for people
+/// who watch. The tables have the exact ones.
 class IntervalWatch {
  public:
   explicit IntervalWatch(const Cell& cell);

@@ -36,7 +36,8 @@ class UniqueKeys {
         mistakes_.note(fmt::format("{}: {}: the key stands twice", path_, place()));
     }
     if (event == Event::object_end || event == Event::array_end) open_.pop_back();
-    const bool value_ends = event == Event::object_end || event == Event::array_end || event == Event::value;
+    const bool value_ends =
+        event == Event::object_end || event == Event::array_end || event == Event::value;
     if (value_ends && !open_.empty()) ++open_.back().index;
     return true;
   }

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
@@ -19,9 +19,9 @@ namespace gyrostat {
 using Json = nlohmann::ordered_json;
 
 /// One object of an input file, read key by key. Every mistake is an InputError that names file and
-/// JSON path; `finish` reports keys that nobody asked for, with the nearest that were. Where there are
-/// `mistakes` to gather them in, reading goes on with the fallback; else the first one is thrown, as is
-/// in any case what is no object at all.
+/// JSON path; `finish` reports keys that nobody asked for, with the nearest that were. Where there
+/// are `mistakes` to gather them in, reading goes on with the fallback; else the first one is
+/// thrown, as is in any case what is no object at all.
 class JsonObject {
  public:
   JsonObject(const Json& value, std::string place, Mistakes* mistakes = nullptr)
@@ -105,7 +105,8 @@ class JsonObject {
   double number(const std::string& key, double fallback, const Range& range,
                 std::string_view unit) {
     double read = fallback;
-    if (has(key)) attempt([&] { read = checked_number(value_.at(key), place_of(key), range, unit); });
+    if (has(key))
+      attempt([&] { read = checked_number(value_.at(key), place_of(key), range, unit); });
     return read;
   }
 

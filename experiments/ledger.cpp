@@ -70,10 +70,14 @@ Finding judge_one(const Claim& claim, const Done& done, const Done& other, std::
 
 const char* name_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::holds: return "holds";
-    case Verdict::does_not_hold: return "does not hold";
-    case Verdict::equal: return "equal";
-    default: return "not separable";
+    case Verdict::holds:
+      return "holds";
+    case Verdict::does_not_hold:
+      return "does not hold";
+    case Verdict::equal:
+      return "equal";
+    default:
+      return "not separable";
   }
 }
 
@@ -103,12 +107,14 @@ std::string differences_of(const std::vector<const Finding*>& findings) {
 std::string summary_of(const std::vector<const Finding*>& findings) {
   if (findings.empty()) return "not run";
   std::vector<std::string> where, elsewhere;
-  for (const auto* f : findings) (f->verdict == Verdict::holds ? where : elsewhere).push_back(f->cell);
+  for (const auto* f : findings)
+    (f->verdict == Verdict::holds ? where : elsewhere).push_back(f->cell);
   const auto all = [&](Verdict verdict) {
     return std::all_of(findings.begin(), findings.end(),
                        [&](const Finding* f) { return f->verdict == verdict; });
   };
-  for (const auto verdict : {Verdict::holds, Verdict::does_not_hold, Verdict::not_separable, Verdict::equal})
+  for (const auto verdict :
+       {Verdict::holds, Verdict::does_not_hold, Verdict::not_separable, Verdict::equal})
     if (all(verdict)) return name_of(verdict);
   if (where.empty()) return "does not hold, or not separable";
   if (elsewhere.size() < where.size())
@@ -159,10 +165,12 @@ Ledger read_ledger(const std::string& path) {
     const auto& rival = claim.than.empty() ? claim.method : claim.than;
     for (const auto& cell : study.cells) {
       if (concerns(claim, claim.study, cell)) require(cell, claim.method);
-      if (claim.than_cell.empty() ? concerns(claim, claim.study, cell) : cell.name == claim.than_cell)
+      if (claim.than_cell.empty() ? concerns(claim, claim.study, cell)
+                                  : cell.name == claim.than_cell)
         require(cell, rival);
     }
-    if (std::find(ledger.studies.begin(), ledger.studies.end(), claim.study) == ledger.studies.end())
+    if (std::find(ledger.studies.begin(), ledger.studies.end(), claim.study) ==
+        ledger.studies.end())
       ledger.studies.push_back(claim.study);
     ledger.claims.push_back(claim);
   }
@@ -208,31 +216,42 @@ std::vector<Finding> judge(const Ledger& ledger,
 
 std::vector<Table> ledger_tables(const Ledger& ledger, const std::vector<Finding>& findings) {
   Table claims{.title = ledger.title,
-               .columns = {{"claim", ""}, {"source", ""}, {"measured", ""}, {"difference", ""},
+               .columns = {{"claim", ""},
+                           {"source", ""},
+                           {"measured", ""},
+                           {"difference", ""},
                            {"verdict", ""}},
-               .rows = {}, .notes = {}};
+               .rows = {},
+               .notes = {}};
   Table detail{.title = ledger.title + ": findings",
-               .columns = {{"claim", ""}, {"cell", ""}, {"mean", ""}, {"± 95 %", ""},
-                           {"difference", ""}, {"± 95 % simultaneous", ""}, {"trials", ""},
-                           {"verdict", ""}, {"trials to tell", ""}},
-               .rows = {}, .notes = {}};
+               .columns = {{"claim", ""},
+                           {"cell", ""},
+                           {"mean", ""},
+                           {"± 95 %", ""},
+                           {"difference", ""},
+                           {"± 95 % simultaneous", ""},
+                           {"trials", ""},
+                           {"verdict", ""},
+                           {"trials to tell", ""}},
+               .rows = {},
+               .notes = {}};
   for (std::size_t c = 0; c < ledger.claims.size(); ++c) {
     std::vector<const Finding*> own;
     for (const auto& f : findings) {
       if (f.claim != c) continue;
       own.push_back(&f);
-      detail.rows.push_back({ledger.claims[c].text, f.cell, cell(f.mean), cell(f.mean_half_width),
-                             cell(f.quantity), cell(f.half_width),
-                             static_cast<std::int64_t>(f.trials), std::string(name_of(f.verdict)),
-                             f.verdict == Verdict::not_separable ? cell(f.trials_needed)
-                                                                 : TableCell()});
+      detail.rows.push_back(
+          {ledger.claims[c].text, f.cell, cell(f.mean), cell(f.mean_half_width), cell(f.quantity),
+           cell(f.half_width), static_cast<std::int64_t>(f.trials), std::string(name_of(f.verdict)),
+           f.verdict == Verdict::not_separable ? cell(f.trials_needed) : TableCell()});
     }
     claims.rows.push_back({ledger.claims[c].text, ledger.claims[c].source,
                            statement(ledger.claims[c]), differences_of(own), summary_of(own)});
   }
-  detail.notes.push_back("mean: of the claim's metric over trials, in its unit; difference: that minus "
-                         "what it is claimed to lie below or above, paired by trial, with an interval "
-                         "simultaneous over the claim's cells (Bonferroni)");
+  detail.notes.push_back(
+      "mean: of the claim's metric over trials, in its unit; difference: that minus "
+      "what it is claimed to lie below or above, paired by trial, with an interval "
+      "simultaneous over the claim's cells (Bonferroni)");
   return {claims, detail};
 }
 

@@ -9,19 +9,19 @@
 
 namespace gyrostat {
 
-/// A sentence of a paper as something that trials can decide: in each cell of a study, the mean of a
-/// metric of `method` lies below (or above) that of `than`, or below (or above) a value.
+/// A sentence of a paper as something that trials can decide: in each cell of a study, the mean of
+/// a metric of `method` lies below (or above) that of `than`, or below (or above) a value.
 struct Claim {
   std::string text;
   std::string source;
-  std::string study;       ///< index of the study by its path
+  std::string study;               ///< index of the study by its path
   std::vector<std::string> cells;  ///< names; empty: every cell
   std::string method;
-  std::string than;        ///< empty: compare with `value`, or with `method` in than_cell
-  std::string than_cell;   ///< another cell of the study, whose trials are paired by their number
+  std::string than;       ///< empty: compare with `value`, or with `method` in than_cell
+  std::string than_cell;  ///< another cell of the study, whose trials are paired by their number
   double value = 0.0;
   std::size_t metric = 0;
-  bool absolute = false;   ///< of the metric's absolute value
+  bool absolute = false;  ///< of the metric's absolute value
   bool above = false;
 };
 
@@ -48,8 +48,8 @@ struct Finding {
 
 Ledger read_ledger(const std::string& path);
 
-/// Decides every claim; `run` gives the result of a cell. Intervals are simultaneous (Bonferroni) over
-/// all findings of a claim.
+/// Decides every claim; `run` gives the result of a cell. Intervals are simultaneous (Bonferroni)
+/// over all findings of a claim.
 std::vector<Finding> judge(const Ledger& ledger,
                            const std::function<CellResult(const Study&, const Cell&)>& run);
 

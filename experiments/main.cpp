@@ -1,10 +1,10 @@
-#include <fmt/format.h>
-#include <signal.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <iostream>
 #include <sstream>
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include "core/error.hpp"
 #include "experiments/cli/verbs.hpp"
@@ -47,7 +47,8 @@ int main(int argc, char** argv) {
   cli::Console console{std::cout, std::cerr, isatty(STDERR_FILENO) != 0, stop_requested};
   int exit_code = cli::complete;
 
-  CLI::App program{"Monte Carlo robustness studies of MEMS gyroscope error compensation", "gyrostat"};
+  CLI::App program{"Monte Carlo robustness studies of MEMS gyroscope error compensation",
+                   "gyrostat"};
   program.require_subcommand(1);
   program.set_version_flag("--version", GYROSTAT_VERSION);
   cli::add_run(program, console, exit_code);

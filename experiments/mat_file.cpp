@@ -1,15 +1,15 @@
 #include "experiments/mat_file.hpp"
 
-#include <fmt/format.h>
-#include <matio.h>
-#include <stdlib.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <fstream>
 #include <memory>
+
+#include <fmt/format.h>
+#include <matio.h>
+#include <stdlib.h>
 
 #include "core/error.hpp"
 #include "experiments/atomic_file.hpp"
@@ -35,20 +35,42 @@ void append(const matvar_t& from, std::size_t first, std::size_t count, std::vec
 }
 
 /// Column `index` of a numeric matrix; false for any other variable.
-bool append_numbers(const matvar_t& from, std::size_t index, std::size_t rows, std::vector<double>& to) {
+bool append_numbers(const matvar_t& from, std::size_t index, std::size_t rows,
+                    std::vector<double>& to) {
   const auto first = index * rows;
   switch (from.data_type) {
-    case MAT_T_DOUBLE: append<double>(from, first, rows, to); return true;
-    case MAT_T_SINGLE: append<float>(from, first, rows, to); return true;
-    case MAT_T_INT8: append<std::int8_t>(from, first, rows, to); return true;
-    case MAT_T_UINT8: append<std::uint8_t>(from, first, rows, to); return true;
-    case MAT_T_INT16: append<std::int16_t>(from, first, rows, to); return true;
-    case MAT_T_UINT16: append<std::uint16_t>(from, first, rows, to); return true;
-    case MAT_T_INT32: append<std::int32_t>(from, first, rows, to); return true;
-    case MAT_T_UINT32: append<std::uint32_t>(from, first, rows, to); return true;
-    case MAT_T_INT64: append<std::int64_t>(from, first, rows, to); return true;
-    case MAT_T_UINT64: append<std::uint64_t>(from, first, rows, to); return true;
-    default: return false;
+    case MAT_T_DOUBLE:
+      append<double>(from, first, rows, to);
+      return true;
+    case MAT_T_SINGLE:
+      append<float>(from, first, rows, to);
+      return true;
+    case MAT_T_INT8:
+      append<std::int8_t>(from, first, rows, to);
+      return true;
+    case MAT_T_UINT8:
+      append<std::uint8_t>(from, first, rows, to);
+      return true;
+    case MAT_T_INT16:
+      append<std::int16_t>(from, first, rows, to);
+      return true;
+    case MAT_T_UINT16:
+      append<std::uint16_t>(from, first, rows, to);
+      return true;
+    case MAT_T_INT32:
+      append<std::int32_t>(from, first, rows, to);
+      return true;
+    case MAT_T_UINT32:
+      append<std::uint32_t>(from, first, rows, to);
+      return true;
+    case MAT_T_INT64:
+      append<std::int64_t>(from, first, rows, to);
+      return true;
+    case MAT_T_UINT64:
+      append<std::uint64_t>(from, first, rows, to);
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -62,7 +84,8 @@ void add_matrix(const matvar_t& variable, const std::string& name, MatColumns& c
   const auto rows = is_vector ? variable.dims[0] * variable.dims[1] : variable.dims[0];
   const auto count = is_vector ? 1 : variable.dims[1];
   constexpr std::size_t most_columns = 64;  // beyond which it is no list of columns
-  if (rows == 0 || count > most_columns || rows * count * variable.data_size != variable.nbytes) return;
+  if (rows == 0 || count > most_columns || rows * count * variable.data_size != variable.nbytes)
+    return;
   for (std::size_t k = 0; k < count; ++k) {
     std::vector<double> values;
     values.reserve(rows);
@@ -96,7 +119,8 @@ std::string variable_name(const std::string& column) {
 
 Variable column_of(const std::string& name, std::vector<double>& values) {
   std::array<std::size_t, 2> shape = {values.size(), 1};
-  return Variable(Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, shape.data(), values.data(), 0));
+  return Variable(
+      Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, shape.data(), values.data(), 0));
 }
 
 Variable names_of(const std::string& name, const std::vector<std::string_view>& texts) {
@@ -105,8 +129,9 @@ Variable names_of(const std::string& name, const std::vector<std::string_view>& 
   for (std::size_t i = 0; list && i < texts.size(); ++i) {
     std::array<std::size_t, 2> length = {1, texts[i].size()};
     std::string text(texts[i]);
-    Mat_VarSetCell(list.get(), static_cast<int>(i),
-                   Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UINT8, 2, length.data(), text.data(), 0));
+    Mat_VarSetCell(
+        list.get(), static_cast<int>(i),
+        Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UINT8, 2, length.data(), text.data(), 0));
   }
   return list;
 }
@@ -130,7 +155,8 @@ struct Temporary {
 void write_variables(mat_t* file, std::span<const CsvColumn> columns) {
   // Cells are not compressed: matio 1.5.23 then states wrong lengths for them.
   const auto write = [&](const Variable& variable) {
-    const auto packing = variable && variable->class_type == MAT_C_CELL ? MAT_COMPRESSION_NONE : MAT_COMPRESSION_ZLIB;
+    const auto packing = variable && variable->class_type == MAT_C_CELL ? MAT_COMPRESSION_NONE
+                                                                        : MAT_COMPRESSION_ZLIB;
     if (!variable || Mat_VarWrite(file, variable.get(), packing) != 0)
       throw std::runtime_error("the MATLAB file cannot be written");
   };
@@ -138,7 +164,8 @@ void write_variables(mat_t* file, std::span<const CsvColumn> columns) {
   for (const auto& column : columns) {
     const auto name = variable_name(column.name);
     if (std::ranges::find(used, name) != used.end())
-      throw InputError(column.name, fmt::format("stands twice as MATLAB has it, '{}'; write CSV", name));
+      throw InputError(column.name,
+                       fmt::format("stands twice as MATLAB has it, '{}'; write CSV", name));
     used.push_back(name);
     std::vector<double> values(column.values.begin(), column.values.end());
     std::vector<std::string_view> texts;
@@ -162,13 +189,15 @@ void MatColumns::take(std::span<std::vector<double>* const> targets, const std::
   for (std::size_t i = 0; i < targets.size(); ++i) {
     if (!targets[i]) continue;
     if (values[i].size() != length)
-      throw InputError(place, fmt::format("'{}' has {} values, '{}' has {}; allowed: equally many", names[i],
-                                          values[i].size(), names[reference], length));
-    const auto infinite = std::ranges::find_if(values[i], [](double value) { return std::isinf(value); });
+      throw InputError(place, fmt::format("'{}' has {} values, '{}' has {}; allowed: equally many",
+                                          names[i], values[i].size(), names[reference], length));
+    const auto infinite =
+        std::ranges::find_if(values[i], [](double value) { return std::isinf(value); });
     if (infinite != values[i].end())
-      throw InputError(fmt::format("{}: row {}", place, infinite - values[i].begin() + 1),
-                       fmt::format("'{}': {} is not a number; allowed: finite numbers, or NaN for no value",
-                                   names[i], *infinite));
+      throw InputError(
+          fmt::format("{}: row {}", place, infinite - values[i].begin() + 1),
+          fmt::format("'{}': {} is not a number; allowed: finite numbers, or NaN for no value",
+                      names[i], *infinite));
   }
   for (std::size_t i = 0; i < targets.size(); ++i)
     if (targets[i]) *targets[i] = std::move(values[i]);
@@ -186,15 +215,17 @@ MatColumns read_mat(const fs::path& path) {
   MatColumns columns;
   while (Variable variable{Mat_VarReadNext(file.get())}) add_variable(*variable, "", columns);
   if (columns.names.empty())
-    throw InputError(place, "has no numeric vector; required: t_s and gyro_dps as variables, or as fields "
-                            "of a struct (a table or timetable cannot be read: use table2struct)");
+    throw InputError(place,
+                     "has no numeric vector; required: t_s and gyro_dps as variables, or as fields "
+                     "of a struct (a table or timetable cannot be read: use table2struct)");
   return columns;
 }
 
 void write_mat(const fs::path& path, std::span<const CsvColumn> columns) {
   const Temporary temporary;
   {
-    const File file(Mat_CreateVer(temporary.path.c_str(), "MATLAB 5.0 MAT-file, written by gyrostat", MAT_FT_MAT5));
+    const File file(Mat_CreateVer(temporary.path.c_str(),
+                                  "MATLAB 5.0 MAT-file, written by gyrostat", MAT_FT_MAT5));
     if (!file) throw InputError(path.string(), "cannot be written");
     write_variables(file.get(), columns);
   }

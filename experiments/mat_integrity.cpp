@@ -1,8 +1,5 @@
 #include "experiments/mat_integrity.hpp"
 
-#include <fmt/format.h>
-#include <zlib.h>
-
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -11,6 +8,9 @@
 #include <memory>
 #include <new>
 #include <string>
+
+#include <fmt/format.h>
+#include <zlib.h>
 
 #include "core/error.hpp"
 
@@ -51,16 +51,21 @@ void require_whole_mat(const std::filesystem::path& path) {
   const std::string bytes((std::istreambuf_iterator<char>(file)), {});
   const auto byte_order = bytes.size() < header_bytes ? std::string() : bytes.substr(126, 2);
   if (!bytes.starts_with("MATLAB") || (byte_order != "IM" && byte_order != "MI"))
-    throw InputError(place, "is no MATLAB file of a version that can be read; allowed: 5 (-v6, -v7) and 7.3");
+    throw InputError(
+        place, "is no MATLAB file of a version that can be read; allowed: 5 (-v6, -v7) and 7.3");
   if (bytes.starts_with("MATLAB 7.3")) return;
   const bool swapped = (byte_order == "MI") == (std::endian::native == std::endian::little);
   for (std::size_t at = header_bytes; at < bytes.size();) {
-    const auto size = bytes.size() - at < tag_bytes ? bytes.size() : number_at(bytes, at + 4, swapped);
+    const auto size =
+        bytes.size() - at < tag_bytes ? bytes.size() : number_at(bytes, at + 4, swapped);
     const auto begin = at + tag_bytes;
     if (size > bytes.size() || begin + size > bytes.size())
-      throw InputError(place, fmt::format("the MATLAB file is truncated after {} bytes", bytes.size()));
+      throw InputError(place,
+                       fmt::format("the MATLAB file is truncated after {} bytes", bytes.size()));
     if (number_at(bytes, at, swapped) == compressed && !unpacks(bytes.data() + begin, size))
-      throw InputError(place, fmt::format("the MATLAB file is corrupt: the variable at byte {} does not unpack", at));
+      throw InputError(
+          place,
+          fmt::format("the MATLAB file is corrupt: the variable at byte {} does not unpack", at));
     at = begin + size;
   }
 }

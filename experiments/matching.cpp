@@ -38,7 +38,8 @@ std::vector<Summary> reached_by(const Match& match, Study study, std::uint32_t t
 double distance(const Match& match, const std::vector<Summary>& reached) {
   double sum = 0.0;
   for (std::size_t t = 0; t < reached.size(); ++t) {
-    const double deviation = (reached[t].mean - match.targets[t].value) / match.targets[t].tolerance;
+    const double deviation =
+        (reached[t].mean - match.targets[t].value) / match.targets[t].tolerance;
     sum += deviation * deviation;
   }
   return sum;
@@ -52,9 +53,8 @@ Json with_tuning(const Match& match, const Json& json, const std::vector<double>
   for (std::size_t c = 0; c < study.cells.size(); ++c) {
     const auto& cell = study.cells[c];
     Series buffer;
-    const auto calibration = cell.needs_calibration()
-                                 ? calibrate_cell(cell, study.seed, 0, buffer)
-                                 : Calibration{};
+    const auto calibration =
+        cell.needs_calibration() ? calibrate_cell(cell, study.seed, 0, buffer) : Calibration{};
     const auto tuned = tune_methods(cell, calibration, study.seed);
     auto& methods = fixed["cells"][c]["filters"];
     for (std::size_t m = 0; m < tuned.size(); ++m) {
@@ -130,8 +130,9 @@ MatchResult run_match(const Match& match, std::ostream& log, const std::atomic<b
   for (int round = 0; round < match.rounds && !stop; ++round) {
     fixed = with_tuning(match, match.study, result.values);
     const auto found = box_search(ranges, match.evaluations, [&](const auto& values) {
-      return stop ? no_value
-                  : distance(match, reached_by(match, study_at(match, fixed, values), match.trials));
+      return stop
+                 ? no_value
+                 : distance(match, reached_by(match, study_at(match, fixed, values), match.trials));
     });
     result.values = found.values;
     log << fmt::format("round {}: distance {:.4g} after {} evaluations\n", round + 1,
@@ -157,15 +158,23 @@ MatchResult run_match(const Match& match, std::ostream& log, const std::atomic<b
 std::vector<Table> match_tables(const Match& match, const MatchResult& result) {
   Table found{.title = match.title + ": scenario found",
               .columns = {{"parameter", ""}, {"value", ""}, {"searched from", ""}, {"to", ""}},
-              .rows = {}, .notes = {}};
+              .rows = {},
+              .notes = {}};
   for (std::size_t i = 0; i < match.free.size(); ++i)
     found.rows.push_back({match.free[i].first, result.values[i], match.free[i].second.low,
                           match.free[i].second.high});
   Table targets{.title = match.title + ": published and reached",
-                .columns = {{"cell", ""}, {"method", ""}, {"metric", ""}, {"published", ""},
-                            {"reached", ""}, {"± 95 %", ""}, {"spread of one run", ""},
-                            {"deviation", "tolerances"}, {"met", ""}},
-                .rows = {}, .notes = {}};
+                .columns = {{"cell", ""},
+                            {"method", ""},
+                            {"metric", ""},
+                            {"published", ""},
+                            {"reached", ""},
+                            {"± 95 %", ""},
+                            {"spread of one run", ""},
+                            {"deviation", "tolerances"},
+                            {"met", ""}},
+                .rows = {},
+                .notes = {}};
   const auto metrics = Metrics::ids();
   int met = 0;
   for (std::size_t t = 0; t < match.targets.size(); ++t) {
@@ -176,8 +185,9 @@ std::vector<Table> match_tables(const Match& match, const MatchResult& result) {
                             result.reached[t], cell(result.half_widths[t]), cell(result.spreads[t]),
                             deviation, std::string(std::abs(deviation) <= 1.0 ? "yes" : "no")});
   }
-  targets.notes.push_back(fmt::format("{} of {} within their tolerance; sum of squared deviations {:.4g}",
-                                      met, match.targets.size(), result.objective));
+  targets.notes.push_back(
+      fmt::format("{} of {} within their tolerance; sum of squared deviations {:.4g}", met,
+                  match.targets.size(), result.objective));
   return {found, targets};
 }
 

@@ -24,13 +24,13 @@ struct MatchTarget {
 /// parameters so that the means over trials of stated metrics come near stated values.
 struct Match {
   std::string title;
-  Json study;           ///< the study as JSON, with paths free to be set in every cell
+  Json study;  ///< the study as JSON, with paths free to be set in every cell
   std::string study_path;
   std::vector<std::pair<std::string, SearchRange>> free;  ///< path within a cell → bounds
   std::vector<MatchTarget> targets;
   std::uint32_t trials = 20;
   int evaluations = 200;
-  int rounds = 2;       ///< each tunes the methods at the scenario found so far, then searches on
+  int rounds = 2;  ///< each tunes the methods at the scenario found so far, then searches on
 };
 
 struct MatchResult {

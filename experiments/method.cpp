@@ -60,7 +60,8 @@ std::map<std::string, SearchRange> read_tune(JsonObject object, const std::strin
 std::string method_id(const std::string& name, const std::string& place) {
   auto id = plain_name(name, place);
   if (id.find_first_of(",:") != std::string::npos)
-    throw InputError(place, "'" + id + "' cannot head a column or end an address: no commas, no colons");
+    throw InputError(place,
+                     "'" + id + "' cannot head a column or end an address: no commas, no colons");
   return id;
 }
 
@@ -89,7 +90,8 @@ Method read_method(const JsonObject& parent, const Json& value, const std::strin
   object.with_child("parameters", [&](JsonObject& parameters) {
     method.overrides = read_overrides(parameters, method.filter);
   });
-  object.with_child("tune", [&](JsonObject& tune) { method.tune = read_tune(tune, method.filter); });
+  object.with_child("tune",
+                    [&](JsonObject& tune) { method.tune = read_tune(tune, method.filter); });
   object.finish();
   return method;
 }
@@ -112,7 +114,8 @@ std::vector<Method> read_methods(JsonObject& object, const std::string& key,
       methods.push_back(read_method(object, *entry.first, entry.second, default_source));
       for (std::size_t i = 0; i + 1 < methods.size(); ++i)
         if (methods[i].id == methods.back().id)
-          throw InputError(entry.second, "the id '" + methods.back().id + "' stands twice; give one an \"id\"");
+          throw InputError(entry.second,
+                           "the id '" + methods.back().id + "' stands twice; give one an \"id\"");
     });
   }
   return methods;
@@ -135,8 +138,10 @@ std::vector<Method> all_methods(ParameterSource source) {
       methods.push_back({id, id, source_of(id, source), {}, {}});
   });
   // What every other row is read against stands at the top and at the bottom.
-  std::stable_partition(methods.begin(), methods.end(), [](const auto& m) { return m.id == "none"; });
-  std::stable_partition(methods.begin(), methods.end(), [](const auto& m) { return m.id != "oracle"; });
+  std::stable_partition(methods.begin(), methods.end(),
+                        [](const auto& m) { return m.id == "none"; });
+  std::stable_partition(methods.begin(), methods.end(),
+                        [](const auto& m) { return m.id != "oracle"; });
   return methods;
 }
 

@@ -22,8 +22,8 @@ struct Method {
 };
 
 /// Methods from a list of filter names or objects {"id", "filter", "parameters_from",
-/// "parameters", "tune"}. Throws InputError for unknown filters and keys, values out of range, and an id
-/// that stands twice.
+/// "parameters", "tune"}. Throws InputError for unknown filters and keys, values out of range, and
+/// an id that stands twice.
 std::vector<Method> read_methods(JsonObject& object, const std::string& key,
                                  ParameterSource default_source);
 

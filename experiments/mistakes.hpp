@@ -1,10 +1,10 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <set>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "core/error.hpp"
 

@@ -1,11 +1,11 @@
 #include "experiments/outcome_file.hpp"
 
+#include <cmath>
+#include <iterator>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
-
-#include <cmath>
-#include <iterator>
 
 #include "core/error.hpp"
 #include "experiments/atomic_file.hpp"
@@ -34,8 +34,8 @@ void require_writable(const std::filesystem::path& path, const std::filesystem::
   if (std::filesystem::equivalent(path, input, failure))
     throw InputError(path.string(), "is what is read from; name another file");
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  if (std::filesystem::is_directory(path, failure) || !std::filesystem::is_directory(folder, failure) ||
-      ::access(folder.c_str(), W_OK) != 0)
+  if (std::filesystem::is_directory(path, failure) ||
+      !std::filesystem::is_directory(folder, failure) || ::access(folder.c_str(), W_OK) != 0)
     throw InputError(path.string(), "cannot be written");
 }
 
@@ -51,7 +51,8 @@ void export_outcomes(const Store& store, const TextSink& sink) {
       for (const auto& method : cell.methods) {
         auto out = fmt::format_to(std::back_inserter(text), "{},{},{}", name, trial.trial, method);
         for (std::size_t i = 0; i < manifest.columns.size(); ++i, ++value)
-          out = std::isnan(*value) ? fmt::format_to(out, ",") : fmt::format_to(out, ",{:.17g}", *value);
+          out = std::isnan(*value) ? fmt::format_to(out, ",")
+                                   : fmt::format_to(out, ",{:.17g}", *value);
         text += '\n';
       }
       if (text.size() < piece) return;

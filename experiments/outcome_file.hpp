@@ -11,8 +11,8 @@ namespace gyrostat {
 /// Creates the folder and its parents; InputError when that fails or it cannot be written to.
 void make_result_folder(const std::filesystem::path& folder);
 
-/// Throws InputError where `path` cannot become a file, or is the very file `input`: before any work
-/// is done for it.
+/// Throws InputError where `path` cannot become a file, or is the very file `input`: before any
+/// work is done for it.
 void require_writable(const std::filesystem::path& path, const std::filesystem::path& input);
 
 /// Takes text piece by piece.

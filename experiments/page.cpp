@@ -57,9 +57,8 @@ std::string cell_text(const Table& table, const std::string& row, const std::str
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(' ');
-  return first == std::string::npos
-             ? ""
-             : text.substr(first, text.find_last_not_of(' ') - first + 1);
+  return first == std::string::npos ? ""
+                                    : text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
 class Filler {
@@ -78,11 +77,14 @@ class Filler {
     }
     std::vector<std::string> parts = {""};
     for (const char c : mark)
-      if (c == '|') parts.emplace_back();
-      else parts.back() += c;
+      if (c == '|')
+        parts.emplace_back();
+      else
+        parts.back() += c;
     if (parts.size() != 3) throw InputError(place, "not {{NAME | row | column}}");
     const auto [tables, name] = named(parts[0]);
-    return cell_text(table_named(*tables, name, place), trimmed(parts[1]), trimmed(parts[2]), place);
+    return cell_text(table_named(*tables, name, place), trimmed(parts[1]), trimmed(parts[2]),
+                     place);
   }
 
  private:
@@ -112,8 +114,9 @@ std::string beside(const Page& page, const std::string& file) {
   return (fs::path(page.folder) / file).lexically_normal().string();
 }
 
-std::vector<NamedTable> source_tables(const Page& page, const Json& source, const std::string& place,
-                                      const RunCell& run, const RunMatch& match) {
+std::vector<NamedTable> source_tables(const Page& page, const Json& source,
+                                      const std::string& place, const RunCell& run,
+                                      const RunMatch& match) {
   JsonObject object(source, place);
   std::vector<NamedTable> tables;
   if (object.has("ledger")) {
@@ -142,8 +145,12 @@ Page read_page(const std::string& folder) {
   const auto file = (fs::path(folder) / "page.json").string();
   const Json json = read_json(file);
   JsonObject object(json, file + ":");
-  Page page{.folder = folder, .output = object.text("output", "README.md"), .sources = {},
-            .places = {}, .figures = {}, .text = contents_of(fs::path(folder) / "page.md")};
+  Page page{.folder = folder,
+            .output = object.text("output", "README.md"),
+            .sources = {},
+            .places = {},
+            .figures = {},
+            .text = contents_of(fs::path(folder) / "page.md")};
   for (const auto& [source, place] : object.list("sources")) {
     page.sources.push_back(*source);
     page.places.push_back(place);

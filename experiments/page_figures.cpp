@@ -23,7 +23,8 @@ std::size_t column_named(const Table& table, const std::string& name, const std:
   throw InputError(place, unknown_name("column", name, names));
 }
 
-std::vector<double> values_of(const Table& table, const std::string& name, const std::string& place) {
+std::vector<double> values_of(const Table& table, const std::string& name,
+                              const std::string& place) {
   const std::size_t column = column_named(table, name, place);
   std::vector<double> values;
   for (const auto& row : table.rows) values.push_back(number(row[column]));
@@ -51,8 +52,10 @@ void add_band(const Table& table, const std::string& name, const std::string& pl
 
 std::string line_chart(JsonObject& object, const Table& table, const std::string& title,
                        const std::vector<std::string>& methods) {
-  LineChart chart{.title = title, .x_label = render_detail::head(table.columns.front()),
-                  .y_label = object.text("y_label", ""), .lines = {},
+  LineChart chart{.title = title,
+                  .x_label = render_detail::head(table.columns.front()),
+                  .y_label = object.text("y_label", ""),
+                  .lines = {},
                   .logarithmic = object.number("logarithmic", 0, ranges::flag, "") != 0.0,
                   .panels = object.number("panels", 0, ranges::flag, "") != 0.0};
   const auto x = values_of(table, table.columns.front().name, object.place());
@@ -93,8 +96,8 @@ std::string heat_map(JsonObject& object, const Table& table, const std::string& 
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> page_figures(const Page& page,
-                                                              const std::vector<NamedTable>& tables) {
+std::vector<std::pair<std::string, std::string>> page_figures(
+    const Page& page, const std::vector<NamedTable>& tables) {
   std::vector<std::pair<std::string, std::string>> files;
   for (std::size_t i = 0; i < page.figures.size(); ++i) {
     JsonObject object(page.figures[i], fmt::format("{}: figures[{}]", page.folder, i));
@@ -109,10 +112,14 @@ std::vector<std::pair<std::string, std::string>> page_figures(const Page& page,
     for (auto& method : methods)
       method.erase(std::remove(method.begin(), method.end(), '"'), method.end());
     std::string text;
-    if (kind == "lines") text = line_chart(object, at->table, title, methods);
-    else if (kind == "heat") text = heat_map(object, at->table, title, methods);
-    else throw InputError(object.place_of("kind"),
-                          unknown_name("kind of figure", kind, std::vector<std::string>{"lines", "heat"}));
+    if (kind == "lines")
+      text = line_chart(object, at->table, title, methods);
+    else if (kind == "heat")
+      text = heat_map(object, at->table, title, methods);
+    else
+      throw InputError(
+          object.place_of("kind"),
+          unknown_name("kind of figure", kind, std::vector<std::string>{"lines", "heat"}));
     object.finish();
     files.emplace_back(name + ".svg", std::move(text));
   }

@@ -34,7 +34,8 @@ Study pilot_of(const Study& study, std::size_t index) {
   return pilot;
 }
 
-double tuning_seconds(const Cell& cell, const std::vector<double>& nanoseconds_per_step, int threads) {
+double tuning_seconds(const Cell& cell, const std::vector<double>& nanoseconds_per_step,
+                      int threads) {
   const double steps = static_cast<double>(cell.scenario.sampling.samples()) * cell.tuning.trials;
   double seconds = 0.0;
   for (std::size_t m = 0; m < cell.methods.size(); ++m)
@@ -46,7 +47,8 @@ double tuning_seconds(const Cell& cell, const std::vector<double>& nanoseconds_p
 /// What a trial takes in the store's pages of 16 KiB.
 double stored_bytes(const Cell& cell) {
   constexpr double page = 16384.0, overhead = 32.0;
-  const double row = 8.0 * static_cast<double>(cell.methods.size() * outcome_columns().size()) + overhead;
+  const double row =
+      8.0 * static_cast<double>(cell.methods.size() * outcome_columns().size()) + overhead;
   return row < page ? page / std::floor(page / row) : page * std::ceil(row / page);
 }
 
@@ -73,8 +75,9 @@ CellPlan plan_cell(const Study& study, std::size_t index, const fs::path& folder
   std::atomic<bool> stop{false};
   RunOptions run{.threads = options.threads, .stop = &stop, .progress = {}};
   const auto warm = static_cast<std::uint32_t>(std::min<std::uint64_t>(threads, cell.trials));
-  run_trials(prepared, study.seed, run, [&](std::uint32_t trial) { return trial < warm; },
-             [](std::uint32_t, Record&&) {});
+  run_trials(
+      prepared, study.seed, run, [&](std::uint32_t trial) { return trial < warm; },
+      [](std::uint32_t, Record&&) {});
   const Stopwatch trials;
   run.progress = [&](std::size_t done) {
     if (done >= warm && trials.seconds() >= options.seconds) stop = true;

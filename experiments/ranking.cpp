@@ -24,14 +24,17 @@ struct RankedMetric {
 
 /// Small is good of errors and of the logarithmic score; the other metrics are no errors.
 RankedMetric metric_of(const Cell& cell, const std::string& name) {
-  RankedMetric metric{.index = 0, .id = name.empty() ? std::string(judging_metric(cell)) : name, .unit = "",
+  RankedMetric metric{.index = 0,
+                      .id = name.empty() ? std::string(judging_metric(cell)) : name,
+                      .unit = "",
                       .by_size = false};
   metric.index = metric_named(metric.id, "--metric");
   metric.unit = metric_unit(metric.index);
   std::vector<std::string> allowed;
   for (const auto& id : Metrics::ids()) {
     const auto unit = metric_unit(metric_named(id, "ranking"));
-    if ((unit == "dps" || unit == "deg" || unit == "nat") && id != "delta_change") allowed.push_back(id);
+    if ((unit == "dps" || unit == "deg" || unit == "nat") && id != "delta_change")
+      allowed.push_back(id);
   }
   if (std::find(allowed.begin(), allowed.end(), metric.id) == allowed.end())
     throw InputError("--metric", fmt::format("small is not good of '{}'; allowed: {}", metric.id,
@@ -55,8 +58,13 @@ struct Streams {
   std::size_t trials = 0;
 
   explicit Streams(std::size_t methods)
-      : summaries(methods), tails(methods), summary_open(methods, true), tail_open(methods, true),
-        ranks(methods), diverged(methods), broken_down(methods) {}
+      : summaries(methods),
+        tails(methods),
+        summary_open(methods, true),
+        tail_open(methods, true),
+        ranks(methods),
+        diverged(methods),
+        broken_down(methods) {}
 };
 
 void count_failures(Streams& s, std::size_t method, std::span<const double> outcome) {
@@ -143,15 +151,23 @@ std::vector<std::vector<std::size_t>> groups_of(const CellRanking& ranking) {
   return groups;
 }
 
-TableCell out_of(std::size_t count, std::size_t total) { return fmt::format("{}/{}", count, total); }
+TableCell out_of(std::size_t count, std::size_t total) {
+  return fmt::format("{}/{}", count, total);
+}
 
 }  // namespace
 
 CellRanking rank_cell(const Cell& cell, const TrialSource& trials, const std::string& name) {
   const auto metric = metric_of(cell, name);
   const auto s = stream(cell, trials, metric);
-  CellRanking ranking{.cell = cell.name, .metric = metric.id, .unit = metric.unit, .trials = s.trials,
-                      .methods = {}, .not_separable = {}, .sentences = {}, .pairs = {}};
+  CellRanking ranking{.cell = cell.name,
+                      .metric = metric.id,
+                      .unit = metric.unit,
+                      .trials = s.trials,
+                      .methods = {},
+                      .not_separable = {},
+                      .sentences = {},
+                      .pairs = {}};
   const auto mean = [&](std::size_t m) {
     const double value = s.summaries[m].summary().mean;
     return std::isnan(value) ? HUGE_VAL : value;
@@ -164,8 +180,8 @@ CellRanking rank_cell(const Cell& cell, const TrialSource& trials, const std::st
     place[m] = i;
     const auto& summary = s.summaries[m].summary();
     const auto& tail = s.tails[m].tail();
-    ranking.methods.push_back({cell.methods[m].id, summary.mean, summary.half_width_95, s.ranks.mean_rank(m),
-                               tail.value, summary.worst, tail.low, tail.high,
+    ranking.methods.push_back({cell.methods[m].id, summary.mean, summary.half_width_95,
+                               s.ranks.mean_rank(m), tail.value, summary.worst, tail.low, tail.high,
                                s.diverged[m], s.broken_down[m], summary.missing});
   }
   for (const auto& [a, b, stream] : s.pairs) {
@@ -173,9 +189,10 @@ CellRanking rank_cell(const Cell& cell, const TrialSource& trials, const std::st
     ranking.pairs.push_back({turned ? place[a] : place[b], turned ? place[b] : place[a],
                              turned ? reversed(stream.difference()) : stream.difference()});
   }
-  std::sort(ranking.pairs.begin(), ranking.pairs.end(), [](const RankedPair& a, const RankedPair& b) {
-    return std::pair(a.better, a.worse) < std::pair(b.better, b.worse);
-  });
+  std::sort(ranking.pairs.begin(), ranking.pairs.end(),
+            [](const RankedPair& a, const RankedPair& b) {
+              return std::pair(a.better, a.worse) < std::pair(b.better, b.worse);
+            });
   if (s.trials > 0) ranking.share_worse = 1.0 - std::pow(0.05, 1.0 / static_cast<double>(s.trials));
   ranking.critical_difference = s.ranks.critical_difference();
   ranking.friedman_p = s.ranks.friedman_p();
@@ -187,17 +204,28 @@ CellRanking rank_cell(const Cell& cell, const TrialSource& trials, const std::st
 Table ranking_table(const CellRanking& ranking) {
   const auto& u = ranking.unit;
   Table table{.title = fmt::format("{}: ranking by {}", ranking.cell, ranking.metric),
-              .columns = {{"method", ""}, {"mean", u}, {"± 95 %", u}, {"mean rank", "1"},
-                          {"CVaR95", u}, {"from", u}, {"to", u}, {"worst", u}, {"diverged", ""},
+              .columns = {{"method", ""},
+                          {"mean", u},
+                          {"± 95 %", u},
+                          {"mean rank", "1"},
+                          {"CVaR95", u},
+                          {"from", u},
+                          {"to", u},
+                          {"worst", u},
+                          {"diverged", ""},
                           {"broke down", ""}},
-              .rows = {}, .notes = ranking.sentences};
+              .rows = {},
+              .notes = ranking.sentences};
   for (const auto& m : ranking.methods)
-    table.rows.push_back({m.method, cell(m.mean), cell(m.half_width), cell(m.mean_rank), cell(m.cvar95), cell(m.cvar95_low),
-                          cell(m.cvar95_high), cell(m.worst), out_of(m.diverged, ranking.trials),
+    table.rows.push_back({m.method, cell(m.mean), cell(m.half_width), cell(m.mean_rank),
+                          cell(m.cvar95), cell(m.cvar95_low), cell(m.cvar95_high), cell(m.worst),
+                          out_of(m.diverged, ranking.trials),
                           out_of(m.broken_down, ranking.trials)});
-  table.notes.push_back(fmt::format(
-      "CVaR95: mean of the worst 5 % of trials, with its 95 % interval; worst: fewer than {:.2g} % of all "
-      "trials are worse than it, with 95 % confidence", 100.0 * ranking.share_worse));
+  table.notes.push_back(
+      fmt::format("CVaR95: mean of the worst 5 % of trials, with its 95 % interval; worst: fewer "
+                  "than {:.2g} % of all "
+                  "trials are worse than it, with 95 % confidence",
+                  100.0 * ranking.share_worse));
   return table;
 }
 

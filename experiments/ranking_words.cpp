@@ -1,10 +1,10 @@
 #include "experiments/ranking_words.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiments/metric_names.hpp"
 
@@ -34,7 +34,8 @@ class Speaker {
   std::vector<std::string> all() {
     if (ranking_.trials < 2 || contenders_.empty()) return {};
     winner();
-    for (std::size_t i = 0; i + 1 < contenders_.size(); ++i) compare(contenders_[i], contenders_[i + 1]);
+    for (std::size_t i = 0; i + 1 < contenders_.size(); ++i)
+      compare(contenders_[i], contenders_[i + 1]);
     against_none();
     for (const auto bound : bounds_) compare(bound, contenders_.front());
     groups();
@@ -66,11 +67,13 @@ class Speaker {
     for (const auto other : contenders_)
       if (other != best && !pair(best, other).difference.separable) near.push_back(name(other));
     say(fmt::format("{} has the smallest {}, on average over {} trials: {} {}; {}", name(best),
-                    metric_title(metric_named(ranking_.metric, "ranking")), grouped(static_cast<double>(ranking_.trials)),
+                    metric_title(metric_named(ranking_.metric, "ranking")),
+                    grouped(static_cast<double>(ranking_.trials)),
                     with_half_width(m.mean, m.half_width), ranking_.unit,
                     contenders_.size() == 1 ? "nothing else was tried"
-                    : near.empty()          ? "it beats every other filter"
-                                            : "not separable from " + fmt::format("{}", fmt::join(near, ", "))));
+                    : near.empty()
+                        ? "it beats every other filter"
+                        : "not separable from " + fmt::format("{}", fmt::join(near, ", "))));
   }
 
   void compare(std::size_t better, std::size_t worse) {
@@ -82,7 +85,8 @@ class Speaker {
     if (std::abs(d.mean) <= rounding * std::abs(ranking_.methods[p.better].mean))
       return say(fmt::format("{} and {} are equal to rounding", name(p.better), name(p.worse)));
     if (d.separable && d.mean > 0.0)
-      return say(fmt::format("{} beats {} in {} by {}", name(p.better), name(p.worse), ranking_.metric, gap));
+      return say(fmt::format("{} beats {} in {} by {}", name(p.better), name(p.worse),
+                             ranking_.metric, gap));
     const double more = d.trials_needed - static_cast<double>(d.count);
     say(fmt::format("{} and {} are not separable ({}){}", name(p.better), name(p.worse), gap,
                     more > 0.0 ? fmt::format("; about {} more trials needed", grouped(more))
@@ -101,7 +105,8 @@ class Speaker {
       for (const auto i : group) names.push_back(name(i));
       texts.push_back(fmt::format("{}", fmt::join(names, " = ")));
     }
-    if (!texts.empty()) say(fmt::format("not separable from each other: {}", fmt::join(texts, "; ")));
+    if (!texts.empty())
+      say(fmt::format("not separable from each other: {}", fmt::join(texts, "; ")));
   }
 
   void tails() {
@@ -112,12 +117,12 @@ class Speaker {
     };
     const auto tail = least([](const RankedMethod& m) { return m.cvar95; });
     const auto& m = ranking_.methods[tail];
-    const auto interval = std::isnan(m.cvar95_low)
-                              ? std::string()
-                              : fmt::format(" (95 %: {:.4g} to {:.4g})", m.cvar95_low, m.cvar95_high);
+    const auto interval = std::isnan(m.cvar95_low) ? std::string()
+                                                   : fmt::format(" (95 %: {:.4g} to {:.4g})",
+                                                                 m.cvar95_low, m.cvar95_high);
     say(fmt::format("in the worst 5 % of its trials {} is best{}: {:.4g}{} {}", name(tail),
-                    tail == contenders_.front() ? ", too" : ", not " + name(contenders_.front()), m.cvar95,
-                    interval, ranking_.unit));
+                    tail == contenders_.front() ? ", too" : ", not " + name(contenders_.front()),
+                    m.cvar95, interval, ranking_.unit));
     const auto worst = least([](const RankedMethod& r) { return r.worst; });
     say(fmt::format("{} has the mildest worst trial: {:.4g} {}", name(worst),
                     ranking_.methods[worst].worst, ranking_.unit));
@@ -126,15 +131,17 @@ class Speaker {
   void failures() {
     for (const auto& m : ranking_.methods)
       if (m.missing > 0)
-        say(fmt::format("{} has no value in {} trials, which are not in its mean and rank last", m.method,
-                        m.missing));
+        say(fmt::format("{} has no value in {} trials, which are not in its mean and rank last",
+                        m.method, m.missing));
   }
 
   void ranks() {
     if (std::isnan(ranking_.critical_difference)) return;
-    say(fmt::format("mean ranks that differ by more than {:.3g} are separable (Nemenyi, 95 %, all pairs); "
-                    "Friedman's test that all are alike: p {}", ranking_.critical_difference,
-                    ranking_.friedman_p < 1e-4 ? "< 0.0001" : fmt::format("= {:.2g}", ranking_.friedman_p)));
+    say(fmt::format(
+        "mean ranks that differ by more than {:.3g} are separable (Nemenyi, 95 %, all pairs); "
+        "Friedman's test that all are alike: p {}",
+        ranking_.critical_difference,
+        ranking_.friedman_p < 1e-4 ? "< 0.0001" : fmt::format("= {:.2g}", ranking_.friedman_p)));
   }
 
   const Cell& cell_;

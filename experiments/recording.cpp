@@ -60,10 +60,11 @@ Names unknown_columns(const Names& names) {
 [[noreturn]] void throw_missing(std::string_view name, const Names& unknown,
                                 std::string_view header) {
   const auto nearest = nearest_name(name, unknown).substr(0, 40);
-  throw InputError(header, fmt::format("column '{}' is missing{}; required: t_s and gyro_dps (or"
-                                       " gyro_x_dps, gyro_y_dps, gyro_z_dps) between commas, semicolons or"
-                                       " tabs, or --columns t=NAME,gyro=NAME",
-                                       name, nearest.empty() ? "" : ", is it '" + nearest + "'?"));
+  throw InputError(header,
+                   fmt::format("column '{}' is missing{}; required: t_s and gyro_dps (or"
+                               " gyro_x_dps, gyro_y_dps, gyro_z_dps) between commas, semicolons or"
+                               " tabs, or --columns t=NAME,gyro=NAME",
+                               name, nearest.empty() ? "" : ", is it '" + nearest + "'?"));
 }
 
 std::string choose_axis(std::string_view axis, const Names& names, const Names& unknown,
@@ -103,8 +104,9 @@ void require_increasing(const std::vector<double>& t_s, const Source& source) {
   if (blank != t_s.end())
     source.fail(blank - t_s.begin(), "'' is not a number; allowed: a time in " + source.unit());
   if (step != t_s.end())
-    source.fail(step - t_s.begin() + 1,
-                fmt::format("'{}' does not come after '{}'; allowed: increasing times", step[1], step[0]));
+    source.fail(
+        step - t_s.begin() + 1,
+        fmt::format("'{}' does not come after '{}'; allowed: increasing times", step[1], step[0]));
 }
 
 /// Values and bounds are in the file's unit.
@@ -122,7 +124,8 @@ void require_range(const std::vector<double>& values, const Source& source) {
   source.fail(wrong - values.begin(),
               fmt::format("'{}' is out of range; allowed: {}", *wrong,
                           range->whole ? fmt::format("{} or {}", lowest, highest)
-                                       : fmt::format("{:.6g} to {:.6g} {}", lowest, highest, source.unit())));
+                                       : fmt::format("{:.6g} to {:.6g} {}", lowest, highest,
+                                                     source.unit())));
 }
 
 /// Checks the values of a channel, in the file's unit, and turns them into the program's.
@@ -130,7 +133,8 @@ void take_channel(std::vector<double>& values, const Source& source) {
   if (source.channel.name == "t_s") require_increasing(values, source);
   require_range(values, source);
   if (const auto* unit = source.column.unit; unit && !unit->is_own())
-    std::ranges::transform(values, values.begin(), [&](double value) { return unit->to_own(value); });
+    std::ranges::transform(values, values.begin(),
+                           [&](double value) { return unit->to_own(value); });
 }
 
 std::size_t rows_of(const CsvColumn& column) {
@@ -183,7 +187,8 @@ Recording assemble(const CsvHeader& header, const std::string& place, std::strin
   };
   Targets targets(names.size());
   for (const auto& channel : channels)
-    if (place_in(channel) < names.size()) targets[place_in(channel)] = &(recording.series.*channel.values);
+    if (place_in(channel) < names.size())
+      targets[place_in(channel)] = &(recording.series.*channel.values);
   read(targets);
 
   if (recording.series.t_s.empty())
@@ -197,8 +202,9 @@ Recording assemble(const CsvHeader& header, const std::string& place, std::strin
     if (std::ranges::all_of(values, is_nan)) values.clear();
   }
   if (recording.series.gyro_dps.empty()) {
-    throw InputError(header_place, fmt::format("column '{}' is blank throughout; required: a gyro signal",
-                                               gyro_name(recording.axis)));
+    throw InputError(header_place,
+                     fmt::format("column '{}' is blank throughout; required: a gyro signal",
+                                 gyro_name(recording.axis)));
   }
   return recording;
 }
@@ -211,16 +217,14 @@ Recording read_recording(const std::filesystem::path& path, std::string_view axi
   if (is_mat_file(path)) {
     MatColumns mat = read_mat(path);
     const CsvHeader header{.names = mat.names, .units = {}, .line = 0, .first_row = 0};
-    return assemble(header, place, axis, layout, [&](const Targets& targets) {
-      mat.take(targets, place);
-    });
+    return assemble(header, place, axis, layout,
+                    [&](const Targets& targets) { mat.take(targets, place); });
   }
   const std::string text = read_text(path);
   std::string_view rows = text;
   const auto header = take_header(rows, place);
-  return assemble(header, place, axis, layout, [&](const Targets& targets) {
-    read_columns(rows, header, targets, place);
-  });
+  return assemble(header, place, axis, layout,
+                  [&](const Targets& targets) { read_columns(rows, header, targets, place); });
 }
 
 void require_uniform(const Series& series, std::string_view place, std::size_t first_row) {

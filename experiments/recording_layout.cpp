@@ -1,9 +1,9 @@
 #include "experiments/recording_layout.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+
+#include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/series.hpp"
@@ -62,16 +62,17 @@ std::size_t find_column(std::span<const std::string> names, const std::string& w
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto [other, other_unit] = split_unit(names[i]);
-    if (other == base && (unit.empty() || other_unit.empty() || unit == other_unit)) found.push_back(i);
+    if (other == base && (unit.empty() || other_unit.empty() || unit == other_unit))
+      found.push_back(i);
   }
   if (found.size() == 1) return found.front();
   if (found.size() > 1)
-    throw InputError(header, fmt::format("{}: '{}' may be column '{}' or '{}'; name one of them",
-                                         layout.place, wanted, printable(names[found[0]]),
-                                         printable(names[found[1]])));
+    throw InputError(
+        header, fmt::format("{}: '{}' may be column '{}' or '{}'; name one of them", layout.place,
+                            wanted, printable(names[found[0]]), printable(names[found[1]])));
   const auto nearest = nearest_name(wanted, Names(names.begin(), names.end()));
-  throw InputError(header, fmt::format("{}: column '{}' is missing; is it '{}'?", layout.place, wanted,
-                                       printable(nearest)));
+  throw InputError(header, fmt::format("{}: column '{}' is missing; is it '{}'?", layout.place,
+                                       wanted, printable(nearest)));
 }
 
 /// The unit that a name ends in: gyro_z_mdps, time_ms, rate_rad_s.
@@ -81,8 +82,8 @@ const Unit* suffix_unit(std::string_view name, std::string_view quantity) {
   return nullptr;
 }
 
-const Unit* unit_of(const FileColumn& column, const std::string& wanted, const std::string& row_unit,
-                    const std::string& header) {
+const Unit* unit_of(const FileColumn& column, const std::string& wanted,
+                    const std::string& row_unit, const std::string& header) {
   const auto quantity = quantity_of(column.standard);
   const auto place = fmt::format("{}: column '{}'", header, printable(column.name));
   for (const auto& text : {split_unit(wanted).second, split_unit(column.name).second, row_unit})
@@ -101,7 +102,8 @@ std::vector<std::string> standard_columns() {
 
 namespace {
 
-/// Where the piece that begins at `begin` ends: at the next comma outside brackets, as in "Gyro(:,3)".
+/// Where the piece that begins at `begin` ends: at the next comma outside brackets, as in
+/// "Gyro(:,3)".
 std::size_t piece_end(const std::string& text, std::size_t begin) {
   int depth = 0;
   for (std::size_t i = begin; i < text.size(); ++i) {
@@ -113,17 +115,21 @@ std::size_t piece_end(const std::string& text, std::size_t begin) {
 
 }  // namespace
 
-std::map<std::string, std::string> parse_assignments(const std::string& text, const std::string& place) {
+std::map<std::string, std::string> parse_assignments(const std::string& text,
+                                                     const std::string& place) {
   std::map<std::string, std::string> assignments;
   for (std::size_t begin = 0; begin < text.size();) {
     const auto end = piece_end(text, begin);
     const auto piece = text.substr(begin, end - begin);
     const auto equals = piece.find('=');
     if (equals == 0 || equals == piece.npos || equals + 1 == piece.size())
-      throw InputError(place, fmt::format("'{}' is no assignment; allowed: channel=name,channel=name, as "
-                                          "t=Time[ms],gyro=GyrZ", piece));
+      throw InputError(place,
+                       fmt::format("'{}' is no assignment; allowed: channel=name,channel=name, as "
+                                   "t=Time[ms],gyro=GyrZ",
+                                   piece));
     if (!assignments.emplace(piece.substr(0, equals), piece.substr(equals + 1)).second)
-      throw InputError(place, fmt::format("'{}' stands twice; allowed: once", piece.substr(0, equals)));
+      throw InputError(place,
+                       fmt::format("'{}' stands twice; allowed: once", piece.substr(0, equals)));
     begin = end + 1;
   }
   return assignments;
@@ -144,7 +150,8 @@ std::vector<FileColumn> under_layout(std::span<const std::string> names,
     wanted[at] = text;
   }
   std::map<std::string, std::string> given;
-  for (const auto& [channel, unit] : layout.units) given[standard_name(channel, layout.place)] = unit;
+  for (const auto& [channel, unit] : layout.units)
+    given[standard_name(channel, layout.place)] = unit;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     auto& column = columns[i];
     const auto stated = given.extract(column.standard);
@@ -156,9 +163,10 @@ std::vector<FileColumn> under_layout(std::span<const std::string> names,
       column.unit = unit_of(column, wanted[i], i < units.size() ? units[i] : "", header);
   }
   if (!given.empty())
-    throw InputError(header, fmt::format("{}: a unit for '{}', but there is no such column; allowed: "
-                                         "channels that the recording has", layout.place,
-                                         given.begin()->first));
+    throw InputError(header,
+                     fmt::format("{}: a unit for '{}', but there is no such column; allowed: "
+                                 "channels that the recording has",
+                                 layout.place, given.begin()->first));
   return columns;
 }
 

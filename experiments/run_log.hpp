@@ -8,8 +8,8 @@
 
 namespace gyrostat {
 
-/// A log of JSON lines: {"time": …, "event": …, …}, appended to, each line on its way to the disk as it
-/// is written. A log that cannot be written harms no run.
+/// A log of JSON lines: {"time": …, "event": …, …}, appended to, each line on its way to the disk
+/// as it is written. A log that cannot be written harms no run.
 class RunLog {
  public:
   explicit RunLog(const std::filesystem::path& path);

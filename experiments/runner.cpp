@@ -1,10 +1,10 @@
 #include "experiments/runner.hpp"
 
+#include <algorithm>
+
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-
-#include <algorithm>
 
 namespace gyrostat {
 
@@ -90,8 +90,8 @@ CellResult run_cell(const Cell& cell, std::uint64_t seed, const RunOptions& opti
       run_trials(prepared, seed, options, every, [&](std::uint32_t trial, Record&& record) {
         for (std::size_t m = 0; m < record.outcomes.size(); ++m)
           if (const auto& thrown = record.outcomes[m].thrown; !thrown.empty())
-            throw std::runtime_error(fmt::format("{}, trial {}, {}: {}", cell.name, trial,
-                                                 cell.methods[m].id, thrown));
+            throw std::runtime_error(
+                fmt::format("{}, trial {}, {}: {}", cell.name, trial, cell.methods[m].id, thrown));
         result.trials[trial] = std::move(record);
       });
   result.calibration = std::move(prepared.calibration);

@@ -23,9 +23,9 @@ struct CellResult {
 std::vector<double> metric_values(const CellResult& result, std::size_t method, std::size_t metric);
 
 struct RunOptions {
-  int threads = 0;                           ///< 0: as many as the machine has
-  const std::atomic<bool>* stop = nullptr;   ///< once true, running trials finish and no more start
-  std::uint32_t lanes = default_lanes();       ///< trials side by side; changes no byte of the result
+  int threads = 0;                          ///< 0: as many as the machine has
+  const std::atomic<bool>* stop = nullptr;  ///< once true, running trials finish and no more start
+  std::uint32_t lanes = default_lanes();    ///< trials side by side; changes no byte of the result
   std::function<void(std::size_t finished)> progress;  ///< called from any thread
 };
 
@@ -40,8 +40,8 @@ struct PreparedCell {
 PreparedCell prepare_cell(const Cell& cell, std::uint64_t seed, int threads);
 
 /// Runs those trials of the cell that are `wanted`, on oneTBB, and hands each to `take`, from any
-/// thread. A trial's noise is addressed by its number, so no record depends on the number of threads.
-/// Returns nanoseconds per step of each method, metrics included; NaN where nothing ran.
+/// thread. A trial's noise is addressed by its number, so no record depends on the number of
+/// threads. Returns nanoseconds per step of each method, metrics included; NaN where nothing ran.
 std::vector<double> run_trials(const PreparedCell& prepared, std::uint64_t seed,
                                const RunOptions& options,
                                const std::function<bool(std::uint32_t trial)>& wanted,

@@ -1,9 +1,9 @@
 #include "experiments/shard.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include "core/error.hpp"
 
@@ -29,8 +29,8 @@ Shard parse_shard(const std::string& text) {
   const auto count =
       slash == std::string::npos ? -1 : whole_number(std::string_view(text).substr(slash + 1));
   if (index < 1 || index > count || count > most_shards)
-    throw InputError("--shard", fmt::format("'{}' is no shard; allowed: i/n with 1 <= i <= n <= {}", text,
-                                            most_shards));
+    throw InputError("--shard", fmt::format("'{}' is no shard; allowed: i/n with 1 <= i <= n <= {}",
+                                            text, most_shards));
   return {static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(count)};
 }
 
@@ -39,15 +39,17 @@ std::optional<Shard> slurm_shard(const std::function<const char*(const char*)>& 
   const auto number = [&](const char* name) {
     const char* text = environment(name);
     const auto value = whole_number(text ? text : "");
-    if (value < 0) throw InputError(name, fmt::format("'{}' is not a task number", text ? text : ""));
+    if (value < 0)
+      throw InputError(name, fmt::format("'{}' is not a task number", text ? text : ""));
     return static_cast<std::uint32_t>(value);
   };
   const auto id = number("SLURM_ARRAY_TASK_ID"), least = number("SLURM_ARRAY_TASK_MIN"),
              most = number("SLURM_ARRAY_TASK_MAX"), count = number("SLURM_ARRAY_TASK_COUNT");
   if (count != most - least + 1 || id < least || id > most)
-    throw InputError("SLURM_ARRAY_TASK_ID",
-                     fmt::format("the array has {} tasks from {} to {}; with gaps state --shard i/n", count,
-                                 least, most));
+    throw InputError(
+        "SLURM_ARRAY_TASK_ID",
+        fmt::format("the array has {} tasks from {} to {}; with gaps state --shard i/n", count,
+                    least, most));
   return Shard{id - least + 1, count};
 }
 

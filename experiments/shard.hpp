@@ -24,8 +24,8 @@ struct Shard {
 /// From "2/8"; throws InputError otherwise.
 Shard parse_shard(const std::string& text);
 
-/// The shard of a task in a Slurm job array; nothing outside of one. Throws InputError where the array
-/// has gaps, since ownership would change with them. `environment` is std::getenv.
+/// The shard of a task in a Slurm job array; nothing outside of one. Throws InputError where the
+/// array has gaps, since ownership would change with them. `environment` is std::getenv.
 std::optional<Shard> slurm_shard(const std::function<const char*(const char*)>& environment);
 
 }  // namespace gyrostat

@@ -1,9 +1,10 @@
 #include "experiments/stop_rule.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <span>
+
+#include <boost/math/distributions/students_t.hpp>
 
 #include "analysis/statistics/running.hpp"
 #include "analysis/statistics/sequential.hpp"
@@ -16,7 +17,8 @@
 namespace gyrostat {
 namespace {
 
-std::vector<std::size_t> read_methods(JsonObject& object, const std::string& key, const Cell& cell) {
+std::vector<std::size_t> read_methods(JsonObject& object, const std::string& key,
+                                      const Cell& cell) {
   std::vector<std::string> ids;
   for (const auto& method : cell.methods) ids.push_back(method.id);
   std::vector<std::size_t> chosen;
@@ -57,7 +59,8 @@ std::optional<std::string> narrow_enough(const Cell& cell, const OutcomeSource& 
                      metric_unit(rule.metric));
 }
 
-std::optional<std::string> told_apart(const Cell& cell, std::uint32_t count, const OutcomeSource& trials) {
+std::optional<std::string> told_apart(const Cell& cell, std::uint32_t count,
+                                      const OutcomeSource& trials) {
   const auto& rule = *cell.stop;
   struct Pair {
     std::size_t a, b;
@@ -82,9 +85,12 @@ std::optional<std::string> told_apart(const Cell& cell, std::uint32_t count, con
     const bool equal = std::abs(d.mean) + half_width <= rule.margin;
     if (!equal && !(std::abs(d.mean) > half_width)) return std::nullopt;
     reason += fmt::format("{}{} {} {} by {:.3g} ± {:.2g} {} in {}", reason.empty() ? "" : "; ",
-                          cell.methods[a].id, equal ? "equals" : d.mean < 0.0 ? "is below" : "is above",
-                          cell.methods[b].id, std::abs(d.mean), half_width, metric_unit(rule.metric),
-                          Metrics::ids()[rule.metric]);
+                          cell.methods[a].id,
+                          equal          ? "equals"
+                          : d.mean < 0.0 ? "is below"
+                                         : "is above",
+                          cell.methods[b].id, std::abs(d.mean), half_width,
+                          metric_unit(rule.metric), Metrics::ids()[rule.metric]);
   }
   return reason;
 }
@@ -95,7 +101,8 @@ StopRule read_stop(JsonObject object, const Cell& cell) {
   StopRule rule;
   rule.metric = metric_named(object.text("metric", std::string(judging_metric(cell))),
                              object.place_of("metric"));
-  rule.at_least = static_cast<std::uint32_t>(object.number("at_least", 100, study_ranges::first_look, "trials"));
+  rule.at_least = static_cast<std::uint32_t>(
+      object.number("at_least", 100, study_ranges::first_look, "trials"));
   const auto unit = metric_unit(rule.metric);
   if (object.has("separate") == object.has("half_width_below"))
     throw InputError(object.place(), "either \"separate\" or \"half_width_below\" is needed here");
@@ -122,8 +129,9 @@ StopRule read_stop(JsonObject object, const Cell& cell) {
 Json with_stop(Json study, const std::string& text) {
   const auto rule = text == "none" ? Json() : Json::parse(text, nullptr, false);
   if (rule.is_discarded() || !(rule.is_null() || rule.is_object()))
-    throw InputError("--stop", "neither \"none\" nor JSON as a study's \"stop\", "
-                               R"({"half_width_below": 0.001} or {"separate": ["kf", "stf"]})");
+    throw InputError("--stop",
+                     "neither \"none\" nor JSON as a study's \"stop\", "
+                     R"({"half_width_below": 0.001} or {"separate": ["kf", "stf"]})");
   if (!study.is_object() || !study.contains("cells") || !study["cells"].is_array()) return study;
   for (auto& cell : study["cells"]) {
     if (!cell.is_object()) continue;
@@ -133,7 +141,8 @@ Json with_stop(Json study, const std::string& text) {
   return study;
 }
 
-std::optional<std::string> stop_reason(const Cell& cell, std::uint32_t count, const OutcomeSource& trials) {
+std::optional<std::string> stop_reason(const Cell& cell, std::uint32_t count,
+                                       const OutcomeSource& trials) {
   if (!cell.stop) return std::nullopt;
   return cell.stop->half_width_below > 0.0 ? narrow_enough(cell, trials)
                                            : told_apart(cell, count, trials);
@@ -142,7 +151,8 @@ std::optional<std::string> stop_reason(const Cell& cell, std::uint32_t count, co
 std::size_t comparisons_after_looks(const Cell& cell, std::size_t pairs, std::size_t trials) {
   if (!cell.stop || cell.stop->half_width_below > 0.0 || pairs == 0 || trials == 0) return pairs;
   const auto counts = looks_up_to(*cell.stop, static_cast<std::uint32_t>(trials));
-  const double tail = normal_tail(sequential_bounds(counts, 0.05 / static_cast<double>(pairs)).back());
+  const double tail =
+      normal_tail(sequential_bounds(counts, 0.05 / static_cast<double>(pairs)).back());
   return static_cast<std::size_t>(std::ceil(0.025 / tail - 1e-6));
 }
 

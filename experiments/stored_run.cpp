@@ -8,7 +8,10 @@
 namespace gyrostat {
 
 Json to_json(const CellProgress& p) {
-  Json json = {{"cell", p.cell}, {"finished", p.finished}, {"trials", p.trials}, {"failed", p.failed},
+  Json json = {{"cell", p.cell},
+               {"finished", p.finished},
+               {"trials", p.trials},
+               {"failed", p.failed},
                {"trials_per_s", std::round(p.trials_per_s * 10.0) / 10.0},
                {"left_s", std::round(p.left_s)}};
   if (!p.widest.method.empty())
@@ -45,8 +48,11 @@ std::vector<double> run_missing(Store& store, const PreparedCell& prepared, std:
                                 const std::function<void(const CellProgress&)>& watch) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  CellProgress progress{.cell = prepared.cell.name, .finished = state.finished(),
-                        .trials = state.trials(), .failed = 0, .widest = {}};
+  CellProgress progress{.cell = prepared.cell.name,
+                        .finished = state.finished(),
+                        .trials = state.trials(),
+                        .failed = 0,
+                        .widest = {}};
   std::uint32_t written = 0;
   StoreWriter writer(store, [&](std::span<const TrialRow> rows) {
     for (const auto& row : rows) {

@@ -47,9 +47,9 @@ class CellState {
   IntervalWatch watch_;
 };
 
-/// Runs what is missing of a cell, of the first `prepared.cell.trials`, and puts it into the store, failures included. `watch` hears of every
-/// batch once it is in the store, from the writing thread; trials that it counts can no more be lost.
-/// Returns nanoseconds per step, one a method.
+/// Runs what is missing of a cell, of the first `prepared.cell.trials`, and puts it into the store,
+/// failures included. `watch` hears of every batch once it is in the store, from the writing
+/// thread; trials that it counts can no more be lost. Returns nanoseconds per step, one a method.
 std::vector<double> run_missing(Store& store, const PreparedCell& prepared, std::uint32_t index,
                                 std::uint64_t seed, CellState& state, const RunOptions& options,
                                 const std::function<void(const CellProgress&)>& watch);

@@ -39,7 +39,8 @@ struct Cell {
   CalibrationPlan calibration;
   TuningPlan tuning;
   ParameterMap assumed;  ///< factors on what filters other than the oracle are told
-  bool denoise = false;  ///< the rate is denoised by wavelet shrinkage before its error is judged [B]
+  bool denoise =
+      false;  ///< the rate is denoised by wavelet shrinkage before its error is judged [B]
   std::vector<Method> methods;
   std::optional<StopRule> stop;  ///< before all trials are run
 
@@ -47,7 +48,8 @@ struct Cell {
   bool needs_calibration() const;
   /// The signal of trial `trial` into `series`.
   void make_trial(std::uint64_t seed, std::uint32_t trial, Series& series) const;
-  /// What the methods' output is judged against: the series, with its rate denoised where asked for.
+  /// What the methods' output is judged against: the series, with its rate denoised where asked
+  /// for.
   const Series& judged(const Series& series, Series& buffer) const;
 };
 
@@ -76,7 +78,8 @@ void set_trials(Study& study, std::uint32_t trials);
 const Cell& cell_named(const Study& study, const std::string& name, const std::string& place);
 
 /// Reads and checks a study file; recordings it names are relative to its own folder. Throws one
-/// InputError with a line for each mistake: JSON path, value, unit, allowed range, nearest known name.
+/// InputError with a line for each mistake: JSON path, value, unit, allowed range, nearest known
+/// name.
 Study read_study(const std::string& path);
 
 /// The same for a study's JSON; `path` is what messages name and where recordings are looked for,

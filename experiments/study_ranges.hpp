@@ -2,7 +2,8 @@
 
 #include "core/fields.hpp"
 
-/// What the numbers of a study file may be that are no parameters of a scenario, an effect or a filter.
+/// What the numbers of a study file may be that are no parameters of a scenario, an effect or a
+/// filter.
 namespace gyrostat::study_ranges {
 
 inline constexpr Range trials{.from = 1, .to = 1e8, .whole = true};

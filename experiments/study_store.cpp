@@ -1,8 +1,8 @@
 #include "experiments/study_store.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
+
+#include <unistd.h>
 
 #include "experiments/build.hpp"
 
@@ -12,29 +12,33 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* ways_out =
-    "--mix goes on in it, --set-aside keeps it under another name and begins anew, --out names another "
+    "--mix goes on in it, --set-aside keeps it under another name and begins anew, --out names "
+    "another "
     "folder";
 
 void require_same_cells(const std::string& place, const std::vector<StoredCell>& there,
                         const std::vector<StoredCell>& wanted) {
   for (std::size_t c = 0; c < std::min(there.size(), wanted.size()); ++c)
     if (there[c].name != wanted[c].name || there[c].methods != wanted[c].methods)
-      throw InputError(place, fmt::format("cell {} there is '{}' with {}, not '{}' with {}; --set-aside "
-                                          "keeps it under another name, --out names another folder",
-                                          c + 1, there[c].name, fmt::join(there[c].methods, ", "),
-                                          wanted[c].name, fmt::join(wanted[c].methods, ", ")));
+      throw InputError(place,
+                       fmt::format("cell {} there is '{}' with {}, not '{}' with {}; --set-aside "
+                                   "keeps it under another name, --out names another folder",
+                                   c + 1, there[c].name, fmt::join(there[c].methods, ", "),
+                                   wanted[c].name, fmt::join(wanted[c].methods, ", ")));
 }
 
 void require_same_columns(const std::string& place, const Manifest& there, const Manifest& wanted) {
   if (there.columns != wanted.columns)
-    throw InputError(place, "its outcomes are of other metrics; --set-aside keeps it under another name");
+    throw InputError(place,
+                     "its outcomes are of other metrics; --set-aside keeps it under another name");
 }
 
 std::string described(const Build& build) {
   return fmt::format("{} ({}, {})", build.version, build.compiler, build.flags);
 }
 
-void require_build(const std::string& place, const std::vector<Session>& sessions, const Build& build) {
+void require_build(const std::string& place, const std::vector<Session>& sessions,
+                   const Build& build) {
   for (const auto& session : sessions)
     if (session.trials > 0 && session.build != build)
       throw InputError(place, fmt::format("holds outcomes of build {}, not {}; {}",
@@ -47,9 +51,10 @@ void require_match(const Store& store, const Manifest& wanted, const std::string
   const auto there = store.manifest();
   if (mismatch == Mismatch::refuse) {
     if (there.digest != wanted.digest)
-      throw InputError(place, fmt::format("holds outcomes of another study, or of '{}' before it was "
-                                          "changed (digest {}, now {}); {}",
-                                          there.name, there.digest, wanted.digest, ways_out));
+      throw InputError(place,
+                       fmt::format("holds outcomes of another study, or of '{}' before it was "
+                                   "changed (digest {}, now {}); {}",
+                                   there.name, there.digest, wanted.digest, ways_out));
     require_build(place, store.sessions(), this_build());
   }
   require_same_columns(place, there, wanted);
@@ -67,8 +72,8 @@ std::vector<std::string> outcome_columns() {
 
 Manifest manifest_of(const Study& study) {
   const auto folder = fs::absolute(study.path).parent_path().lexically_normal();
-  Manifest manifest{study.digest, study.name(), study.seed, study.source, folder.string(),
-                    outcome_columns(), {}};
+  Manifest manifest{study.digest,    study.name(),      study.seed, study.source,
+                    folder.string(), outcome_columns(), {}};
   for (const auto& cell : study.cells) {
     auto& stored = manifest.cells.emplace_back(StoredCell{cell.name, {}, cell.trials, 0});
     for (const auto& method : cell.methods) stored.methods.push_back(method.id);
@@ -94,15 +99,16 @@ void require_same(const fs::path& into, const fs::path& from, Mismatch mismatch)
   const auto place = (from / Store::file_name).string();
   if (mismatch == Mismatch::refuse) {
     if (there.digest != other.digest)
-      throw InputError(place, fmt::format("is of another study than {} (digest {} and {}); --mix merges "
-                                          "them all the same",
-                                          into.string(), other.digest, there.digest));
+      throw InputError(place,
+                       fmt::format("is of another study than {} (digest {} and {}); --mix merges "
+                                   "them all the same",
+                                   into.string(), other.digest, there.digest));
     for (const auto& session : a.sessions())
       for (const auto& theirs : b.sessions())
         if (session.trials > 0 && theirs.trials > 0 && session.build != theirs.build)
-          throw InputError(place, fmt::format("is by build {}, {} by {}; --mix merges them all the same",
-                                              described(theirs.build), into.string(),
-                                              described(session.build)));
+          throw InputError(
+              place, fmt::format("is by build {}, {} by {}; --mix merges them all the same",
+                                 described(theirs.build), into.string(), described(session.build)));
   }
   require_same_columns(place, there, other);
   require_same_cells(place, there.cells, other.cells);
@@ -122,10 +128,12 @@ TrialRow row_of(std::uint32_t cell, std::uint32_t trial, const Record& record) {
   row.outcomes.reserve(record.outcomes.size() * (metric_count + status_names.size() + 1));
   for (std::uint32_t m = 0; m < record.outcomes.size(); ++m) {
     const auto& outcome = record.outcomes[m];
-    for (const double value : outcome.metrics) row.outcomes.push_back(std::isnan(value) ? no_value : value);
+    for (const double value : outcome.metrics)
+      row.outcomes.push_back(std::isnan(value) ? no_value : value);
     for (const auto count : outcome.status_counts) row.outcomes.push_back(count);
     row.outcomes.push_back(outcome.diverged);
-    if (!outcome.thrown.empty()) row.failures.push_back({cell, trial, m, "threw: " + outcome.thrown});
+    if (!outcome.thrown.empty())
+      row.failures.push_back({cell, trial, m, "threw: " + outcome.thrown});
     if (outcome.breakdowns() == 0) continue;
     std::string reason;
     for (std::size_t s = 0; s < status_names.size(); ++s)

@@ -21,8 +21,8 @@ std::vector<std::string> outcome_columns();
 
 Manifest manifest_of(const Study& study);
 
-/// The store of a study in a folder, to be written; made where there is none. Throws InputError where
-/// `mismatch` refuses what is there.
+/// The store of a study in a folder, to be written; made where there is none. Throws InputError
+/// where `mismatch` refuses what is there.
 Store open_study_store(const std::filesystem::path& folder, const Study& study, Mismatch mismatch);
 
 /// Throws InputError where two stores may not be mixed: they are of other studies or other builds.

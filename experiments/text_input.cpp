@@ -120,7 +120,8 @@ std::vector<std::string> cells_of(std::string_view line, char separator) {
 char separator_of(std::string_view line) {
   char commonest = ',';
   for (const char candidate : {';', '\t'})
-    if (std::count(line.begin(), line.end(), candidate) > std::count(line.begin(), line.end(), commonest))
+    if (std::count(line.begin(), line.end(), candidate) >
+        std::count(line.begin(), line.end(), commonest))
       commonest = candidate;
   return commonest;
 }
@@ -145,12 +146,14 @@ std::optional<double> number_in(std::string_view text, char decimal_point = '.')
   double value = no_value;
   const char* end = text.data() + text.size();
   const auto [stop, error] = fast_float::from_chars_advanced(
-      text.data(), end, value, fast_float::parse_options{fast_float::chars_format::general, decimal_point});
+      text.data(), end, value,
+      fast_float::parse_options{fast_float::chars_format::general, decimal_point});
   return error == std::errc() && stop == end && std::isfinite(value) ? std::optional(value)
                                                                      : std::nullopt;
 }
 
-/// The cells of a line that has a unit and no number, without brackets; nothing where it is another.
+/// The cells of a line that has a unit and no number, without brackets; nothing where it is
+/// another.
 std::vector<std::string> units_in(std::string_view line, const CsvHeader& header) {
   auto units = cells_of(line, header.separator);
   if (units.size() != header.names.size()) return {};
@@ -164,7 +167,8 @@ std::vector<std::string> units_in(std::string_view line, const CsvHeader& header
   return has_unit ? units : std::vector<std::string>{};
 }
 
-/// A cell that is not just a number: blank, padded, quoted, with a plus sign or a decimal comma, or wrong.
+/// A cell that is not just a number: blank, padded, quoted, with a plus sign or a decimal comma, or
+/// wrong.
 double odd_cell(std::string_view cell, const std::string& name, const Row& row) {
   std::string_view number = trimmed(cell);
   if (number.empty()) return no_value;
@@ -187,7 +191,8 @@ void read_row(const Row& row, std::span<const std::string> names,
       double value = no_value;
       const auto [stop, error] = fast_float::from_chars(cell, row_end, value);
       end = stop;
-      if (error != std::errc() || (end != row_end && *end != row.separator) || !std::isfinite(value)) {
+      if (error != std::errc() || (end != row_end && *end != row.separator) ||
+          !std::isfinite(value)) {
         end = cell_end(cell, row_end, row.separator);
         value = odd_cell({cell, static_cast<std::size_t>(end - cell)}, names[i], row);
       }
@@ -196,9 +201,9 @@ void read_row(const Row& row, std::span<const std::string> names,
       end = cell_end(cell, row_end, row.separator);
     }
     if ((end == row_end) != (i + 1 == names.size())) {
-      row.fail(fmt::format("'{}' has {} cells; allowed: {}, as many as the header",
-                           shown(row.cells),
-                           std::count(row.cells.begin(), row.cells.end(), row.separator) + 1, names.size()));
+      row.fail(fmt::format(
+          "'{}' has {} cells; allowed: {}, as many as the header", shown(row.cells),
+          std::count(row.cells.begin(), row.cells.end(), row.separator) + 1, names.size()));
     }
     cell = end + 1;
   }

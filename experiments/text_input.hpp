@@ -25,15 +25,15 @@ struct CsvHeader {
   std::size_t first_row = 2;       ///< line of the first row
 };
 
-/// Cuts the header off the front of a CSV, with a byte order mark and with lines of comment (#, %, //)
-/// or nothing above it. Where the first other line is a row of numbers, the names are in the last
-/// comment. Throws InputError when a name appears twice.
+/// Cuts the header off the front of a CSV, with a byte order mark and with lines of comment (#, %,
+/// //) or nothing above it. Where the first other line is a row of numbers, the names are in the
+/// last comment. Throws InputError when a name appears twice.
 CsvHeader take_header(std::string_view& csv, std::string_view place);
 
 /// Appends column i of the rows below a header to `*targets[i]`, or skips it where that is null. A
-/// blank cell is NaN; where commas do not separate they may be decimal. Throws InputError with line,
-/// column and value for a cell that is not a finite number, a row of another length than the header,
-/// and a blank line that is not at the end.
+/// blank cell is NaN; where commas do not separate they may be decimal. Throws InputError with
+/// line, column and value for a cell that is not a finite number, a row of another length than the
+/// header, and a blank line that is not at the end.
 void read_columns(std::string_view rows, const CsvHeader& header,
                   std::span<std::vector<double>* const> targets, std::string_view place);
 

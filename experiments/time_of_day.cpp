@@ -6,7 +6,8 @@ namespace gyrostat {
 
 std::time_t next_time_of_day(const std::string& text, std::time_t now) {
   const auto digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
-  const bool sound = text.size() == 5 && digit(0) && digit(1) && text[2] == ':' && digit(3) && digit(4);
+  const bool sound =
+      text.size() == 5 && digit(0) && digit(1) && text[2] == ':' && digit(3) && digit(4);
   const int hour = sound ? std::stoi(text.substr(0, 2)) : 24;
   const int minute = sound ? std::stoi(text.substr(3)) : 60;
   if (hour > 23 || minute > 59)

@@ -12,9 +12,10 @@ namespace {
 /// RMS of what there is to compensate: drift and random error. NaN without the truth.
 double uncompensated_rmse(const Series& series) {
   if (!has_truth(series)) return no_value;
-  return error_moments(series.size(), [&](std::size_t i) {
-           return series.thermal_bias_dps[i] + series.random_error_dps[i];
-         }).rmse;
+  return error_moments(
+             series.size(),
+             [&](std::size_t i) { return series.thermal_bias_dps[i] + series.random_error_dps[i]; })
+      .rmse;
 }
 
 }  // namespace
@@ -47,9 +48,8 @@ Outcome judge_track(const Series& series, const Series& judged, const Track& tra
   Outcome outcome;
   const TrackErrors errors = track_errors(judged, track);
   std::size_t m = 0;
-  Metrics::for_each([&](auto plugin) {
-    outcome.metrics[m++] = typename decltype(plugin)::type{}(errors);
-  });
+  Metrics::for_each(
+      [&](auto plugin) { outcome.metrics[m++] = typename decltype(plugin)::type{}(errors); });
   outcome.status_counts = track.status_counts();
   outcome.diverged = errors.bias.rmse > divergence_ratio * uncompensated_rmse(series);
   return outcome;
@@ -62,9 +62,8 @@ ParameterMap told_parameters(const Cell& cell, const Method& method, const Calib
   ParameterMap parameters;
   if (method.source == ParameterSource::truth) parameters = true_parameters(cell.scenario);
   if (method.source == ParameterSource::calibration)
-    parameters = parameters_from(calibration, series.temperature_C.empty()
-                                                  ? no_value
-                                                  : series.temperature_C.front());
+    parameters = parameters_from(
+        calibration, series.temperature_C.empty() ? no_value : series.temperature_C.front());
   if (method.filter == "oracle") return parameters;
   for (const auto& [name, factor] : cell.assumed)
     if (const auto value = parameters.find(name); value != parameters.end())
@@ -76,8 +75,7 @@ Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t t
                            Series& buffer) {
   if (cell.recording) return calibrate(cell.calibration_span, cell.calibration.method);
   Scenario scenario = cell.scenario;
-  if (cell.calibration.duration_s > 0.0)
-    scenario.sampling.duration_s = cell.calibration.duration_s;
+  if (cell.calibration.duration_s > 0.0) scenario.sampling.duration_s = cell.calibration.duration_s;
   synthesise(scenario, calibration_noise(seed, trial), buffer);
   return calibrate(buffer, cell.calibration.method);
 }

@@ -63,9 +63,9 @@ ParameterMap told_parameters(const Cell& cell, const Method& method, const Calib
 Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t trial,
                            Series& buffer);
 
-/// Trial number `trial` of a cell. `shared` is used unless the cell calibrates each trial. What a method
-/// throws is its outcome; what signal or calibration throw is the outcome of all. Only a lack of memory
-/// is thrown on.
+/// Trial number `trial` of a cell. `shared` is used unless the cell calibrates each trial. What a
+/// method throws is its outcome; what signal or calibration throw is the outcome of all. Only a
+/// lack of memory is thrown on.
 Record run_trial(const Cell& cell, const Calibration& shared, std::uint64_t seed,
                  std::uint32_t trial, Workspace& workspace);
 

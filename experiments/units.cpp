@@ -84,7 +84,9 @@ const Unit& unit_named(std::string_view name, std::string_view quantity, std::st
   throw InputError(place, unknown_name("unit", name, names) + "; allowed: " + all);
 }
 
-bool is_unit(std::string_view name) { return std::ranges::find(units, name, &Unit::name) != units.end(); }
+bool is_unit(std::string_view name) {
+  return std::ranges::find(units, name, &Unit::name) != units.end();
+}
 
 std::pair<std::string, std::string> split_unit(std::string_view column) {
   for (const auto brackets : {"[]", "()"}) {

@@ -7,10 +7,12 @@
 
 namespace gyrostat {
 
-/// A unit that recordings come in, and its way into the program's own: (value - zero) * times / over.
+/// A unit that recordings come in, and its way into the program's own: (value - zero) * times /
+/// over.
 struct Unit {
   std::string_view name;
-  std::string_view quantity;  ///< the program's own unit of it: "s", "dps", "°C", "deg", "m/s²", "1"
+  std::string_view
+      quantity;  ///< the program's own unit of it: "s", "dps", "°C", "deg", "m/s²", "1"
   double zero = 0.0, times = 1.0, over = 1.0;
 
   double to_own(double value) const { return (value - zero) * times / over; }
@@ -28,7 +30,8 @@ const Unit& unit_named(std::string_view name, std::string_view quantity, std::st
 /// Whether any quantity has a unit of this name.
 bool is_unit(std::string_view name);
 
-/// A column's name and the unit behind it, as in "Time[ms]", "Time (ms)" or "[ms]"; "" where it has none.
+/// A column's name and the unit behind it, as in "Time[ms]", "Time (ms)" or "[ms]"; "" where it has
+/// none.
 std::pair<std::string, std::string> split_unit(std::string_view column);
 
 }  // namespace gyrostat

@@ -41,8 +41,9 @@ class Deviates {
   std::uint64_t drawn_ = 0;
 };
 
-/// exp(-dt / time constant) from one sample to the next, whatever the intervals. It is computed anew
-/// where the interval changes by more than a millionth, so that an even series costs one exponential.
+/// exp(-dt / time constant) from one sample to the next, whatever the intervals. It is computed
+/// anew where the interval changes by more than a millionth, so that an even series costs one
+/// exponential.
 class Decay {
  public:
   explicit Decay(double time_constant_s) : time_constant_s_(time_constant_s) {}

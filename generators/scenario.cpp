@@ -12,8 +12,11 @@ namespace {
 
 void apply_stage(Stage stage, const Scenario& scenario, const Noise& noise, Series& series) {
   for (const auto& any : scenario.effects)
-    std::visit([&](const auto& effect) { if (effect.stage == stage) effect.apply(series, noise); },
-               any);
+    std::visit(
+        [&](const auto& effect) {
+          if (effect.stage == stage) effect.apply(series, noise);
+        },
+        any);
 }
 
 void linear_drift(const ThermalDrift<double>& drift, Series& series) {
@@ -102,8 +105,11 @@ void synthesise(const Scenario& scenario, const Noise& noise, Series& series) {
 
   const auto over_time = [&](const auto& profile, std::vector<double>& out) {
     out.resize(samples);
-    std::visit([&](const auto& at) { std::transform(series.t_s.begin(), series.t_s.end(),
-                                                    out.begin(), at); }, profile);
+    std::visit(
+        [&](const auto& at) {
+          std::transform(series.t_s.begin(), series.t_s.end(), out.begin(), at);
+        },
+        profile);
   };
   over_time(scenario.temperature, series.temperature_C);
   over_time(scenario.motion, series.rate_ref_dps);

@@ -21,8 +21,10 @@ struct Sampling {
   static constexpr auto fields() {
     using P = Sampling;
     return std::array{
-        Field{"duration_s", &P::duration_s, "s", Range{.from = 0, .to = 1e7, .open_from = true}, "length of the signal"},
-        Field{"rate_hz", &P::rate_hz, "Hz", Range{.from = 0, .to = 1e6, .open_from = true}, "sampling rate"},
+        Field{"duration_s", &P::duration_s, "s", Range{.from = 0, .to = 1e7, .open_from = true},
+              "length of the signal"},
+        Field{"rate_hz", &P::rate_hz, "Hz", Range{.from = 0, .to = 1e6, .open_from = true},
+              "sampling rate"},
     };
   }
 
@@ -46,11 +48,11 @@ struct Scenario {
 /// altered by each effect at its stage. T' of the linear drift is the derivative between samples.
 void synthesise(const Scenario& scenario, const Noise& noise, Series& series);
 
-/// The errors of `scenario` under the conditions of a recording: its times, even or not, temperature,
-/// rate (0 where it has none), acceleration, mag_valid, and its gaps in gyro and heading. The
-/// scenario's sampling, profiles, effects on the environment and magnetic disturbances play no part.
-/// Missing temperatures, rates and accelerations are held while errors are computed from them;
-/// without temperature the drift is c alone. `series` is another than `conditions`.
+/// The errors of `scenario` under the conditions of a recording: its times, even or not,
+/// temperature, rate (0 where it has none), acceleration, mag_valid, and its gaps in gyro and
+/// heading. The scenario's sampling, profiles, effects on the environment and magnetic disturbances
+/// play no part. Missing temperatures, rates and accelerations are held while errors are computed
+/// from them; without temperature the drift is c alone. `series` is another than `conditions`.
 void synthesise_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
                       Series& series);
 

@@ -7,8 +7,9 @@ namespace gyrostat {
 enum class Stage {
   environment,  ///< on temperature and true rate
   sensing,      ///< on the thermal drift (thermal_bias_dps)
-  noise,        ///< on the white noise, while gyro_dps holds rate, drift, random error and nothing else
-  electronics,  ///< on the analogue signal (gyro_dps): slow errors, response to the rate, gross errors
+  noise,  ///< on the white noise, while gyro_dps holds rate, drift, random error and nothing else
+  electronics,  ///< on the analogue signal (gyro_dps): slow errors, response to the rate, gross
+                ///< errors
   conversion,   ///< at the analogue-to-digital converter (gyro_dps)
   transport,    ///< between converter and recording (gyro_dps)
   compass,      ///< on heading_deg before its white noise, not yet wrapped to +-180

@@ -49,7 +49,9 @@ void Statement::run() {
 
 void Statement::reset() { sqlite3_reset(statement_); }
 
-std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(statement_, column); }
+std::int64_t Statement::integer(int column) const {
+  return sqlite3_column_int64(statement_, column);
+}
 
 std::string Statement::text(int column) const {
   const auto* text = sqlite3_column_text(statement_, column);
@@ -69,10 +71,14 @@ bool can_write(const std::filesystem::path& path) { return ::access(path.c_str()
 std::string uri_of(const std::filesystem::path& path, bool frozen) {
   std::string uri = "file:";
   for (const char c : std::filesystem::absolute(path).string())
-    if (c == '%') uri += "%25";
-    else if (c == '?') uri += "%3f";
-    else if (c == '#') uri += "%23";
-    else uri += c;
+    if (c == '%')
+      uri += "%25";
+    else if (c == '?')
+      uri += "%3f";
+    else if (c == '#')
+      uri += "%23";
+    else
+      uri += c;
   return uri + (frozen ? "?immutable=1" : "");
 }
 
@@ -83,15 +89,16 @@ void Database::Close::operator()(sqlite3* connection) const { sqlite3_close_v2(c
 Database::Database(const std::filesystem::path& path, Access access) : path_(path) {
   constexpr int busy_ms = 60000;
   sqlite3* connection = nullptr;
-  // The last reader, too, tidies the log away where it may; it still changes nothing that can be read.
+  // The last reader, too, tidies the log away where it may; it still changes nothing that can be
+  // read.
   const bool writable = can_write(std::filesystem::absolute(path).parent_path()) &&
                         (!std::filesystem::exists(path) || can_write(path));
   const bool frozen = !writable && !std::filesystem::exists(path.string() + "-wal");
   const int flags = access == Access::write ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE
                     : writable              ? SQLITE_OPEN_READWRITE
                                             : SQLITE_OPEN_READONLY;
-  const int code = sqlite3_open_v2(uri_of(path, frozen && access == Access::read).c_str(), &connection,
-                                   flags | SQLITE_OPEN_URI, nullptr);
+  const int code = sqlite3_open_v2(uri_of(path, frozen && access == Access::read).c_str(),
+                                   &connection, flags | SQLITE_OPEN_URI, nullptr);
   connection_.reset(connection);
   if (code != SQLITE_OK) fail(code);
   sqlite3_extended_result_codes(connection, 1);
@@ -115,8 +122,8 @@ std::string Database::text(std::string_view sql) {
 }
 
 void Database::fail(int code) const {
-  throw Error(code, path_.string() + ": " +
-                        (connection_ ? sqlite3_errmsg(get()) : sqlite3_errstr(code)));
+  throw Error(code,
+              path_.string() + ": " + (connection_ ? sqlite3_errmsg(get()) : sqlite3_errstr(code)));
 }
 
 Transaction::~Transaction() {

@@ -52,8 +52,8 @@ struct Session {
   Build build;
   std::string machine;
   std::int64_t process = 0;
-  std::string started;   ///< UTC
-  std::string progress;  ///< JSON, as of the last batch
+  std::string started;      ///< UTC
+  std::string progress;     ///< JSON, as of the last batch
   std::int64_t trials = 0;  ///< that it finished; kept by the store
 };
 
@@ -81,11 +81,11 @@ class Store {
 
   /// The store in `folder`, to be read; throws InputError where there is none.
   static Store open(const std::filesystem::path& folder);
-  /// The store in `folder`, to be written by this process alone; made with `manifest` where there is
-  /// none. What is there is checked from end to end.
+  /// The store in `folder`, to be written by this process alone; made with `manifest` where there
+  /// is none. What is there is checked from end to end.
   static Store open_or_create(const std::filesystem::path& folder, const Manifest& manifest);
-  /// Renames the store in `folder`, so that nothing is destroyed; its new name, or nothing where there
-  /// is no store.
+  /// Renames the store in `folder`, so that nothing is destroyed; its new name, or nothing where
+  /// there is no store.
   static std::optional<std::filesystem::path> set_aside(const std::filesystem::path& folder);
 
   Manifest manifest() const;

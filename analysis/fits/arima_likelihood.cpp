@@ -1,15 +1,15 @@
 #include "analysis/fits/arima_likelihood.hpp"
 
-#include <ceres/ceres.h>
-
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <vector>
+
+#include <Eigen/Cholesky>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <ceres/ceres.h>
 
 #include "analysis/fits/arima_innovations.hpp"
 #include "core/error.hpp"
@@ -21,7 +21,7 @@ namespace {
 using Shape = std::array<double, 3>;
 
 constexpr std::size_t fewest_samples = 50;
-constexpr double shape_limit = 6.0;      // |phi|, |theta| < 1 - 1.2e-5
+constexpr double shape_limit = 6.0;  // |phi|, |theta| < 1 - 1.2e-5
 constexpr double log_ratio_limit = 12.0;
 
 template <class T>
@@ -61,9 +61,9 @@ class PredictionErrors final : public ceres::CostFunction {
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
-    return jacobians && jacobians[0] ? evaluate<ceres::Jet<double, 3>>(parameters[0], residuals,
-                                                                       jacobians[0])
-                                     : evaluate<double>(parameters[0], residuals, nullptr);
+    return jacobians && jacobians[0]
+               ? evaluate<ceres::Jet<double, 3>>(parameters[0], residuals, jacobians[0])
+               : evaluate<double>(parameters[0], residuals, nullptr);
   }
 
  private:
@@ -74,8 +74,10 @@ class PredictionErrors final : public ceres::CostFunction {
     using std::sqrt;
     std::array<T, 3> shape;
     for (int i = 0; i < 3; ++i) {
-      if constexpr (std::is_same_v<T, double>) shape[i] = parameters[i];
-      else shape[i] = T(parameters[i], i);
+      if constexpr (std::is_same_v<T, double>)
+        shape[i] = parameters[i];
+      else
+        shape[i] = T(parameters[i], i);
     }
     std::vector<T> whitened;
     whitened.reserve(num_residuals());
@@ -215,8 +217,7 @@ ArimaFit descend(std::span<const double> z, const Variant& variant) {
     Shape candidate = start.shape;
     ceres::Problem problem;
     problem.AddResidualBlock(new PredictionErrors(z, terms), nullptr, candidate.data());
-    if (!held.empty())
-      problem.SetManifold(candidate.data(), new ceres::SubsetManifold(3, held));
+    if (!held.empty()) problem.SetManifold(candidate.data(), new ceres::SubsetManifold(3, held));
     for (int i = 0; i < 3; ++i) {
       const double limit = i < 2 ? shape_limit : log_ratio_limit;
       problem.SetParameterLowerBound(candidate.data(), i, -limit);
@@ -249,7 +250,8 @@ ArimaFit descend(std::span<const double> z, const Variant& variant) {
   if (const auto covariance = covariance_of(fit.parameters, variant, z)) {
     fit.covariance = *covariance;
   } else {
-    fit.covariance = Eigen::Vector4d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
+    fit.covariance =
+        Eigen::Vector4d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
     fit.message += "; the parameters are not all identifiable";
   }
   fit.standard_errors = {std::sqrt(fit.covariance(0, 0)), std::sqrt(fit.covariance(1, 1)),

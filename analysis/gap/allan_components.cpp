@@ -58,14 +58,16 @@ AllanComponents fit_allan_components(const Conditions& conditions, const Scene& 
   if (all.empty()) return best;
   const double white = std::sqrt(std::exp(all.front().log_variance));
   const double longest_s = interval_s * static_cast<double>(all.back().cluster);
-  constexpr std::array memories = {std::array{0.0, 0.0}, std::array{0.8, 0.0}, std::array{0.8, 0.7},
-                                   std::array{0.8, 0.93}, std::array{0.95, 0.8}, std::array{0.95, 0.98}};
+  constexpr std::array memories = {std::array{0.0, 0.0},  std::array{0.8, 0.0},
+                                   std::array{0.8, 0.7},  std::array{0.8, 0.93},
+                                   std::array{0.95, 0.8}, std::array{0.95, 0.98}};
   // The longest octaves have few differences; where the walk is all there is, its likelihood knows
   // more of it.
   const auto m = static_cast<double>(conditions.cluster());
   std::optional<RatioLikelihood> level;
-  if (component == SlowComponent::none) 
-    level.emplace(conditions.train_points(), conditions.train_regressors(), conditions.train_values(scene.slow_dps));
+  if (component == SlowComponent::none)
+    level.emplace(conditions.train_points(), conditions.train_regressors(),
+                  conditions.train_values(scene.slow_dps));
   const auto without_other = [&](double white_dps, double walk_dps) {
     if (!level) return 0.0;
     const double ratio = std::pow(m * walk_dps / white_dps, 2);
@@ -73,8 +75,8 @@ AllanComponents fit_allan_components(const Conditions& conditions, const Scene& 
     return ratio > level->most_likely() ? deviance : from_below(deviance);
   };
   for (const auto& [phi, theta] : memories) {
-    const Arima111<double> unit{.phi = phi, .delta1_dps = 1.0, .delta2_dps = theta,
-                                .measurement_noise_std_dps = 0.0};
+    const Arima111<double> unit{
+        .phi = phi, .delta1_dps = 1.0, .delta2_dps = theta, .measurement_noise_std_dps = 0.0};
     std::vector<double> walk;
     for (const auto& target : all)
       walk.push_back(target.walk_left * arima_allan_variance(unit, target.cluster));
@@ -93,8 +95,9 @@ AllanComponents fit_allan_components(const Conditions& conditions, const Scene& 
       return sum + without_other(p[0], (1.0 - theta) / (1.0 - phi) * p[1]);
     };
     const double step = std::sqrt(walk.back() / all.back().walk_left);
-    std::vector<SearchRange> ranges = {{0.3 * white, 1.5 * white},
-                                       {1e-5 * white / step, (with_walk ? 10.0 : 2e-5) * white / step}};
+    std::vector<SearchRange> ranges = {
+        {0.3 * white, 1.5 * white},
+        {1e-5 * white / step, (with_walk ? 10.0 : 2e-5) * white / step}};
     if (component != SlowComponent::none) ranges.push_back({1e-4 * white, 3.0 * white});
     SearchResult found;
     if (component != SlowComponent::gauss_markov) {
@@ -102,14 +105,17 @@ AllanComponents fit_allan_components(const Conditions& conditions, const Scene& 
     } else {  // the misfit has a valley for each correlation time
       const double shortest_s = std::max(0.5, 5.0 * interval_s);
       ranges.push_back({});
-      for (double time_s = shortest_s; time_s < std::max(2.0 * shortest_s, 3.0 * longest_s); time_s *= 2.0) {
+      for (double time_s = shortest_s; time_s < std::max(2.0 * shortest_s, 3.0 * longest_s);
+           time_s *= 2.0) {
         ranges[3] = {time_s, 2.0 * time_s};
-        if (const auto tried = box_search(ranges, 250, misfit); !(tried.objective >= found.objective))
+        if (const auto tried = box_search(ranges, 250, misfit);
+            !(tried.objective >= found.objective))
           found = tried;
       }
     }
     if (!(found.objective < best.misfit)) continue;
-    best = {.random_error = {.phi = phi, .delta1_dps = found.values[1],
+    best = {.random_error = {.phi = phi,
+                             .delta1_dps = found.values[1],
                              .delta2_dps = theta * found.values[1],
                              .measurement_noise_std_dps = found.values[0]},
             .misfit = found.objective};

@@ -111,27 +111,32 @@ void Conditions::find_spans() {
     }
     std::size_t end = i;
     while (end < size() && is_missing(z[end])) ++end;
-    if (i > 0 && end < size() && end - i <= bridged && part_of(i - 1) == part_of(end)) gaps_.push_back({i, end});
-    else std::fill(present.begin() + static_cast<std::ptrdiff_t>(i),
-                   present.begin() + static_cast<std::ptrdiff_t>(end), char{0});
+    if (i > 0 && end < size() && end - i <= bridged && part_of(i - 1) == part_of(end))
+      gaps_.push_back({i, end});
+    else
+      std::fill(present.begin() + static_cast<std::ptrdiff_t>(i),
+                present.begin() + static_cast<std::ptrdiff_t>(end), char{0});
     i = end;
   }
-  fast_ = runs(size(), shortest_span, [&](std::size_t i) { return present[i] != 0; },
-               [&](std::size_t i) { return part_of(i); });
+  fast_ = runs(
+      size(), shortest_span, [&](std::size_t i) { return present[i] != 0; },
+      [&](std::size_t i) { return part_of(i); });
   std::vector<char> whole(size() / cluster_, 1);
   for (std::size_t i = 0; i < whole.size() * cluster_; ++i)
     if (present[i] == 0) whole[i / cluster_] = 0;
-  slow_ = runs(whole.size(), shortest_slow_span, [&](std::size_t i) { return whole[i] != 0; },
-               [&](std::size_t i) { return part_of(i * cluster_); });
+  slow_ = runs(
+      whole.size(), shortest_slow_span, [&](std::size_t i) { return whole[i] != 0; },
+      [&](std::size_t i) { return part_of(i * cluster_); });
 }
 
 void Conditions::find_drift() {
   const bool regress =
-      has_temperature() && *std::max_element(slow_temperature_C_.begin(), slow_temperature_C_.end()) -
-                                   *std::min_element(slow_temperature_C_.begin(),
-                                                     slow_temperature_C_.end()) >
-                               0.5;
-  drift_regressors_ = Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(slow_size()), regress ? 4 : 1);
+      has_temperature() &&
+      *std::max_element(slow_temperature_C_.begin(), slow_temperature_C_.end()) -
+              *std::min_element(slow_temperature_C_.begin(), slow_temperature_C_.end()) >
+          0.5;
+  drift_regressors_ =
+      Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(slow_size()), regress ? 4 : 1);
   for (std::size_t i = 0; regress && i < slow_size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, slow_size() - 1);
@@ -144,9 +149,11 @@ void Conditions::find_drift() {
     for (std::size_t i = span.first; i < span.last; ++i) train_points_.push_back(i);
 
   std::vector<double> rate_error = series_.gyro_dps;
-  for (std::size_t i = 0; i < series_.rate_ref_dps.size(); ++i) rate_error[i] -= series_.rate_ref_dps[i];
+  for (std::size_t i = 0; i < series_.rate_ref_dps.size(); ++i)
+    rate_error[i] -= series_.rate_ref_dps[i];
   bridge(rate_error);
-  const RatioLikelihood likelihood(train_points_, train_regressors(), train_values(slow_means(rate_error)));
+  const RatioLikelihood likelihood(train_points_, train_regressors(),
+                                   train_values(slow_means(rate_error)));
   level_.emplace(train_points_, likelihood.most_likely());
   const Eigen::MatrixXd white = level_->innovations_of_columns(train_regressors());
   drift_fit_ = white.transpose();
@@ -241,10 +248,11 @@ Series on_grid(const Series& series, std::string_view place) {
     const double steps = (series.t_s[i] - series.t_s[i - 1]) / step;
     const double whole = std::round(steps);
     if (whole < 1.0 || std::abs(steps - whole) > 0.3)
-      throw InputError(std::string(place) + " line " + std::to_string(i + 2),
-                       "t_s = " + std::to_string(series.t_s[i]) + " s: sampled unevenly, " +
-                           std::to_string(steps) + " intervals of " + std::to_string(step) +
-                           " s after the sample before it; a whole number, give or take 0.3, is allowed");
+      throw InputError(
+          std::string(place) + " line " + std::to_string(i + 2),
+          "t_s = " + std::to_string(series.t_s[i]) + " s: sampled unevenly, " +
+              std::to_string(steps) + " intervals of " + std::to_string(step) +
+              " s after the sample before it; a whole number, give or take 0.3, is allowed");
     index[i] = index[i - 1] + static_cast<std::size_t>(whole);
   }
   const std::size_t size = index.back() + 1;

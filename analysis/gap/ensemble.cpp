@@ -21,7 +21,9 @@ double largest(const Eigen::VectorXd& z, const LensView& lens) {
   return z.segment(lens.first, lens.count).cwiseAbs().maxCoeff();
 }
 
-struct Moments { double mean, variance; };
+struct Moments {
+  double mean, variance;
+};
 /// Of all values but the one at `left_out`.
 Moments moments(const std::vector<double>& values, std::size_t left_out) {
   double mean = 0.0, square = 0.0, count = 0.0;
@@ -45,7 +47,8 @@ Ensemble::Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas
   mean_ = replicas.rowwise().mean();
   Eigen::MatrixXd off = replicas.colwise() - mean_;
   Eigen::VectorXd least = Eigen::VectorXd::Constant(mean_.size(), 1e-12);
-  for (const auto& lens : lenses_) least.segment(lens.first, lens.count).array() += lens.least_spread;
+  for (const auto& lens : lenses_)
+    least.segment(lens.first, lens.count).array() += lens.least_spread;
   const auto spread_of = [&](const Eigen::MatrixXd& d) -> Eigen::VectorXd {
     return (d.rowwise().squaredNorm() / static_cast<double>(count - 1)).cwiseSqrt().cwiseMax(least);
   };
@@ -125,7 +128,8 @@ double Ensemble::least_probability(const Eigen::VectorXd& z, const std::vector<T
     const auto& tail = tails[l];
     const double off = (std::log(mean_square(z, lenses_[l])) - tail.centre) / tail.spread;
     least = std::min(least, std::erfc(std::abs(off) / std::numbers::sqrt2));
-    least = std::min(least, -std::expm1(-std::exp((tail.location - largest(z, lenses_[l])) / tail.width)));
+    least = std::min(least,
+                     -std::expm1(-std::exp((tail.location - largest(z, lenses_[l])) / tail.width)));
   }
   return least;
 }

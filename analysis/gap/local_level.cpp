@@ -57,7 +57,8 @@ RatioLikelihood::RatioLikelihood(std::span<const std::size_t> points,
       for (Eigen::Index r = 0; r < qr.rank(); ++r)
         log_determinant += 2.0 * std::log(std::abs(qr.matrixR()(r, r)));
     }
-    deviances_.push_back(log_determinant + freedom * std::log(std::max(rest.squaredNorm(), 1e-300)));
+    deviances_.push_back(log_determinant +
+                         freedom * std::log(std::max(rest.squaredNorm(), 1e-300)));
   }
   const double least = *std::min_element(deviances_.begin(), deviances_.end());
   for (double& d : deviances_) d -= least;

@@ -10,7 +10,8 @@ struct OctaveLens : Lens {
   static constexpr std::string_view coordinate = "tau_s";
 
   OctaveLens(const Conditions& seen, Part seen_part) : Lens(seen, seen_part) {
-    for (std::size_t k = 0; k < octave_count(spans()) && (std::size_t{1} << k) < seen.cluster(); ++k)
+    for (std::size_t k = 0; k < octave_count(spans()) && (std::size_t{1} << k) < seen.cluster();
+         ++k)
       add(k, seen.interval_s());
     fast_ = at.size();
     for (std::size_t k = 0; k < octave_count(slow_spans()); ++k) add(k, seen.slow_interval_s());

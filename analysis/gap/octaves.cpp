@@ -25,7 +25,9 @@ std::vector<Octave> octaves(const std::vector<double>& values, std::span<const S
                             std::size_t fewest) {
   const std::size_t levels = octave_count(spans, fewest);
   std::vector<Octave> result(levels);
-  struct Sums { double square = 0, fourth = 0, peak = 0, level = 0, level_square = 0, level_fourth = 0; };
+  struct Sums {
+    double square = 0, fourth = 0, peak = 0, level = 0, level_square = 0, level_fourth = 0;
+  };
   std::vector<Sums> sums(levels);
   std::vector<double> means;
   for (const auto& span : spans) {
@@ -58,7 +60,8 @@ std::vector<Octave> octaves(const std::vector<double>& values, std::span<const S
       at.level += static_cast<double>(means.size());
       at.level_square += level_square;
       at.level_fourth += level_fourth;
-      for (std::size_t i = 0; i + 1 < means.size(); i += 2) means[i / 2] = 0.5 * (means[i] + means[i + 1]);
+      for (std::size_t i = 0; i + 1 < means.size(); i += 2)
+        means[i / 2] = 0.5 * (means[i] + means[i + 1]);
       means.resize(means.size() / 2);
     }
   }

@@ -10,10 +10,10 @@ namespace gyrostat::gap {
 /// Moments of the differences of neighbouring cluster means at one cluster length.
 struct Octave {
   std::size_t cluster = 1;
-  std::size_t count = 0;      ///< of differences
-  double mean_square = 0.0;   ///< of a difference: twice the Allan variance
-  double kurtosis = 3.0;      ///< of the differences about zero
-  double peak = 1.0;          ///< largest square over the mean square
+  std::size_t count = 0;        ///< of differences
+  double mean_square = 0.0;     ///< of a difference: twice the Allan variance
+  double kurtosis = 3.0;        ///< of the differences about zero
+  double peak = 1.0;            ///< largest square over the mean square
   double level_kurtosis = 3.0;  ///< of the cluster means about the mean of their span
 };
 

@@ -9,12 +9,13 @@ namespace gyrostat::gap {
 namespace {
 
 constexpr double degrees = 5.0;
-constexpr double least_spread = 0.1;  // of whitened readings, whose baseline spread is about 1
+constexpr double least_spread = 0.1;    // of whitened readings, whose baseline spread is about 1
 constexpr double shared_degrees = 6.0;  // that a variance borrows from the others of its lens
 constexpr double forgiven_share = 0.1;
 
 double log_density(double z, double spread) {
-  return -0.5 * (degrees + 1.0) * std::log1p(z * z / (spread * spread * degrees)) - std::log(spread);
+  return -0.5 * (degrees + 1.0) * std::log1p(z * z / (spread * spread * degrees)) -
+         std::log(spread);
 }
 
 double squared_deviation(double nats) {
@@ -45,9 +46,11 @@ LogScore Scoring::of(const Eigen::MatrixXd& replicas) const {
       (white.colwise() - mean).rowwise().squaredNorm() / std::max(1.0, n - 1.0);
   Eigen::VectorXd of_lens(mean.size());
   for (const auto& lens : baseline_.lenses())
-    of_lens.segment(lens.first, lens.count).setConstant(variance.segment(lens.first, lens.count).mean());
+    of_lens.segment(lens.first, lens.count)
+        .setConstant(variance.segment(lens.first, lens.count).mean());
   const auto spread_at = [&](Eigen::Index i, double v) {
-    const double shared = ((n - 1.0) * v + shared_degrees * of_lens[i]) / (n - 1.0 + shared_degrees);
+    const double shared =
+        ((n - 1.0) * v + shared_degrees * of_lens[i]) / (n - 1.0 + shared_degrees);
     return std::sqrt(std::max(shared, least_spread * least_spread) * (1.0 + 1.0 / n) +
                      forgiven_[i] * forgiven_[i]);
   };
@@ -63,8 +66,8 @@ LogScore Scoring::of(const Eigen::MatrixXd& replicas) const {
   for (Eigen::Index k = 0; k < count; ++k)
     for (Eigen::Index i = 0; i < mean.size(); ++i) {
       const double off = (white(i, k) - mean[i]) * n / (n - 1.0);
-      const double others =
-          std::max(0.0, (variance[i] * (n - 1.0) - off * off * (n - 1.0) / n) / std::max(1.0, n - 2.0));
+      const double others = std::max(
+          0.0, (variance[i] * (n - 1.0) - off * off * (n - 1.0) / n) / std::max(1.0, n - 2.0));
       const double density = log_density(off, spread_at(i, others));
       own[k] += density;
       own_each(i, k) = density;
@@ -90,8 +93,8 @@ Eigen::VectorXd Scoring::spread(const Eigen::MatrixXd& replicas) const {
 }
 
 double gap_of(const LogScore& score, const LogScore& truth) {
-  return std::sqrt(std::max(0.0, mean_square_shortfall(score.each, truth.expected_each) -
-                                     truth.typical_shortfall));
+  return std::sqrt(std::max(
+      0.0, mean_square_shortfall(score.each, truth.expected_each) - truth.typical_shortfall));
 }
 
 std::array<double, 2> bootstrap_closed(const Instrument& instrument, const LogScore& before,
@@ -105,8 +108,10 @@ std::array<double, 2> bootstrap_closed(const Instrument& instrument, const LogSc
   for (int draw = 0; draw < draws; ++draw) {
     for (const auto& lens : instrument.lenses())
       for (Eigen::Index k = 0; k < lens.count; ++k) {
-        const auto from = lens.first + std::min(lens.count - 1, static_cast<Eigen::Index>(
-                                           stream.uniform(at++) * static_cast<double>(lens.count)));
+        const auto from =
+            lens.first +
+            std::min(lens.count - 1, static_cast<Eigen::Index>(stream.uniform(at++) *
+                                                               static_cast<double>(lens.count)));
         b.each[lens.first + k] = before.each[from];
         a.each[lens.first + k] = after.each[from];
         t.expected_each[lens.first + k] = truth.expected_each[from];

@@ -8,9 +8,9 @@ namespace gyrostat::gap {
 
 /// How well a simulator foretells readings.
 struct LogScore {
-  double value = 0.0;     ///< of the recording
-  double expected = 0.0;  ///< of a replica of that simulator itself
-  double spread = 1.0;    ///< of such a replica's
+  double value = 0.0;                   ///< of the recording
+  double expected = 0.0;                ///< of a replica of that simulator itself
+  double spread = 1.0;                  ///< of such a replica's
   Eigen::VectorXd each, expected_each;  ///< a reading each
   double typical_shortfall = 0.0;       ///< of such a replica: nine of ten have less
 
@@ -40,11 +40,11 @@ class Scoring {
   Eigen::VectorXd observed_, plain_observed_, forgiven_;
 };
 
-/// The gap of a simulator, in spreads of a true one's readings: with n_i the nats by which the score
-/// of reading i falls short of what a true simulator expects of its own replicas, and
-/// z^2 = 5 (exp(n / 3) - 1) the squared deviation that costs as much, the root mean square of z
-/// beyond that of a replica. A reading that a simulator of too much variety leaves open counts as
-/// well as one that it misses; a recording that `truth` made has a gap of 0.
+/// The gap of a simulator, in spreads of a true one's readings: with n_i the nats by which the
+/// score of reading i falls short of what a true simulator expects of its own replicas, and z^2 = 5
+/// (exp(n / 3) - 1) the squared deviation that costs as much, the root mean square of z beyond that
+/// of a replica. A reading that a simulator of too much variety leaves open counts as well as one
+/// that it misses; a recording that `truth` made has a gap of 0.
 double gap_of(const LogScore& score, const LogScore& truth);
 
 /// 95 % interval of 1 - gap after / gap before when the readings of every lens are drawn again.

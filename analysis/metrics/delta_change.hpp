@@ -7,8 +7,8 @@
 
 namespace gyrostat::metrics {
 
-/// Distance of the estimates of delta1 and delta2 at the end from their initial values; no value for
-/// filters that do not carry them.
+/// Distance of the estimates of delta1 and delta2 at the end from their initial values; no value
+/// for filters that do not carry them.
 struct DeltaChange {
   static constexpr std::string_view title = "how far delta1 and delta2 moved";
   static constexpr std::string_view unit = "dps";

@@ -12,9 +12,7 @@ struct FirstBreakdown {
   static constexpr std::string_view title = "time of the first breakdown";
   static constexpr std::string_view unit = "s";
 
-  double operator()(const TrackErrors& errors) const {
-    return errors.first_breakdown_s;
-  }
+  double operator()(const TrackErrors& errors) const { return errors.first_breakdown_s; }
 };
 
 }  // namespace gyrostat::metrics

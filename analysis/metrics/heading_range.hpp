@@ -11,7 +11,9 @@ struct HeadingRange {
   static constexpr std::string_view title = "heading error, range";
   static constexpr std::string_view unit = "deg";
 
-  double operator()(const TrackErrors& errors) const { return errors.heading.max_deg - errors.heading.min_deg; }
+  double operator()(const TrackErrors& errors) const {
+    return errors.heading.max_deg - errors.heading.min_deg;
+  }
 };
 
 }  // namespace gyrostat::metrics

@@ -11,7 +11,9 @@ struct Innovations {
   static constexpr std::string_view title = "innovations";
   static constexpr std::string_view unit = "1";
 
-  double operator()(const TrackErrors& errors) const { return static_cast<double>(errors.innovations.count); }
+  double operator()(const TrackErrors& errors) const {
+    return static_cast<double>(errors.innovations.count);
+  }
 };
 
 }  // namespace gyrostat::metrics

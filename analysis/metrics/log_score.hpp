@@ -6,9 +6,9 @@
 
 namespace gyrostat::metrics {
 
-/// Mean over time of -log N(nu; 0, S): the logarithmic score of the one-step predictions (Good 1952).
-/// A proper score that needs no truth: on a static recording, the filter with the smallest foretells
-/// the gyro best, and no choice of gain can cheat it as it can the size of z - x_hat.
+/// Mean over time of -log N(nu; 0, S): the logarithmic score of the one-step predictions (Good
+/// 1952). A proper score that needs no truth: on a static recording, the filter with the smallest
+/// foretells the gyro best, and no choice of gain can cheat it as it can the size of z - x_hat.
 struct LogScore {
   static constexpr std::string_view title = "logarithmic score of the innovations, mean";
   static constexpr std::string_view unit = "nat";

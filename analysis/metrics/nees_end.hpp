@@ -6,9 +6,9 @@
 
 namespace gyrostat::metrics {
 
-/// Squared bias estimation error over the variance that the filter states, at the last sample: one degree
-/// of freedom a trial, so that the mean over N trials of a consistent filter is chi-squared with N over N
-/// (Bar-Shalom et al. 2001, sec. 5.4.2). Needs the truth.
+/// Squared bias estimation error over the variance that the filter states, at the last sample: one
+/// degree of freedom a trial, so that the mean over N trials of a consistent filter is chi-squared
+/// with N over N (Bar-Shalom et al. 2001, sec. 5.4.2). Needs the truth.
 struct NeesEnd {
   static constexpr std::string_view title = "normalised estimation error squared, at the end";
   static constexpr std::string_view unit = "1";

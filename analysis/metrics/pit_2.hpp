@@ -6,8 +6,9 @@
 
 namespace gyrostat::metrics {
 
-/// Share of innovations between the quantiles 0.2 and 0.3 of the normal distribution that the filter
-/// foretold (probability integral transform; Dawid, JRSS A 147, 1984): 0.1 for a consistent filter.
+/// Share of innovations between the quantiles 0.2 and 0.3 of the normal distribution that the
+/// filter foretold (probability integral transform; Dawid, JRSS A 147, 1984): 0.1 for a consistent
+/// filter.
 struct Pit2 {
   static constexpr std::string_view title = "innovations in tenth 3 of what was foretold";
   static constexpr std::string_view unit = "1";

@@ -116,7 +116,8 @@ class Search {
 }  // namespace
 
 double SearchRange::at(double fraction) const {
-  const double value = low > 0.0 ? low * std::pow(high / low, fraction) : std::lerp(low, high, fraction);
+  const double value =
+      low > 0.0 ? low * std::pow(high / low, fraction) : std::lerp(low, high, fraction);
   return std::clamp(whole ? std::round(value) : value, low, high);
 }
 

@@ -24,9 +24,9 @@ struct SearchResult {
   int evaluations = 0;
 };
 
-/// Minimises `objective` over a box with exactly `evaluations` calls, without derivatives: the first
-/// half on Halton's points, the rest by the simplex of Nelder and Mead (1965) from the best of them,
-/// clipped to the box. Deterministic. NaN counts as worst.
+/// Minimises `objective` over a box with exactly `evaluations` calls, without derivatives: the
+/// first half on Halton's points, the rest by the simplex of Nelder and Mead (1965) from the best
+/// of them, clipped to the box. Deterministic. NaN counts as worst.
 SearchResult box_search(const std::vector<SearchRange>& ranges, int evaluations,
                         const std::function<double(const std::vector<double>&)>& objective);
 

@@ -31,11 +31,13 @@ Spectrum welch(std::span<const std::span<const double>> stretches, double rate_h
       for (std::size_t i = 0; i < length; ++i) segment[i] = window[i] * (piece[i] - mean);
       fft.fwd(transform, segment);
       spectrum.density.resize(transform.size(), 0.0);
-      for (std::size_t k = 0; k < transform.size(); ++k) spectrum.density[k] += std::norm(transform[k]);
+      for (std::size_t k = 0; k < transform.size(); ++k)
+        spectrum.density[k] += std::norm(transform[k]);
       ++spectrum.segments;
     }
   }
-  const double scale = 2.0 / (rate_hz * energy * static_cast<double>(std::max<std::size_t>(1, spectrum.segments)));
+  const double scale =
+      2.0 / (rate_hz * energy * static_cast<double>(std::max<std::size_t>(1, spectrum.segments)));
   for (auto& value : spectrum.density) value *= scale;
   if (!spectrum.density.empty()) {
     spectrum.density.front() *= 0.5;

@@ -15,7 +15,8 @@ struct Spectrum {
 
 /// Averages the Hann-windowed, mean-free periodograms of segments of `length` samples, each `hop`
 /// after the one before, over every stretch of evenly sampled values (Welch, IEEE Trans. Audio
-/// Electroacoust. AU-15, 1967). `length` is a power of two >= 4; stretches shorter than it are passed over.
+/// Electroacoust. AU-15, 1967). `length` is a power of two >= 4; stretches shorter than it are
+/// passed over.
 Spectrum welch(std::span<const std::span<const double>> stretches, double rate_hz,
                std::size_t length, std::size_t hop);
 

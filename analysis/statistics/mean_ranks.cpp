@@ -1,19 +1,20 @@
 #include "analysis/statistics/mean_ranks.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/tools/roots.hpp>
 
 namespace gyrostat {
 namespace {
 
 double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
-/// P(range of k normals <= q) = k int phi(z) (Phi(z + q) - Phi(z))^(k - 1) dz over the least of them.
-/// The integrand falls off like a normal density, so equal steps converge exponentially.
+/// P(range of k normals <= q) = k int phi(z) (Phi(z + q) - Phi(z))^(k - 1) dz over the least of
+/// them. The integrand falls off like a normal density, so equal steps converge exponentially.
 double range_cdf(double q, double k) {
   constexpr double step = 0.02, far = 9.0;
   double sum = 0.0;
@@ -41,9 +42,9 @@ std::vector<double> mid_ranks(std::span<const double> values) {
 double studentised_range_quantile(double confidence, std::size_t groups) {
   const double k = static_cast<double>(groups);
   boost::uintmax_t steps = 100;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      [&](double q) { return range_cdf(q, k) - confidence; }, 0.0, 20.0,
-      boost::math::tools::eps_tolerance<double>(40), steps);
+  const auto [low, high] =
+      boost::math::tools::toms748_solve([&](double q) { return range_cdf(q, k) - confidence; }, 0.0,
+                                        20.0, boost::math::tools::eps_tolerance<double>(40), steps);
   return 0.5 * (low + high);
 }
 

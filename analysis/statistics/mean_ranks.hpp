@@ -24,12 +24,12 @@ class RankStatistics {
 
   double mean_rank(std::size_t method) const;
 
-  /// Mean ranks that differ by more are separable, all pairs at once, 95 % (Nemenyi 1963; Demsar, JMLR
-  /// 7, 2006, sec. 3.2.2).
+  /// Mean ranks that differ by more are separable, all pairs at once, 95 % (Nemenyi 1963; Demsar,
+  /// JMLR 7, 2006, sec. 3.2.2).
   double critical_difference() const;
 
-  /// Probability of mean ranks so far apart where all methods are alike: Friedman's chi-squared with its
-  /// correction for ties (Conover 1999, sec. 5.8).
+  /// Probability of mean ranks so far apart where all methods are alike: Friedman's chi-squared
+  /// with its correction for ties (Conover 1999, sec. 5.8).
   double friedman_p() const;
 
  private:

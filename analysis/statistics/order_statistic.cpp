@@ -64,9 +64,9 @@ void OrderStatistic::settle(std::size_t rank) {
   std::sort(kept_.begin(), kept_.end());
   const auto at = rank - below_;
   value_ = number_of(kept_[at]);
-  next_ = at + 1 < kept_.size()     ? number_of(kept_[at + 1])
-          : least_above_ == ~0ULL   ? value_
-                                    : number_of(least_above_);
+  next_ = at + 1 < kept_.size()   ? number_of(kept_[at + 1])
+          : least_above_ == ~0ULL ? value_
+                                  : number_of(least_above_);
 }
 
 void OrderStatistic::narrow(std::size_t rank) {

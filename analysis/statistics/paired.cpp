@@ -1,9 +1,10 @@
 #include "analysis/statistics/paired.hpp"
 
 #include <algorithm>
+#include <cmath>
+
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
-#include <cmath>
 
 namespace gyrostat {
 
@@ -40,11 +41,10 @@ PairedDifference paired_difference(std::size_t count, double mean, double square
   const double tail = 0.025 / comparisons;
   result.half_width = boost::math::quantile(boost::math::complement(t, tail)) * error;
   result.separable = std::abs(result.mean) > result.half_width;
-  result.p_adjusted =
-      error > 0.0 ? std::min(1.0, 2.0 * comparisons *
-                                      boost::math::cdf(boost::math::complement(
-                                          t, std::abs(result.mean) / error)))
-                  : (result.mean == 0.0 ? 1.0 : 0.0);
+  result.p_adjusted = error > 0.0 ? std::min(1.0, 2.0 * comparisons *
+                                                      boost::math::cdf(boost::math::complement(
+                                                          t, std::abs(result.mean) / error)))
+                                  : (result.mean == 0.0 ? 1.0 : 0.0);
   const boost::math::normal normal;
   const double reach = boost::math::quantile(boost::math::complement(normal, tail)) +
                        boost::math::quantile(normal, 0.8);

@@ -9,7 +9,7 @@ namespace gyrostat {
 
 /// The difference of two methods over trials that both have run, in the metric's unit.
 struct PairedDifference {
-  std::size_t count = 0;            ///< trials where both have a value
+  std::size_t count = 0;  ///< trials where both have a value
   double mean = no_value;
   double half_width = no_value;     ///< of the interval, simultaneous over the family
   double p_adjusted = no_value;     ///< Bonferroni over the family, two-sided t test
@@ -22,8 +22,8 @@ struct PairedDifference {
 PairedDifference paired_difference(std::span<const double> a, std::span<const double> b,
                                    std::size_t family);
 
-/// The same from what the pairs add up to: the mean of a - b over `count` pairs and the sum of squares
-/// about it.
+/// The same from what the pairs add up to: the mean of a - b over `count` pairs and the sum of
+/// squares about it.
 PairedDifference paired_difference(std::size_t count, double mean, double squares,
                                    std::size_t family);
 

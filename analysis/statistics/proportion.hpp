@@ -12,8 +12,8 @@ inline std::pair<double, double> wilson_interval(double hits, double count, doub
   const double z = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
   const double p = hits / count;
   const double centre = (p + z * z / (2.0 * count)) / (1.0 + z * z / count);
-  const double half = z / (1.0 + z * z / count) *
-                      std::sqrt(p * (1.0 - p) / count + z * z / (4.0 * count * count));
+  const double half =
+      z / (1.0 + z * z / count) * std::sqrt(p * (1.0 - p) / count + z * z / (4.0 * count * count));
   return {std::max(0.0, centre - half), std::min(1.0, centre + half)};
 }
 

@@ -1,15 +1,16 @@
 #include "analysis/statistics/sequential.hpp"
 
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
+
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/tools/roots.hpp>
 
 namespace gyrostat {
 namespace {
 
-/// The density of the standardised mean where no look has stopped yet, at the nodes of Simpson's rule
-/// on [-bound, bound], times their weights.
+/// The density of the standardised mean where no look has stopped yet, at the nodes of Simpson's
+/// rule on [-bound, bound], times their weights.
 struct Continuing {
   static constexpr std::size_t nodes = 81;
   double z[nodes], mass[nodes];
@@ -55,7 +56,8 @@ std::vector<std::uint32_t> look_counts(std::uint32_t first, std::uint32_t last) 
 std::vector<double> sequential_bounds(std::span<const std::uint32_t> counts, double alpha) {
   std::vector<double> bounds;
   if (counts.empty()) return bounds;
-  bounds.push_back(boost::math::quantile(boost::math::complement(boost::math::normal(), alpha / 4.0)));
+  bounds.push_back(
+      boost::math::quantile(boost::math::complement(boost::math::normal(), alpha / 4.0)));
   Continuing going(bounds[0], normal_density);
   for (std::size_t k = 1; k < counts.size(); ++k) {
     const double spent = alpha / static_cast<double>((k + 1) * (k + 2));

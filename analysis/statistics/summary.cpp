@@ -1,10 +1,11 @@
 #include "analysis/statistics/summary.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <tuple>
 #include <vector>
+
+#include <boost/math/distributions/students_t.hpp>
 
 namespace gyrostat {
 namespace {

@@ -5,15 +5,17 @@
 
 namespace gyrostat {
 
-/// The mean of the worst 5 % (conditional value at risk, expected shortfall) with its 95 % interval.
+/// The mean of the worst 5 % (conditional value at risk, expected shortfall) with its 95 %
+/// interval.
 struct TailMean {
   double value = no_value;
   double low = no_value, high = no_value;  ///< no value for fewer than 200 values
 };
 
-/// CVaR of values that come by as often as it asks for them: v + mean((x - v)+) / 0.05 with v the 95 %
-/// quantile (Rockafellar and Uryasev, J. Risk 2, 2000, eq. 4). The error of v has no first-order
-/// effect, so this is the mean of independent values; they are skewed, hence `skewed_mean_interval`.
+/// CVaR of values that come by as often as it asks for them: v + mean((x - v)+) / 0.05 with v the
+/// 95 % quantile (Rockafellar and Uryasev, J. Risk 2, 2000, eq. 4). The error of v has no
+/// first-order effect, so this is the mean of independent values; they are skewed, hence
+/// `skewed_mean_interval`.
 class StreamedTailMean {
  public:
   void add(double value);  ///< NaN is left out

@@ -20,9 +20,7 @@ class KfMa {
 
   explicit KfMa(const Parameters& p) : model_(p), state_(ModelExact<T>::initial(p)) {}
 
-  void predict() {
-    model_.predict(state_);
-  }
+  void predict() { model_.predict(state_); }
 
   /// z in dps, or NaN for a missing sample.
   Step<T> update(const T& z) { return update_first(state_, model_.R, z); }

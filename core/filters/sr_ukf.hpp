@@ -17,9 +17,7 @@ class SrUkf {
 
   explicit SrUkf(const Parameters& p) : filter_(p) {}
 
-  Step<T> step(const Sample<T>& sample) {
-    return nl_cycle<T>(filter_, sample.gyro_dps);
-  }
+  Step<T> step(const Sample<T>& sample) { return nl_cycle<T>(filter_, sample.gyro_dps); }
 
   const NlUnscented<T>& state() const { return filter_; }
   Learned<T> learned() const { return filter_.learned(); }

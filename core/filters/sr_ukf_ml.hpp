@@ -15,8 +15,8 @@ struct SrUkfMlParameters : KfRmlParameters<T>, UnscentedParameters<T> {
 
 /// SrUkf whose delta1, delta2 and R do learn, which model NL alone cannot [A eq. 5]: before each
 /// sample they are set to what recursive maximum likelihood (KfRml, run beside it) has made of the
-/// samples before. Their doubt is the learner's, so the sigma points take them as known; phi stays a
-/// state of the filter's own. Without initial doubt about them it is SrUkf.
+/// samples before. Their doubt is the learner's, so the sigma points take them as known; phi stays
+/// a state of the filter's own. Without initial doubt about them it is SrUkf.
 template <class T>
 class SrUkfMl {
  public:

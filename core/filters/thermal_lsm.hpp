@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-
 #include <deque>
+
+#include <Eigen/Cholesky>
 
 #include "core/models/thermal_compensator.hpp"
 

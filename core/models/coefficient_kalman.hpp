@@ -16,11 +16,11 @@ struct CoefficientKalmanParameters : ThermalParameters<T>, CoefficientWalk<T> {
 };
 
 /// Kalman filtering of [a, b, c] as a random walk, from y_k = [M_k, M_{k-1}, M_{k-2}] [B eq. 3-4].
-/// Each M is used three times and neighbours share a compass sample, which the filter does not know.
-/// Its covariance is not simply over-confident: reuse alone makes it three times too small (white
-/// errors of M, NEES 3), but shared compass noise cancels in the sum of successive M, so that where it
-/// dominates the covariance is far too large (NEES 0.1); where both are alike the two nearly
-/// balance (`results/published/reuse_of_m`).
+/// Each M is used three times and neighbours share a compass sample, which the filter does not
+/// know. Its covariance is not simply over-confident: reuse alone makes it three times too small
+/// (white errors of M, NEES 3), but shared compass noise cancels in the sum of successive M, so
+/// that where it dominates the covariance is far too large (NEES 0.1); where both are alike the two
+/// nearly balance (`results/published/reuse_of_m`).
 template <class T>
 class CoefficientKalman {
  public:

@@ -36,7 +36,8 @@ class FadingFactor {
  public:
   explicit FadingFactor(const FadingParameters<T>& parameters) : parameters_(parameters) {}
 
-  /// The factor for this step; 1, and nothing learnt, for an innovation that is not finite. Traces of eps eps^T, H Q H^T, R and H F P F^T H^T, all in dps^2.
+  /// The factor for this step; 1, and nothing learnt, for an innovation that is not finite. Traces
+  /// of eps eps^T, H Q H^T, R and H F P F^T H^T, all in dps^2.
   T next(const T& innovation, const T& process, const T& measurement, const T& predicted) {
     using std::isfinite;
     const Mask<T> learns = isfinite(innovation);
@@ -46,8 +47,7 @@ class FadingFactor {
     first_ = first_ && !learns;
     const T& least = parameters_.fading_factor;
     const T factor = (spread_ - process - parameters_.softening * measurement) / predicted;
-    const Mask<T> fades =
-        parameters_.adaptive != T(0.0) && predicted > T(0.0) && factor > least;
+    const Mask<T> fades = parameters_.adaptive != T(0.0) && predicted > T(0.0) && factor > least;
     return select(learns, select(fades, factor, least), T(1.0));
   }
 

@@ -5,8 +5,8 @@
 
 namespace gyrostat {
 
-/// Model L of [A]: X = [x_k, x_{k-1}], F = [[1 + phi, -phi], [1, 0]], G = [[delta1, -delta2], [0, 0]]
-/// and W = [a_k, a_{k-1}] taken as fresh noise at each step, z = x + v.
+/// Model L of [A]: X = [x_k, x_{k-1}], F = [[1 + phi, -phi], [1, 0]], G = [[delta1, -delta2], [0,
+/// 0]] and W = [a_k, a_{k-1}] taken as fresh noise at each step, z = x + v.
 template <class T>
 struct ModelL {
   Vector<T, 2> first;  ///< row 0 of F, which is in companion form
@@ -19,8 +19,7 @@ struct ModelL {
         R(arima.measurement_noise_std_dps * arima.measurement_noise_std_dps) {}
 
   static Gaussian<T, 2> initial(const InitialRandomError<T>& prior) {
-    Gaussian<T, 2> state{{prior.initial_x_dps, prior.initial_x_previous_dps},
-                         Matrix<T, 2>::Zero()};
+    Gaussian<T, 2> state{{prior.initial_x_dps, prior.initial_x_previous_dps}, Matrix<T, 2>::Zero()};
     state.covariance(0, 0) = prior.initial_x_std_dps * prior.initial_x_std_dps;
     state.covariance(1, 1) = prior.initial_x_previous_std_dps * prior.initial_x_previous_std_dps;
     return state;
@@ -49,7 +48,7 @@ struct ModelExact {
     unrolled<3>([&]<int i>() { cross(i) = ordered_dot<T, 3>(state.covariance.col(i), first); });
     state.mean << x, previous, T(0.0);
     state.covariance << ordered_dot<T, 3>(first, cross) + delta1 * delta1, cross(0), delta1,  //
-        cross(0), variance, T(0.0),                                                         //
+        cross(0), variance, T(0.0),                                                           //
         delta1, T(0.0), T(1.0);
   }
 

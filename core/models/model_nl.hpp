@@ -31,9 +31,9 @@ struct InitialParameterStates {
 /// covariance and no correlation with the rest:
 /// - Rows x_{k-1} (the old x) and phi (itself) are linear; row x is quadratic.
 /// - Neither the sigma points nor the measurement of x correlate delta1 and delta2 with anything:
-///   delta a is a product of two independent states, which no pair of symmetric points excites. They
-///   keep mean and variance, so x, x_{k-1} and phi are the `coupled` states and the noise is all that
-///   drives them.
+///   delta a is a product of two independent states, which no pair of symmetric points excites.
+///   They keep mean and variance, so x, x_{k-1} and phi are the `coupled` states and the noise is
+///   all that drives them.
 template <class T>
 struct ModelNl {
   static constexpr int states = 5;
@@ -50,9 +50,7 @@ struct ModelNl {
   }
 
   /// Row x of the Jacobian at a mean of the coupled states.
-  static Coupled gradient(const Coupled& s) {
-    return {T(1.0) + s(2), -s(2), s(0) - s(1)};
-  }
+  static Coupled gradient(const Coupled& s) { return {T(1.0) + s(2), -s(2), s(0) - s(1)}; }
   /// The second-order part of row x along d.
   static T curvature(const T& d_x, const T& d_x_previous, const T& d_phi) {
     return d_phi * (d_x - d_x_previous);

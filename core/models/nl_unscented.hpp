@@ -54,8 +54,9 @@ struct NlRisk {
 
 /// Square-root unscented filtering of model NL augmented with its noise (n = 7) [A eq. 12-20]: the
 /// steps that the SR-UKF and the SR-RSUKF are made of. Of the lower triangular root of all seven
-/// states what the model's structure (see ModelNl) leaves to be computed is kept: that of the coupled
-/// states, and the standard deviations of delta1 and delta2. Masks say in which lanes a step exists.
+/// states what the model's structure (see ModelNl) leaves to be computed is kept: that of the
+/// coupled states, and the standard deviations of delta1 and delta2. Masks say in which lanes a
+/// step exists.
 template <class T>
 class NlUnscented {
  public:
@@ -75,17 +76,17 @@ class NlUnscented {
   }
 
   /// Sigma points through the model. [A eq. 14] prints the central term of the covariance without
-  /// "- mean": mended. Where the downdate that it stands for does not exist, false, and the state is
-  /// of no use.
+  /// "- mean": mended. Where the downdate that it stands for does not exist, false, and the state
+  /// is of no use.
   [[nodiscard]] Mask<T> time_update() {
     Vector<T, coupled> q;
-    unrolled<coupled>(
-        [&]<int j>() { q(j) = ModelNl<T>::curvature(at(0, j), at(1, j), at(2, j)); });
+    unrolled<coupled>([&]<int j>() { q(j) = ModelNl<T>::curvature(at(0, j), at(1, j), at(2, j)); });
     const T x = mean_(0);
     const Mask<T> exists = companion_root<T>(root_, ModelNl<T>::gradient(mean_),
                                              ModelNl<T>::drive(delta_(0), delta_(1)),
                                              transform_.template variance<coupled>(q));
-    mean_(0) = (T(1.0) + mean_(2)) * x - mean_(2) * mean_(1) + transform_.template shift<coupled>(q);
+    mean_(0) =
+        (T(1.0) + mean_(2)) * x - mean_(2) * mean_(1) + transform_.template shift<coupled>(q);
     mean_(1) = x;
     return exists;
   }
@@ -122,10 +123,10 @@ class NlUnscented {
   /// z = x_k + v, with points redrawn from the predicted state.
   ///
   /// The measurement is state 0 and the root lower triangular, so the points' z lie at x and at
-  /// x +- gamma root_(0, 0): S_z^2 = root_(0, 0)^2 + R and P_xz = root_(0, 0) root_(:, 0), whatever the
-  /// weights are. The downdate by U = K S_z ([A eq. 20] prints P_xz S_z: mended) then concerns column 0
-  /// alone and scales it by sqrt(R) / S_z, which cannot lose definiteness. Where S_z is zero `sound` is
-  /// false and the state of no use.
+  /// x +- gamma root_(0, 0): S_z^2 = root_(0, 0)^2 + R and P_xz = root_(0, 0) root_(:, 0), whatever
+  /// the weights are. The downdate by U = K S_z ([A eq. 20] prints P_xz S_z: mended) then concerns
+  /// column 0 alone and scales it by sqrt(R) / S_z, which cannot lose definiteness. Where S_z is
+  /// zero `sound` is false and the state of no use.
   Innovation<T, 1> measurement_update(const T& z) {
     using std::sqrt;
     Innovation<T, 1> innovation;
@@ -179,8 +180,8 @@ class NlUnscented {
 
  private:
   /// delta1 and delta2 stand alone. Risk of the noise is as if it had been drawn with variance
-  /// 1 / (1 - 2 mu), which x alone feels. Out of line, so that the root stays in registers where there
-  /// is no such risk.
+  /// 1 / (1 - 2 mu), which x alone feels. Out of line, so that the root stays in registers where
+  /// there is no such risk.
   [[gnu::noinline]] Mask<T> inflate_noise_and_delta(const NlRisk<T>& risk) {
     using std::sqrt;
     Mask<T> exists = true;
@@ -191,8 +192,8 @@ class NlUnscented {
       exists = exists && delta_rest > T(0.0) && noise_rest > T(0.0);
       if (risk.acts[3 + i]) delta_std_(i) /= sqrt(delta_rest);
       if (risk.acts[5 + i])
-        update_root<T, coupled>(root_, Vector<T, coupled>::Unit(0) *
-                                           T(delta_(i) * sqrt(twice_noise / noise_rest)));
+        update_root<T, coupled>(
+            root_, Vector<T, coupled>::Unit(0) * T(delta_(i) * sqrt(twice_noise / noise_rest)));
     }
     return exists;
   }
@@ -210,8 +211,8 @@ class NlUnscented {
   Vector<T, 2> delta_, delta_std_;
 };
 
-/// One cycle: time update, risk update where `risk` is given, measurement update, noise reset (which the
-/// structure has made already: the noise is not carried).
+/// One cycle: time update, risk update where `risk` is given, measurement update, noise reset
+/// (which the structure has made already: the noise is not carried).
 template <class T>
 Step<T> nl_cycle(NlUnscented<T>& filter, const T& z, const NlRisk<T>* risk = nullptr) {
   Step<T> step;

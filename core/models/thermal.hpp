@@ -46,8 +46,8 @@ struct ThermalParameters : ThermalDrift<T> {
                   ranges::positive, "initial standard deviation of b"},
             Field{"initial_c_std_dps", &P::initial_c_std_dps, "dps", ranges::positive,
                   "initial standard deviation of c"},
-            Field{"bias_measurement_std_dps", &P::bias_measurement_std_dps, "dps",
-                  ranges::positive, "standard deviation of one bias measurement M"},
+            Field{"bias_measurement_std_dps", &P::bias_measurement_std_dps, "dps", ranges::positive,
+                  "standard deviation of one bias measurement M"},
             Field{"update_interval_s", &P::update_interval_s, "s", ranges::positive,
                   "time between compass updates"},
         });

@@ -8,8 +8,10 @@ namespace gyrostat {
 /// Zero, and constant where T carries derivatives.
 template <class T>
 Mask<T> vanishing(const T& value) {
-  if constexpr (requires { value.v.isZero(0.0); }) return value.a == 0.0 && value.v.isZero(0.0);
-  else return value == T(0.0);
+  if constexpr (requires { value.v.isZero(0.0); })
+    return value.a == 0.0 && value.v.isZero(0.0);
+  else
+    return value == T(0.0);
 }
 template <class T>
 bool vanishes(const T& value) {
@@ -37,10 +39,10 @@ void update_root(Matrix<T, N>& root, Vector<T, N> v) {
 }
 
 /// Root of (P^-1 - 2 mu e_i e_i^T)^-1 for P = L L^T. With l the row i of L that is
-/// L (I - 2 mu l l^T)^-1 L^T by the Sherman-Morrison formula, and the middle matrix has the lower root
-/// M_kk = sqrt(b_k / b_{k-1}), M_jk = 2 mu l_j l_k / sqrt(b_k b_{k-1}) with b_k = 1 - 2 mu
-/// sum_{j > k} l_j^2 (Gill, Golub, Murray and Saunders 1974, method C1). Exists where the answer is true,
-/// which is where 1 - 2 mu P_ii is positive; elsewhere `root` is of no use.
+/// L (I - 2 mu l l^T)^-1 L^T by the Sherman-Morrison formula, and the middle matrix has the lower
+/// root M_kk = sqrt(b_k / b_{k-1}), M_jk = 2 mu l_j l_k / sqrt(b_k b_{k-1}) with b_k = 1 - 2 mu
+/// sum_{j > k} l_j^2 (Gill, Golub, Murray and Saunders 1974, method C1). Exists where the answer is
+/// true, which is where 1 - 2 mu P_ii is positive; elsewhere `root` is of no use.
 template <int i, class T, int N>
 [[nodiscard]] Mask<T> inflate_along(Matrix<T, N>& root, const T& twice_mu) {
   using std::sqrt;
@@ -64,7 +66,8 @@ template <int i, class T, int N>
     unrolled<N - k>([&]<int down>() {
       constexpr int row = k + down;
       const T entry = root(row, k);
-      root(row, k) = k < i && row > k ? T(entry * diagonal + below * right(row)) : T(entry * diagonal);
+      root(row, k) =
+          k < i && row > k ? T(entry * diagonal + below * right(row)) : T(entry * diagonal);
       right(row) += entry * l(k);
     });
   });
@@ -73,8 +76,8 @@ template <int i, class T, int N>
 
 /// Root of (P^-1 - 2 diag(mu))^-1 for P = L L^T, mu >= 0: the risk-sensitive update [A eq. 15], one
 /// element at a time. The paper inverts the root, downdates and inverts back; this form is the same
-/// matrix, needs no inverse, and stands for a singular P. False, with `root` untouched, where P^-1 - 2
-/// mu is not positive definite.
+/// matrix, needs no inverse, and stands for a singular P. False, with `root` untouched, where P^-1
+/// - 2 mu is not positive definite.
 template <class T, int N>
 [[nodiscard]] Mask<T> inflate_root(Matrix<T, N>& root, const Vector<T, N>& mu) {
   Matrix<T, N> inflated = root;

@@ -4,19 +4,19 @@
 
 namespace gyrostat {
 
-/// Root of the time update of three states of which the first becomes the combination `first` of all
-/// three plus noise of variance `drive` + `excess`, the second the old first, and the third stays: the lower
-/// triangle of the rows (u, w), (l00, 0, 0, 0), (l20, l21, l22, 0) with u = first^T L and w^2 the noise, by one
-/// rotation of columns 1, 2 and the noise's and one of columns 0 and 1. No difference of squares is
-/// taken, so nothing is lost near a singular covariance. A row without a remainder leaves its column
-/// to the next, as in `lower_root`.
+/// Root of the time update of three states of which the first becomes the combination `first` of
+/// all three plus noise of variance `drive` + `excess`, the second the old first, and the third
+/// stays: the lower triangle of the rows (u, w), (l00, 0, 0, 0), (l20, l21, l22, 0) with u =
+/// first^T L and w^2 the noise, by one rotation of columns 1, 2 and the noise's and one of columns
+/// 0 and 1. No difference of squares is taken, so nothing is lost near a singular covariance. A row
+/// without a remainder leaves its column to the next, as in `lower_root`.
 ///
 /// `drive` comes from noise that is a state of its own beside these three; `excess` may be negative
-/// (sigma points with a negative central weight). Where the covariance of the three and the noise is
-/// then not positive definite, false, and `root` is of no use.
+/// (sigma points with a negative central weight). Where the covariance of the three and the noise
+/// is then not positive definite, false, and `root` is of no use.
 template <class T>
-[[nodiscard]] Mask<T> companion_root(Matrix<T, 3>& root, const Vector<T, 3>& first,
-                                     const T& drive, const T& excess) {
+[[nodiscard]] Mask<T> companion_root(Matrix<T, 3>& root, const Vector<T, 3>& first, const T& drive,
+                                     const T& excess) {
   using std::sqrt;
   const auto positive_root = [](const T& v) { return select(v > T(0.0), T(sqrt(v)), T(0.0)); };
   const T l00 = root(0, 0), l20 = root(2, 0), l21 = root(2, 1), l22 = root(2, 2);
@@ -32,7 +32,8 @@ template <class T>
 
   const T w = positive_root(turned), norm = positive_root(whole);
   const T per_w = select(turns, T(T(1.0) / w), T(1.0)), per_norm = T(1.0) / norm;
-  const T c = select(remains, T(u0 * per_norm), T(0.0)), s = select(remains, T(w * per_norm), T(1.0));
+  const T c = select(remains, T(u0 * per_norm), T(0.0)),
+          s = select(remains, T(w * per_norm), T(1.0));
   const T shared = along * per_w;
   root(0, 0) = norm;
   root(1, 0) = c * l00;

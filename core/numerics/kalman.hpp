@@ -53,9 +53,8 @@ void propagate_companion(Gaussian<T, N>& state, const Vector<T, N>& first) {
   });
   state.mean(0) = x;
   state.covariance(0, 0) = ordered_dot<T, N>(first, cross);
-  unrolled<N - 1>([&]<int i>() {
-    state.covariance(i + 1, 0) = state.covariance(0, i + 1) = cross(i);
-  });
+  unrolled<N - 1>(
+      [&]<int i>() { state.covariance(i + 1, 0) = state.covariance(0, i + 1) = cross(i); });
 }
 
 /// Innovation (M), its covariance (M x M), and whether the update was made.
@@ -79,15 +78,15 @@ Innovation<T, M> measurement_update(Gaussian<T, N>& state, const Matrix<T, M, N>
   const Matrix<T, N, M> gain = lu.solve(HP).transpose();
   const Matrix<T, N> rest = Matrix<T, N>::Identity() - gain * H;
   state.mean += gain * innovation.value;
-  state.covariance = (rest * state.covariance * rest.transpose()).eval() +
-                     gain * R * gain.transpose();
+  state.covariance =
+      (rest * state.covariance * rest.transpose()).eval() + gain * R * gain.transpose();
   innovation.sound = true;
   return innovation;
 }
 
-/// The same for a measurement of state 0 alone with variance r: z = x_0 + v. With gain k, p the row 0
-/// of P, and M = P - k p, Joseph's form is M - M_0 k^T + r k k^T, of which the lower half is computed.
-/// Where the innovation's variance is not positive the gain is zero and `sound` false.
+/// The same for a measurement of state 0 alone with variance r: z = x_0 + v. With gain k, p the row
+/// 0 of P, and M = P - k p, Joseph's form is M - M_0 k^T + r k k^T, of which the lower half is
+/// computed. Where the innovation's variance is not positive the gain is zero and `sound` false.
 template <class T, int N>
 Innovation<T, 1> measure_first(Gaussian<T, N>& state, const T& r, const T& z) {
   Innovation<T, 1> innovation;

@@ -7,13 +7,12 @@
 
 namespace gyrostat {
 
-/// `body<i>()` for i = 0 ... N - 1: a loop that is unrolled before the compiler decides what stays in
-/// registers.
+/// `body<i>()` for i = 0 ... N - 1: a loop that is unrolled before the compiler decides what stays
+/// in registers.
 template <int N, class Body>
 [[gnu::always_inline]] inline void unrolled(const Body& body) {
-  [&]<int... i>(std::integer_sequence<int, i...>) {
-    (body.template operator()<i>(), ...);
-  }(std::make_integer_sequence<int, N>{});
+  [&]<int... i>(std::integer_sequence<int, i...>) { (body.template operator()<i>(), ...); }
+  (std::make_integer_sequence<int, N>{});
 }
 
 /// What a comparison of two T gives. A number stands alone and answers with a bool; a pack (see
@@ -40,9 +39,9 @@ Matrix<T, Rows, Columns> select(bool mask, const Eigen::Matrix<T, Rows, Columns>
   return mask ? yes : no;
 }
 template <class M, class T, int Rows, int Columns>
-  requires(!std::same_as<M, bool>)
-Matrix<T, Rows, Columns> select(const M& mask, const Eigen::Matrix<T, Rows, Columns>& yes,
-                                const Eigen::Matrix<T, Rows, Columns>& no) {
+requires(!std::same_as<M, bool>) Matrix<T, Rows, Columns> select(
+    const M& mask, const Eigen::Matrix<T, Rows, Columns>& yes,
+    const Eigen::Matrix<T, Rows, Columns>& no) {
   Matrix<T, Rows, Columns> out;
   unrolled<Rows * Columns>([&]<int i>() {
     out.coeffRef(i % Rows, i / Rows) =

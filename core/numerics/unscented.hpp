@@ -4,14 +4,15 @@
 
 namespace gyrostat {
 
-/// The scaled unscented transform (Wan and van der Merwe 2000, eq. 15) of n states by a function with
-/// one nonlinear component, and that quadratic, so that at each pair of points mean +- gamma L_i it
-/// departs from linearity by the same gamma^2 q_i, q_i its second-order part along column L_i.
+/// The scaled unscented transform (Wan and van der Merwe 2000, eq. 15) of n states by a function
+/// with one nonlinear component, and that quadratic, so that at each pair of points mean +- gamma
+/// L_i it departs from linearity by the same gamma^2 q_i, q_i its second-order part along column
+/// L_i.
 ///
-/// With lambda = alpha^2 (n + kappa) - n, gamma^2 = n + lambda, W_i = 1 / (2 gamma^2) and W0^c = lambda /
-/// gamma^2 + 1 - alpha^2 + beta, the weighted sums over all 2n + 1 points come to: the mean is that of
-/// the central point plus q = sum q_i; the covariance is that of the linear part, to which the odd
-/// parts of the pairs add up, plus on the component itself
+/// With lambda = alpha^2 (n + kappa) - n, gamma^2 = n + lambda, W_i = 1 / (2 gamma^2) and W0^c =
+/// lambda / gamma^2 + 1 - alpha^2 + beta, the weighted sums over all 2n + 1 points come to: the
+/// mean is that of the central point plus q = sum q_i; the covariance is that of the linear part,
+/// to which the odd parts of the pairs add up, plus on the component itself
 ///   sum 2 W_i (gamma^2 q_i - q)^2 + W0^c q^2 = gamma^2 sum q_i^2 + (beta - alpha^2) q^2.
 template <class T>
 struct UnscentedQuadratic {

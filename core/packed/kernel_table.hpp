@@ -9,9 +9,9 @@
 
 namespace gyrostat {
 
-/// The kernels of one instruction set; included by the one file that is compiled for it. All that it
-/// calls is inlined or has `Target` in its name: a function with neither might be linked into code
-/// that other machines run (tests/targets.cmake looks for such names).
+/// The kernels of one instruction set; included by the one file that is compiled for it. All that
+/// it calls is inlined or has `Target` in its name: a function with neither might be linked into
+/// code that other machines run (tests/targets.cmake looks for such names).
 template <class Target>
 struct KernelTable {
   template <class F, int N>
@@ -47,7 +47,8 @@ struct KernelTable {
 
     typename F::Parameters p;
     int f = 0;
-    for (const auto& field : F::Parameters::fields()) p.*(field.member) = P::load(parameters + N * f++);
+    for (const auto& field : F::Parameters::fields())
+      p.*(field.member) = P::load(parameters + N * f++);
     F filter(p);
     store_learned<F, N>(filter, lanes, &Lane::learned_first);
     for (std::size_t k = 0; k < samples; ++k) {
@@ -64,9 +65,8 @@ struct KernelTable {
       scatter(step.innovation_variance, &Lane::innovation_variance, k);
       alignas(64) double codes[N];
       step.status.code.store(codes);
-      unrolled<N>([&]<int l>() {
-        lanes[l].status[k] = static_cast<Status>(static_cast<int>(codes[l]));
-      });
+      unrolled<N>(
+          [&]<int l>() { lanes[l].status[k] = static_cast<Status>(static_cast<int>(codes[l])); });
     }
     store_learned<F, N>(filter, lanes, &Lane::learned_last);
   }
@@ -75,7 +75,8 @@ struct KernelTable {
   static constexpr auto of_filter() {
     if constexpr (requires { Plugin::type::packs_trials; })
       return std::array{PackedFilter{Plugin::id, N, &run<Plugin::template on, N>}...};
-    else return std::array<PackedFilter, 0>{};
+    else
+      return std::array<PackedFilter, 0>{};
   }
 
   template <int... N, class... Plugins>

@@ -48,8 +48,8 @@ inline constexpr int normal_blocks = 16;
 /// The instruction sets that this machine has, from the narrowest.
 std::span<const Kernels* const> available_kernels();
 
-/// The kernel of `filter` in packs of `lanes` on the widest instruction set that has one; null where
-/// there is none.
+/// The kernel of `filter` in packs of `lanes` on the widest instruction set that has one; null
+/// where there is none.
 const PackedFilter* packed_filter(std::string_view filter, int lanes);
 
 }  // namespace gyrostat

@@ -10,6 +10,7 @@ using Table = KernelTable<targets::Avx2>;
 constexpr auto filters_avx2 = Table::of_filters<4, 8>(Filters{});
 }  // namespace
 
-constinit const Kernels kernels_avx2{targets::Avx2::name, targets::Avx2::width, filters_avx2, &Table::normals};
+constinit const Kernels kernels_avx2{targets::Avx2::name, targets::Avx2::width, filters_avx2,
+                                     &Table::normals};
 
 }  // namespace gyrostat

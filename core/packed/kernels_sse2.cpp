@@ -10,6 +10,7 @@ using Table = KernelTable<targets::Sse2>;
 constexpr auto filters_sse2 = Table::of_filters<2, 4, 8>(Filters{});
 }  // namespace
 
-constinit const Kernels kernels_sse2{targets::Sse2::name, targets::Sse2::width, filters_sse2, &Table::normals};
+constinit const Kernels kernels_sse2{targets::Sse2::name, targets::Sse2::width, filters_sse2,
+                                     &Table::normals};
 
 }  // namespace gyrostat

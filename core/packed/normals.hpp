@@ -6,7 +6,8 @@
 
 namespace gyrostat {
 
-/// Where a block of four deviates stands: the Philox key and the counter without the block's number.
+/// Where a block of four deviates stands: the Philox key and the counter without the block's
+/// number.
 struct NormalAddress {
   std::uint32_t key[2];
   std::uint32_t trial;
@@ -15,13 +16,13 @@ struct NormalAddress {
 
 /// `Blocks` successive blocks of four normal deviates, in loops that the compiler turns into
 /// instructions of `Target` (in the name so that code of different instruction sets has different
-/// names). Additions, multiplications, divisions and square roots of doubles in a fixed order, so every
-/// target and every number of blocks gives the same bits.
+/// names). Additions, multiplications, divisions and square roots of doubles in a fixed order, so
+/// every target and every number of blocks gives the same bits.
 template <class Target, int Blocks>
 class NormalBlocks {
  public:
-  /// The words of blocks first, first + 1, ...: word j of block i at words[j][i]. Philox4x32-10 (Salmon
-  /// et al., "Parallel random numbers: as easy as 1, 2, 3", SC11).
+  /// The words of blocks first, first + 1, ...: word j of block i at words[j][i]. Philox4x32-10
+  /// (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC11).
   [[gnu::always_inline]] static void philox(const NormalAddress& at, std::uint32_t first,
                                             std::uint32_t (&words)[4][Blocks]) {
     for (int i = 0; i < Blocks; ++i) {
@@ -68,9 +69,9 @@ class NormalBlocks {
     return static_cast<double>(static_cast<std::int32_t>(word));
   }
 
-  /// sqrt(-2 log u), u = (word + 1/2) / 2^32. log u = k log 2 + log m with m in [sqrt 1/2, sqrt 2), by the
-  /// series in s = (m - 1) / (m + 1) of fdlibm's e_log.c (Sun Microsystems 1993), below one unit in the
-  /// last place.
+  /// sqrt(-2 log u), u = (word + 1/2) / 2^32. log u = k log 2 + log m with m in [sqrt 1/2, sqrt 2),
+  /// by the series in s = (m - 1) / (m + 1) of fdlibm's e_log.c (Sun Microsystems 1993), below one
+  /// unit in the last place.
   [[gnu::always_inline]] static double radius(std::uint32_t word) {
     const double u = (from_signed(word ^ 0x80000000U) + 2147483648.5) * 0x1p-32;
     constexpr std::uint64_t root_half = 0x3fe6a09eULL << 32U, one = 0x3ff00000ULL << 32U;
@@ -83,8 +84,9 @@ class NormalBlocks {
     const double odd = z * (6.666666666666735130e-01 +
                             w * (2.857142874366239149e-01 +
                                  w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)));
-    const double log = (s * (half_square + (odd + even)) + k * 1.90821492927058770002e-10 -
-                        half_square + f) + k * 6.93147180369123816490e-01;
+    const double log =
+        (s * (half_square + (odd + even)) + k * 1.90821492927058770002e-10 - half_square + f) +
+        k * 6.93147180369123816490e-01;
     return std::sqrt(-2.0 * log);
   }
 
@@ -93,31 +95,32 @@ class NormalBlocks {
   };
 
   /// cos and sin of 2 pi u, u = (word + 1/2) / 2^32: the quadrant and what is left of it, within an
-  /// eighth of a turn, are exact; then the polynomials of fdlibm's k_sin.c and k_cos.c, below one unit
-  /// in the last place.
+  /// eighth of a turn, are exact; then the polynomials of fdlibm's k_sin.c and k_cos.c, below one
+  /// unit in the last place.
   [[gnu::always_inline]] static Turn turned(std::uint32_t word) {
     const std::uint32_t shifted = word + (1U << 29U);
     const std::uint64_t quadrant = shifted >> 30U;
     const double rest = from_signed((shifted & 0x3fffffffU) - (1U << 29U)) + 0.5;
     const double x = rest * (0x1p-30 * 1.57079632679489661923), z = x * x;
     const double s =
-        x + x * z * (-1.66666666666666324348e-01 +
-                     z * (8.33333333332248946124e-03 +
-                          z * (-1.98412698298579493134e-04 +
-                               z * (2.75573137070700676789e-06 +
-                                    z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)))));
-    const double tail = z * (4.16666666666666019037e-02 +
-                             z * (-1.38888888888741095749e-03 +
-                                  z * (2.48015872894767294178e-05 +
-                                       z * (-2.75573143513906633035e-07 +
-                                            z * (2.08757232129817482790e-09 +
-                                                 z * -1.13596475577881948265e-11)))));
+        x +
+        x * z *
+            (-1.66666666666666324348e-01 +
+             z * (8.33333333332248946124e-03 +
+                  z * (-1.98412698298579493134e-04 +
+                       z * (2.75573137070700676789e-06 +
+                            z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)))));
+    const double tail =
+        z * (4.16666666666666019037e-02 +
+             z * (-1.38888888888741095749e-03 +
+                  z * (2.48015872894767294178e-05 +
+                       z * (-2.75573143513906633035e-07 +
+                            z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
     const double half = 0.5 * z, w = 1.0 - half;
     const double c = w + ((1.0 - w - half) + z * tail);
     // In quadrants 1 and 3 cosine and sine change places; the signs follow the quadrant.
     const std::uint64_t swap = -(quadrant & 1U), bits_c = std::bit_cast<std::uint64_t>(c),
-                        bits_s = std::bit_cast<std::uint64_t>(s),
-                        differ = (bits_c ^ bits_s) & swap;
+                        bits_s = std::bit_cast<std::uint64_t>(s), differ = (bits_c ^ bits_s) & swap;
     return {as_double(bits_c ^ differ ^ (((quadrant + 1U) & 2U) << 62U)),
             as_double(bits_s ^ differ ^ ((quadrant & 2U) << 62U))};
   }

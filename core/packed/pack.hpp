@@ -1,8 +1,7 @@
 #pragma once
 
-#include <experimental/simd>
-
 #include <Eigen/Core>
+#include <experimental/simd>
 
 #include "core/numerics/lanes.hpp"
 #include "core/step.hpp"
@@ -14,7 +13,8 @@ namespace gyrostat {
 /// of dependent operations run interleaved. Operations are IEEE's, lane by lane, so a lane has the
 /// bits that a double would have.
 ///
-/// `Target` is in the type so that code compiled for different instruction sets has different names.
+/// `Target` is in the type so that code compiled for different instruction sets has different
+/// names.
 template <class Target, int N>
 class Pack {
   static constexpr int width = N < Target::width ? N : Target::width;
@@ -70,7 +70,8 @@ class Pack {
   }
   /// The `N` values from `from` on.
   static Pack load(const double* from) {
-    return each([&]<int r>() { return Register(from + r * width, std::experimental::element_aligned); });
+    return each(
+        [&]<int r>() { return Register(from + r * width, std::experimental::element_aligned); });
   }
   void store(double* to) const {
     unrolled<registers>([&]<int r>() {

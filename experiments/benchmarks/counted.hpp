@@ -7,8 +7,8 @@
 
 namespace gyrostat {
 
-/// A double that counts the operations made on it: additions, subtractions, multiplications, divisions
-/// and square roots, one each.
+/// A double that counts the operations made on it: additions, subtractions, multiplications,
+/// divisions and square roots, one each.
 struct Counted {
   double value = 0.0;
   static inline std::uint64_t operations = 0;

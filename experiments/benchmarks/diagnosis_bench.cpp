@@ -29,21 +29,22 @@ void diagnosis(benchmark::State& state, const std::vector<Effects::Any>& effects
   const auto series = recording(effects);
   for (auto _ : state) {
     const auto found = gap::diagnose(series, {});
-    for (const auto& [part, seconds] : found.seconds)
-      state.counters[part].value += seconds;
+    for (const auto& [part, seconds] : found.seconds) state.counters[part].value += seconds;
   }
-  for (auto& [name, counter] : state.counters)
-    counter.flags = benchmark::Counter::kAvgIterations;
+  for (auto& [name, counter] : state.counters) counter.flags = benchmark::Counter::kAvgIterations;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   state.counters["peak_MiB"] = static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
 BENCHMARK_CAPTURE(diagnosis, none, {})->Unit(benchmark::kSecond)->UseRealTime();
-BENCHMARK_CAPTURE(diagnosis, thermal_hysteresis, {effects::ThermalHysteresis{.amplitude_dps = 0.03}})
+BENCHMARK_CAPTURE(diagnosis, thermal_hysteresis,
+                  {effects::ThermalHysteresis{.amplitude_dps = 0.03}})
     ->Unit(benchmark::kSecond)
     ->UseRealTime();
-BENCHMARK_CAPTURE(diagnosis, outliers, {effects::Outliers{}})->Unit(benchmark::kSecond)->UseRealTime();
+BENCHMARK_CAPTURE(diagnosis, outliers, {effects::Outliers{}})
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime();
 
 }  // namespace
 }  // namespace gyrostat

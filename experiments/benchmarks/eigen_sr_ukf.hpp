@@ -9,9 +9,9 @@
 
 namespace gyrostat {
 
-/// The yardstick: the SR-UKF (and SR-RSUKF) on model NL as one would write it with Eigen's fixed-size
-/// matrices and decompositions, point by point as in van der Merwe and Wan (2001, algorithm 3.1), all
-/// seven states, without any use of the model's structure.
+/// The yardstick: the SR-UKF (and SR-RSUKF) on model NL as one would write it with Eigen's
+/// fixed-size matrices and decompositions, point by point as in van der Merwe and Wan (2001,
+/// algorithm 3.1), all seven states, without any use of the model's structure.
 class EigenSrUkf {
  public:
   using State = Eigen::Matrix<double, 7, 1>;
@@ -81,7 +81,7 @@ class EigenSrUkf {
 
   Square root(const Eigen::Matrix<double, 7, 14>& deviations, const State& centre) const {
     const Eigen::HouseholderQR<Eigen::Matrix<double, 14, 7>> qr(std::sqrt(wi_) *
-                                                               deviations.transpose());
+                                                                deviations.transpose());
     Eigen::LLT<Square> llt;
     const Square upper = qr.matrixQR().topRows<7>().triangularView<Eigen::Upper>();
     const Square L = upper.transpose();

@@ -29,9 +29,9 @@ void filter_step(benchmark::State& state) {
     F filter = fresh;
     for (const auto& sample : samples) benchmark::DoNotOptimize(filter.step(sample));
   }
-  state.counters["s_per_step"] = benchmark::Counter(
-      static_cast<double>(state.iterations() * samples.size()),
-      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["s_per_step"] =
+      benchmark::Counter(static_cast<double>(state.iterations() * samples.size()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 const bool registered = [] {
@@ -47,9 +47,9 @@ void synthesised_sample(benchmark::State& state) {
   Series series;
   std::uint32_t trial = 0;
   for (auto _ : state) synthesise(scenario, {1, trial++}, series);
-  state.counters["s_per_sample"] = benchmark::Counter(
-      static_cast<double>(state.iterations() * scenario.sampling.samples()),
-      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["s_per_sample"] =
+      benchmark::Counter(static_cast<double>(state.iterations() * scenario.sampling.samples()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(synthesised_sample);
 

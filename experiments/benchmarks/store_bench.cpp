@@ -1,9 +1,9 @@
 // Trial outcomes into the store and back: 6 methods a trial, one transaction a batch.
 
+#include <filesystem>
+
 #include <benchmark/benchmark.h>
 #include <unistd.h>
-
-#include <filesystem>
 
 #include "experiments/cell_summary.hpp"
 #include "experiments/outcome_file.hpp"
@@ -41,7 +41,8 @@ Cell six_methods(std::uint32_t trials) {
 }
 
 Store store_in(const fs::path& folder, const Cell& cell) {
-  Manifest manifest{"bench", "bench", 1, "{}", "/", outcome_columns(), {{cell.name, {}, cell.trials, 0}}};
+  Manifest manifest{
+      "bench", "bench", 1, "{}", "/", outcome_columns(), {{cell.name, {}, cell.trials, 0}}};
   for (const auto& method : cell.methods) manifest.cells[0].methods.push_back(method.id);
   auto store = Store::open_or_create(folder, manifest);
   store.set_cells(manifest.cells);
@@ -77,8 +78,8 @@ void StoreWrite(benchmark::State& state) {
     auto store = store_in(folder.path(), cell);
     fill(store, trials);
   }
-  state.counters["outcomes/s"] = benchmark::Counter(static_cast<double>(state.iterations()) * trials * methods,
-                                                    benchmark::Counter::kIsRate);
+  state.counters["outcomes/s"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * trials * methods, benchmark::Counter::kIsRate);
 }
 BENCHMARK(StoreWrite)->Arg(100000)->Unit(benchmark::kMillisecond)->UseRealTime();
 
@@ -90,7 +91,8 @@ void StoreSummary(benchmark::State& state) {
   fill(store, trials);
   for (auto _ : state)
     benchmark::DoNotOptimize(summarise_cell(cell, [&](const auto& visit) {
-      store.for_each_trial(0, trials, [&](const auto& trial) { visit(trial.calibrated, trial.outcomes); });
+      store.for_each_trial(0, trials,
+                           [&](const auto& trial) { visit(trial.calibrated, trial.outcomes); });
     }));
   state.counters["trials/s"] = benchmark::Counter(static_cast<double>(state.iterations()) * trials,
                                                   benchmark::Counter::kIsRate);
@@ -103,8 +105,8 @@ void StoreExport(benchmark::State& state) {
   auto store = store_in(folder.path(), six_methods(trials));
   fill(store, trials);
   for (auto _ : state) write_outcomes(folder.path() / "outcomes.csv.gz", store);
-  state.counters["outcomes/s"] = benchmark::Counter(static_cast<double>(state.iterations()) * trials * methods,
-                                                    benchmark::Counter::kIsRate);
+  state.counters["outcomes/s"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * trials * methods, benchmark::Counter::kIsRate);
 }
 BENCHMARK(StoreExport)->Arg(20000)->Unit(benchmark::kMillisecond)->UseRealTime();
 

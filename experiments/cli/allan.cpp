@@ -20,9 +20,13 @@ int run(const AllanArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const Series series = arguments.recording.read(console.log);
   Table table{.title = arguments.recording.file + ": overlapping Allan deviation",
-              .columns = {{"tau", "s"}, {"deviation", "dps"}, {"lower 95 %", "dps"},
-                          {"upper 95 %", "dps"}, {"degrees of freedom", "1"}},
-              .rows = {}, .notes = {}};
+              .columns = {{"tau", "s"},
+                          {"deviation", "dps"},
+                          {"lower 95 %", "dps"},
+                          {"upper 95 %", "dps"},
+                          {"degrees of freedom", "1"}},
+              .rows = {},
+              .notes = {}};
   if (series.size() < 4)
     throw InputError(arguments.recording.file,
                      fmt::format("{} samples; at least 4 are needed", series.size()));

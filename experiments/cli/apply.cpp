@@ -3,9 +3,9 @@
 
 #include "core/filters/list.hpp"
 #include "experiments/application.hpp"
-#include "experiments/outcome_file.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/verbs.hpp"
+#include "experiments/outcome_file.hpp"
 
 namespace gyrostat::cli {
 namespace {
@@ -39,9 +39,8 @@ int run(const ApplyArguments& arguments, Console& console) {
 
   Application application;
   if (source == ParameterSource::calibration) {
-    application = about(arguments.recording.file, [&] {
-      return calibrated(series, arguments.calibration_fraction, fit);
-    });
+    application = about(arguments.recording.file,
+                        [&] { return calibrated(series, arguments.calibration_fraction, fit); });
     console.log << fmt::format("parameters from the first {:.4g} s; judged on the rest\n",
                                application.judged_from_s);
   }
@@ -61,9 +60,11 @@ void add_apply(CLI::App& program, Console& console, int& exit_code) {
       "apply", "run every applicable method over a recording: raw against compensated");
   auto arguments = std::make_shared<ApplyArguments>();
   arguments->recording.add_to(verb);
-  auto* config = verb->add_option("--config", arguments->config,
-                   "JSON {\"filters\": [{\"id\", \"filter\", \"parameters\"}]} instead of a fit");
-  verb->add_option("--out", arguments->out, "CSV, CSV.gz or MATLAB file for the series of every method");
+  auto* config = verb->add_option(
+      "--config", arguments->config,
+      "JSON {\"filters\": [{\"id\", \"filter\", \"parameters\"}]} instead of a fit");
+  verb->add_option("--out", arguments->out,
+                   "CSV, CSV.gz or MATLAB file for the series of every method");
   verb->add_option("--fit", arguments->fit, "likelihood or moments")
       ->excludes(config)
       ->capture_default_str();

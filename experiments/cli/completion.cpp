@@ -19,12 +19,16 @@ constexpr const char* examples = R"(Examples:
 /// What may stand behind an option, or as first argument of a verb, where it is no file.
 Words choices(const std::string& verb, const std::string& option) {
   static const std::map<std::string, Words> of_option = {
-      {"--format", {"text", "md", "csv", "json", "latex"}}, {"--axis", {"x", "y", "z"}},
-      {"--fit", {"likelihood", "moments"}},                 {"--method", {"likelihood", "moments"}},
-      {"--lanes", {"1", "2", "4", "8"}},                    {"--without", Effects::ids()}};
+      {"--format", {"text", "md", "csv", "json", "latex"}},
+      {"--axis", {"x", "y", "z"}},
+      {"--fit", {"likelihood", "moments"}},
+      {"--method", {"likelihood", "moments"}},
+      {"--lanes", {"1", "2", "4", "8"}},
+      {"--without", Effects::ids()}};
   static const std::map<std::string, Words> of_verb = {
-      {"list", {"all", "filters", "effects", "temperatures", "motions", "accelerations", "metrics",
-                "lenses", "studies"}},
+      {"list",
+       {"all", "filters", "effects", "temperatures", "motions", "accelerations", "metrics",
+        "lenses", "studies"}},
       {"completion", {"bash", "zsh", "fish"}}};
   const auto& known = option.empty() ? of_verb : of_option;
   const auto found = known.find(option.empty() ? verb : option);
@@ -52,11 +56,12 @@ std::string bash_script(const CLI::App& program) {
       options.push_back(name_of(option));
       if (option->get_items_expected_max() == 0) continue;  // a flag: what follows is an argument
       const auto values = choices(name, options.back());
-      of_options.push_back(fmt::format("    \"{} {}\") words=\"{}\" ;;", name, options.back(),
-                                       values.empty() ? "FILES" : fmt::format("{}", fmt::join(values, " "))));
+      of_options.push_back(
+          fmt::format("    \"{} {}\") words=\"{}\" ;;", name, options.back(),
+                      values.empty() ? "FILES" : fmt::format("{}", fmt::join(values, " "))));
     }
-    of_verbs.push_back(fmt::format("      {}) options=\"{}\" words=\"{}\" ;;", name, fmt::join(options, " "),
-                                   fmt::join(choices(name, ""), " ")));
+    of_verbs.push_back(fmt::format("      {}) options=\"{}\" words=\"{}\" ;;", name,
+                                   fmt::join(options, " "), fmt::join(choices(name, ""), " ")));
   }
   return fmt::format(R"(_gyrostat() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} verb=${{COMP_WORDS[1]}}
@@ -90,7 +95,8 @@ std::string zsh_script(const CLI::App& program) {
 /// In single quotes, as fish reads them.
 std::string quoted(const std::string& text) {
   std::string safe = "'";
-  for (const char c : text) safe += c == '\'' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  for (const char c : text)
+    safe += c == '\'' || c == '\\' ? std::string("\\") + c : std::string(1, c);
   return safe + "'";
 }
 
@@ -106,7 +112,8 @@ std::string fish_script(const CLI::App& program) {
     for (const auto* option : options_of(*verb)) {
       const auto values = choices(name, name_of(option));
       const bool is_flag = option->get_items_expected_max() == 0;
-      script += fmt::format("{} -l {} -d {}", here, option->get_lnames().front(), quoted(option->get_description()));
+      script += fmt::format("{} -l {} -d {}", here, option->get_lnames().front(),
+                            quoted(option->get_description()));
       if (!values.empty())
         script += fmt::format(" -x -a '{}'", fmt::join(values, " "));
       else if (!is_flag)
@@ -123,7 +130,8 @@ const std::map<std::string, std::function<std::string(const CLI::App&)>> shells 
 }  // namespace
 
 void add_completion(CLI::App& program, Console& console, int& exit_code) {
-  auto* verb = program.add_subcommand("completion", "completion of verbs, options and names for a shell");
+  auto* verb =
+      program.add_subcommand("completion", "completion of verbs, options and names for a shell");
   auto shell = std::make_shared<std::string>();
   verb->add_option("shell", *shell, "bash, zsh or fish")->required();
   verb->footer(examples);
@@ -131,7 +139,8 @@ void add_completion(CLI::App& program, Console& console, int& exit_code) {
     Words names;
     for (const auto& [name, script] : shells) names.push_back(name);
     const auto script = shells.find(*shell);
-    if (script == shells.end()) throw InputError("completion", unknown_name("shell", *shell, names));
+    if (script == shells.end())
+      throw InputError("completion", unknown_name("shell", *shell, names));
     console.out << script->second(program);
     exit_code = complete;
   });

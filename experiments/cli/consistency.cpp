@@ -20,7 +20,8 @@ int run(const ConsistencyArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const Store store = Store::open(arguments.folder);
   const auto study = stored_study(store);
-  const Cell* only = arguments.cell.empty() ? nullptr : &cell_named(study, arguments.cell, "--cell");
+  const Cell* only =
+      arguments.cell.empty() ? nullptr : &cell_named(study, arguments.cell, "--cell");
   std::vector<Table> tables;
   for (std::uint32_t c = 0; c < study.cells.size(); ++c) {
     const auto& cell = study.cells[c];
@@ -40,7 +41,8 @@ int run(const ConsistencyArguments& arguments, Console& console) {
 
 void add_consistency(CLI::App& program, Console& console, int& exit_code) {
   auto* verb = program.add_subcommand(
-      "consistency", "NIS, NEES, whiteness, PIT and 3 sigma of each filter of a run, with their bounds");
+      "consistency",
+      "NIS, NEES, whiteness, PIT and 3 sigma of each filter of a run, with their bounds");
   auto arguments = std::make_shared<ConsistencyArguments>();
   verb->add_option("folder", arguments->folder, "folder of a run, as runs/<study>")->required();
   verb->add_option("--cell", arguments->cell, "this cell alone");

@@ -43,12 +43,15 @@ int run(DiagnoseArguments& arguments, Console& console) {
                             arguments.span.to_s, file + ": --from, --to");
   const auto diagnosis = about(file, [&] {
     return gap::diagnose(series, arguments.options, [&](const std::string& what, double share) {
-      if (console.log_is_terminal) console.log << fmt::format("\r\033[K{:3.0f} %  {}", 100.0 * share, what) << std::flush;
+      if (console.log_is_terminal)
+        console.log << fmt::format("\r\033[K{:3.0f} %  {}", 100.0 * share, what) << std::flush;
     });
   });
   if (console.log_is_terminal) console.log << "\r\033[K";
-  if (!arguments.json_out.empty()) write_atomically(arguments.json_out, gap::to_json(diagnosis).dump(1) + '\n');
-  if (!arguments.html_out.empty()) write_atomically(arguments.html_out, gap::diagnosis_page(diagnosis, file));
+  if (!arguments.json_out.empty())
+    write_atomically(arguments.json_out, gap::to_json(diagnosis).dump(1) + '\n');
+  if (!arguments.html_out.empty())
+    write_atomically(arguments.html_out, gap::diagnosis_page(diagnosis, file));
   if (!arguments.scenario_out.empty())
     write_atomically(arguments.scenario_out, gap::scenario_json(diagnosis).dump(2) + '\n');
   if (format == Format::text) console.out << gap::in_words(diagnosis, file) << '\n';
@@ -63,20 +66,26 @@ int run(DiagnoseArguments& arguments, Console& console) {
 
 void add_diagnose(CLI::App& program, Console& console, int& exit_code) {
   auto* verb = program.add_subcommand(
-      "diagnose", "find where a recording leaves the simulator, which effect causes it, and how far "
-                  "the gap closes once it is added");
+      "diagnose",
+      "find where a recording leaves the simulator, which effect causes it, and how far "
+      "the gap closes once it is added");
   auto arguments = std::make_shared<DiagnoseArguments>();
   arguments->recording.add_to(verb);
   arguments->span.add_to(verb);
   verb->add_option("--json", arguments->json_out, "write the diagnosis as JSON");
   verb->add_option("--html", arguments->html_out, "write the diagnosis as a page with pictures");
-  verb->add_option("--scenario", arguments->scenario_out, "write a study whose scenario has the effects found");
+  verb->add_option("--scenario", arguments->scenario_out,
+                   "write a study whose scenario has the effects found");
   verb->add_flag("--timing", arguments->timing, "say where the time went");
   arguments->format.add_to(verb);
-  verb->add_option("--without", arguments->options.without, "leave these effects out of the catalogue")->delimiter(',');
-  verb->add_option("--claim", arguments->claim,
-                   "judge the effects of this study (as --scenario writes it) instead of looking for causes");
-  verb->add_option("--seed", arguments->options.seed, "of all simulated noise")->capture_default_str();
+  verb->add_option("--without", arguments->options.without,
+                   "leave these effects out of the catalogue")
+      ->delimiter(',');
+  verb->add_option(
+      "--claim", arguments->claim,
+      "judge the effects of this study (as --scenario writes it) instead of looking for causes");
+  verb->add_option("--seed", arguments->options.seed, "of all simulated noise")
+      ->capture_default_str();
   verb->footer(examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }

@@ -23,8 +23,7 @@ template <class P>
 void add_rows(Table& table, const std::string& method, const P& fitted, const P& errors) {
   for (const auto& field : P::fields())
     table.rows.push_back({method, std::string(field.name), std::string(field.unit),
-                          fitted.*(field.member), errors.*(field.member),
-                          std::string(field.doc)});
+                          fitted.*(field.member), errors.*(field.member), std::string(field.doc)});
 }
 
 int run(const FitArguments& arguments, Console& console) {
@@ -33,16 +32,21 @@ int run(const FitArguments& arguments, Console& console) {
   for (const auto& name : arguments.methods) methods.push_back(fit_method_named(name, "--method"));
   const Series series = arguments.recording.read(console.log, arguments.span);
 
-  Table table{.title = fmt::format("{}{}: {} samples, {:.6g} s at {:.6g} Hz", arguments.recording.file,
-                                   arguments.recording.axis.empty() ? "" : " axis " + arguments.recording.axis,
-                                   series.size(), series.duration_s(), series.rate_hz()),
-              .columns = {{"fit", ""}, {"parameter", ""}, {"unit", ""}, {"value", ""},
-                          {"standard error", ""}, {"meaning", ""}},
-              .rows = {}, .notes = {}};
+  Table table{.title = fmt::format(
+                  "{}{}: {} samples, {:.6g} s at {:.6g} Hz", arguments.recording.file,
+                  arguments.recording.axis.empty() ? "" : " axis " + arguments.recording.axis,
+                  series.size(), series.duration_s(), series.rate_hz()),
+              .columns = {{"fit", ""},
+                          {"parameter", ""},
+                          {"unit", ""},
+                          {"value", ""},
+                          {"standard error", ""},
+                          {"meaning", ""}},
+              .rows = {},
+              .notes = {}};
   bool converged = true;
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    const auto fit =
-        about(arguments.recording.file, [&] { return calibrate(series, methods[m]); });
+    const auto fit = about(arguments.recording.file, [&] { return calibrate(series, methods[m]); });
     add_rows(table, arguments.methods[m], fit.random_error.parameters,
              fit.random_error.standard_errors);
     table.notes.push_back(arguments.methods[m] + ": " + fit.random_error.message);

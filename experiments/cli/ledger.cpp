@@ -26,9 +26,9 @@ int run(const LedgerArguments& arguments, Console& console) {
     if (arguments.trials > 0 && !cell.recording) shown.trials = arguments.trials;
     Progress progress(console.log, console.log_is_terminal, cell.name, shown.trials);
     return run_cell(shown, study.seed,
-                    {.threads = 0,
-                     .stop = &console.stop,
-                     .progress = [&](std::size_t done) { progress.set(done); }});
+                    {.threads = 0, .stop = &console.stop, .progress = [&](std::size_t done) {
+                       progress.set(done);
+                     }});
   });
   if (console.stop) return stopped;
   console.out << render(ledger_tables(ledger, findings), format);
@@ -38,7 +38,8 @@ int run(const LedgerArguments& arguments, Console& console) {
 }  // namespace
 
 void add_ledger(CLI::App& program, Console& console, int& exit_code) {
-  auto* verb = program.add_subcommand("ledger", "decide claims by trials: holds, holds only where, not");
+  auto* verb =
+      program.add_subcommand("ledger", "decide claims by trials: holds, holds only where, not");
   auto arguments = std::make_shared<LedgerArguments>();
   verb->add_option("ledger", arguments->ledger, "ledger file (JSON)")->required();
   verb->add_option("--trials", arguments->trials, "trials of every cell, instead of the study's")

@@ -1,6 +1,7 @@
+#include "analysis/gap/lenses/list.hpp"
+
 #include <filesystem>
 
-#include "analysis/gap/lenses/list.hpp"
 #include "analysis/metrics/list.hpp"
 #include "core/filters/list.hpp"
 #include "core/track.hpp"
@@ -49,13 +50,20 @@ Json parameters_of() {
 
 std::string_view name_of(Stage stage) {
   switch (stage) {
-    case Stage::environment: return "environment";
-    case Stage::sensing: return "sensing";
-    case Stage::noise: return "noise";
-    case Stage::electronics: return "electronics";
-    case Stage::conversion: return "conversion";
-    case Stage::transport: return "transport";
-    case Stage::compass: return "compass";
+    case Stage::environment:
+      return "environment";
+    case Stage::sensing:
+      return "sensing";
+    case Stage::noise:
+      return "noise";
+    case Stage::electronics:
+      return "electronics";
+    case Stage::conversion:
+      return "conversion";
+    case Stage::transport:
+      return "transport";
+    case Stage::compass:
+      return "compass";
   }
   return "";
 }
@@ -89,7 +97,8 @@ Json plugins() {
 }
 
 Json studies(const std::string& folder, bool asked_for) {
-  if (asked_for && !std::filesystem::is_directory(folder)) throw InputError(folder, "no such folder");
+  if (asked_for && !std::filesystem::is_directory(folder))
+    throw InputError(folder, "no such folder");
   std::vector<std::string> paths;
   if (std::filesystem::is_directory(folder))
     for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -120,10 +129,14 @@ void print(const std::string& kind, const Json& entries, std::ostream& out) {
 
 int run(const ListArguments& arguments, Console& console) {
   const std::vector<std::pair<std::string, Json>> kinds = {
-      {"filters", plugins<Filters>()},   {"effects", plugins<Effects>()},
-      {"temperatures", plugins<Temperatures>()}, {"motions", plugins<Motions>()},
+      {"filters", plugins<Filters>()},
+      {"effects", plugins<Effects>()},
+      {"temperatures", plugins<Temperatures>()},
+      {"motions", plugins<Motions>()},
       {"accelerations", plugins<Accelerations>()},
-      {"metrics", plugins<Metrics>()},   {"lenses", plugins<Lenses>()}, {"studies", studies(arguments.studies, arguments.studies != default_studies)}};
+      {"metrics", plugins<Metrics>()},
+      {"lenses", plugins<Lenses>()},
+      {"studies", studies(arguments.studies, arguments.studies != default_studies)}};
   std::vector<std::string> names = {"all"};
   Json chosen;
   for (const auto& [name, entries] : kinds) {
@@ -142,8 +155,9 @@ int run(const ListArguments& arguments, Console& console) {
 }  // namespace
 
 void add_list(CLI::App& program, Console& console, int& exit_code) {
-  auto* verb = program.add_subcommand(
-      "list", "what there is: filters, effects, temperatures, motions, accelerations, metrics, lenses, studies");
+  auto* verb = program.add_subcommand("list",
+                                      "what there is: filters, effects, temperatures, motions, "
+                                      "accelerations, metrics, lenses, studies");
   auto arguments = std::make_shared<ListArguments>();
   verb->add_option("kind", arguments->kind, "one of these kinds, or all")->capture_default_str();
   verb->add_option("--studies", arguments->studies, "folder of studies")->capture_default_str();

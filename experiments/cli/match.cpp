@@ -1,8 +1,7 @@
-#include "experiments/matching.hpp"
-
 #include "experiments/atomic_file.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/verbs.hpp"
+#include "experiments/matching.hpp"
 
 namespace gyrostat::cli {
 namespace {
@@ -21,7 +20,8 @@ int run(const MatchArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const Match match = read_match(arguments.match);
   const auto result = run_match(match, console.log, console.stop);
-  if (!arguments.study_out.empty()) write_atomically(arguments.study_out, result.study.dump(2) + '\n');
+  if (!arguments.study_out.empty())
+    write_atomically(arguments.study_out, result.study.dump(2) + '\n');
   console.out << render(match_tables(match, result), format);
   return console.stop ? stopped : complete;
 }

@@ -38,9 +38,10 @@ int run(const MergeArguments& arguments, Console& console) {
     finished += std::min(cell.finished, cell.trials);
     wanted += cell.trials;
   }
-  console.log << fmt::format("{}: {} of {} trials; gyrostat run STUDY --out {} runs what is missing and "
-                             "makes the tables\n",
-                             arguments.out, finished, wanted, arguments.out);
+  console.log << fmt::format(
+      "{}: {} of {} trials; gyrostat run STUDY --out {} runs what is missing and "
+      "makes the tables\n",
+      arguments.out, finished, wanted, arguments.out);
   return finished < wanted ? stopped : complete;
 }
 
@@ -49,9 +50,11 @@ int run(const MergeArguments& arguments, Console& console) {
 void add_merge(CLI::App& program, Console& console, int& exit_code) {
   auto* verb = program.add_subcommand("merge", "put the outcomes of shards together in one folder");
   auto arguments = std::make_shared<MergeArguments>();
-  verb->add_option("out", arguments->out, "folder to merge into; made where there is none")->required();
+  verb->add_option("out", arguments->out, "folder to merge into; made where there is none")
+      ->required();
   verb->add_option("folders", arguments->folders, "folders of runs of the same study")->required();
-  verb->add_flag("--mix", arguments->mix, "merge outcomes of other builds, or of a study since changed");
+  verb->add_flag("--mix", arguments->mix,
+                 "merge outcomes of other builds, or of a study since changed");
   verb->footer(examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }

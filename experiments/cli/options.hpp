@@ -1,9 +1,9 @@
 #pragma once
 
-#include <fmt/format.h>
+#include <string>
 
 #include <CLI/CLI.hpp>
-#include <string>
+#include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "experiments/recording.hpp"
@@ -33,14 +33,14 @@ auto about(const std::string& file, const Work& work) {
 
 /// A check of an option's value that also refuses nan.
 inline CLI::Validator within(double low, double high) {
-  return {[low, high](const std::string& text) {
-            double value = 0.0;
-            const bool fits =
-                CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-            return fits ? std::string{}
-                        : fmt::format("'{}' is out of range; allowed: [{:g}, {:g}]", text, low, high);
-          },
-          "NUMBER"};
+  return {
+      [low, high](const std::string& text) {
+        double value = 0.0;
+        const bool fits = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+        return fits ? std::string{}
+                    : fmt::format("'{}' is out of range; allowed: [{:g}, {:g}]", text, low, high);
+      },
+      "NUMBER"};
 }
 
 /// A span of the recording, in seconds from its first sample.
@@ -56,23 +56,27 @@ struct SpanOption {
   }
 };
 
-/// The recording that a verb works on, with the axis where it has several and the layout where it has
-/// other names or units than the program's.
+/// The recording that a verb works on, with the axis where it has several and the layout where it
+/// has other names or units than the program's.
 struct RecordingOption {
   std::string file;
   std::string axis;
   std::string columns, units;
 
   void add_to(CLI::App* verb) {
-    verb->add_option("recording", file, "CSV, CSV.gz or MATLAB file: t_s, gyro_dps, ...")->required();
+    verb->add_option("recording", file, "CSV, CSV.gz or MATLAB file: t_s, gyro_dps, ...")
+        ->required();
     verb->add_option("--axis", axis, "x, y or z where the recording has three axes");
-    verb->add_option("--columns", columns, "columns of other names, as t=Time[ms],gyro=GyrZ,temp=Temp")
+    verb->add_option("--columns", columns,
+                     "columns of other names, as t=Time[ms],gyro=GyrZ,temp=Temp")
         ->type_name("CHANNEL=COLUMN,...");
-    verb->add_option("--units", units, "units, as t=ms,gyro=rad/s,temp=F")->type_name("CHANNEL=UNIT,...");
+    verb->add_option("--units", units, "units, as t=ms,gyro=rad/s,temp=F")
+        ->type_name("CHANNEL=UNIT,...");
   }
 
   RecordingLayout layout() const {
-    return {parse_assignments(columns, "--columns"), parse_assignments(units, "--units"), layout_place()};
+    return {parse_assignments(columns, "--columns"), parse_assignments(units, "--units"),
+            layout_place()};
   }
 
   /// All of it; says in `log` which columns were taken as what, and which mean nothing to gyrostat.
@@ -81,7 +85,8 @@ struct RecordingOption {
     if (!recording.taken_as.empty())
       log << fmt::format("{}: {}\n", file, fmt::join(recording.taken_as, ", "));
     if (!recording.ignored_columns.empty())
-      log << fmt::format("{}: columns not used: {}\n", file, fmt::join(recording.ignored_columns, ", "));
+      log << fmt::format("{}: columns not used: {}\n", file,
+                         fmt::join(recording.ignored_columns, ", "));
     return recording;
   }
 

@@ -1,10 +1,10 @@
 #include "experiments/plan.hpp"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+
+#include <unistd.h>
 
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/verbs.hpp"
@@ -65,8 +65,8 @@ struct PlannedPart {
   double trials() const { return static_cast<double>(plan.cells) * first->trials; }
 };
 
-std::vector<PlannedPart> plan_parts(const Study& study, const fs::path& scratch, const PilotOptions& pilot,
-                                    const std::atomic<bool>& stop) {
+std::vector<PlannedPart> plan_parts(const Study& study, const fs::path& scratch,
+                                    const PilotOptions& pilot, const std::atomic<bool>& stop) {
   std::vector<PlannedPart> parts;
   for (std::size_t c = 0; c < study.cells.size() && !stop; c += parts.back().plan.cells) {
     const auto* design = design_of(study, c);
@@ -79,12 +79,21 @@ std::vector<PlannedPart> plan_parts(const Study& study, const fs::path& scratch,
   return parts;
 }
 
-Table plan_table(const Study& study, const std::vector<PlannedPart>& parts, const PlanArguments& arguments) {
+Table plan_table(const Study& study, const std::vector<PlannedPart>& parts,
+                 const PlanArguments& arguments) {
   Table table{.title = study.title,
-              .columns = {{"cell", ""}, {"trials", ""}, {"filters", ""}, {"samples", ""}, {"steps", ""},
-                          {"a trial", "ms"}, {"time", "s"}, {"disk", "MB"}, {"pilot trials", ""},
+              .columns = {{"cell", ""},
+                          {"trials", ""},
+                          {"filters", ""},
+                          {"samples", ""},
+                          {"steps", ""},
+                          {"a trial", "ms"},
+                          {"time", "s"},
+                          {"disk", "MB"},
+                          {"pilot trials", ""},
                           {"cells", ""}},
-              .rows = {}, .notes = {}};
+              .rows = {},
+              .notes = {}};
   double seconds = 0.0, bytes = 0.0, steps = 0.0;
   for (const auto& part : parts) {
     const auto& [cell, plan] = std::tie(*part.first, part.plan);
@@ -98,19 +107,24 @@ Table plan_table(const Study& study, const std::vector<PlannedPart>& parts, cons
                           1e3 * plan.trials_s / part.trials(), time, 1e-6 * plan.bytes(),
                           std::int64_t{plan.pilot_trials}, static_cast<std::int64_t>(plan.cells)});
     if (plan.measured_cells < plan.cells)
-      table.notes.push_back(fmt::format("{}: measured at {} of its {} points, the others taken in proportion",
-                                        part.name, plan.measured_cells, plan.cells));
+      table.notes.push_back(
+          fmt::format("{}: measured at {} of its {} points, the others taken in proportion",
+                      part.name, plan.measured_cells, plan.cells));
   }
-  table.rows.push_back({"all", static_cast<std::int64_t>(study.trials()), TableCell(), TableCell(), steps,
-                        TableCell(), seconds, 1e-6 * bytes, TableCell(),
+  table.rows.push_back({"all", static_cast<std::int64_t>(study.trials()), TableCell(), TableCell(),
+                        steps, TableCell(), seconds, 1e-6 * bytes, TableCell(),
                         static_cast<std::int64_t>(study.cells.size())});
-  const auto shards = arguments.shards > 1 ? fmt::format(" for each of {} shards", arguments.shards) : "";
-  table.notes.push_back(fmt::format("predicted run time {}{}, measured on the first trials of each cell, "
-                                    "on this machine as busy as it is now",
-                                    duration(seconds), shards));
-  if (std::any_of(study.cells.begin(), study.cells.end(), [](const Cell& c) { return c.stop.has_value(); }))
+  const auto shards =
+      arguments.shards > 1 ? fmt::format(" for each of {} shards", arguments.shards) : "";
+  table.notes.push_back(
+      fmt::format("predicted run time {}{}, measured on the first trials of each cell, "
+                  "on this machine as busy as it is now",
+                  duration(seconds), shards));
+  if (std::any_of(study.cells.begin(), study.cells.end(),
+                  [](const Cell& c) { return c.stop.has_value(); }))
     table.notes.push_back("that is all trials; a cell with a stop rule may need fewer");
-  table.notes.push_back(fmt::format("disk {:.3g} GB in all: store and outcomes.csv.gz", 1e-9 * bytes));
+  table.notes.push_back(
+      fmt::format("disk {:.3g} GB in all: store and outcomes.csv.gz", 1e-9 * bytes));
   return table;
 }
 
@@ -128,7 +142,8 @@ int run(const PlanArguments& arguments, Console& console) {
 }  // namespace
 
 void add_plan(CLI::App& program, Console& console, int& exit_code) {
-  auto* verb = program.add_subcommand("plan", "how long a study will run and how much disk it takes");
+  auto* verb =
+      program.add_subcommand("plan", "how long a study will run and how much disk it takes");
   auto arguments = std::make_shared<PlanArguments>();
   verb->add_option("study", arguments->study, "study file (JSON)")->required();
   verb->add_option("--trials", arguments->trials, "trials of every cell, instead of the study's")

@@ -1,8 +1,8 @@
 #include "experiments/cli/progress.hpp"
 
-#include <fmt/format.h>
-
 #include <condition_variable>
+
+#include <fmt/format.h>
 
 namespace gyrostat::cli {
 
@@ -48,7 +48,8 @@ void Progress::draw() {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     const double rate = elapsed > 0.0 ? static_cast<double>(finished) / elapsed : 0.0;
     const double left = rate > 0.0 ? static_cast<double>(total_ - finished) / rate : 0.0;
-    line = fmt::format("{}/{} trials, {:.0f} trials/s, {:.0f} s left", finished, total_, rate, left);
+    line =
+        fmt::format("{}/{} trials, {:.0f} trials/s, {:.0f} s left", finished, total_, rate, left);
   }
   if (is_terminal_) {
     const std::size_t filled = 30 * finished / total_;

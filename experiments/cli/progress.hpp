@@ -10,8 +10,8 @@
 
 namespace gyrostat::cli {
 
-/// Tells how far a cell is: a bar on a terminal, a plain line every tenth elsewhere. Draws from its own
-/// thread, so that trials never wait for it.
+/// Tells how far a cell is: a bar on a terminal, a plain line every tenth elsewhere. Draws from its
+/// own thread, so that trials never wait for it.
 class Progress {
  public:
   Progress(std::ostream& out, bool is_terminal, std::string name, std::size_t total);

@@ -25,9 +25,10 @@ struct RankArguments {
 };
 
 std::string diagram(const CellRanking& ranking) {
-  RankDiagram figure{.title = fmt::format("{}: mean ranks of {} over {} trials", ranking.cell, ranking.metric,
-                                          ranking.trials),
-                     .methods = {}, .critical_difference = ranking.critical_difference};
+  RankDiagram figure{.title = fmt::format("{}: mean ranks of {} over {} trials", ranking.cell,
+                                          ranking.metric, ranking.trials),
+                     .methods = {},
+                     .critical_difference = ranking.critical_difference};
   for (const auto& m : ranking.methods) figure.methods.push_back({m.method, m.mean_rank});
   return svg(figure);
 }
@@ -36,7 +37,8 @@ int run(const RankArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const Store store = Store::open(arguments.folder);
   const auto study = stored_study(store);
-  const Cell* only = arguments.cell.empty() ? nullptr : &cell_named(study, arguments.cell, "--cell");
+  const Cell* only =
+      arguments.cell.empty() ? nullptr : &cell_named(study, arguments.cell, "--cell");
   if (!arguments.figures.empty()) make_result_folder(arguments.figures);
   std::vector<Table> tables;
   for (std::uint32_t c = 0; c < study.cells.size(); ++c) {
@@ -50,7 +52,8 @@ int run(const RankArguments& arguments, Console& console) {
     const auto ranking = rank_cell(cell, trials, arguments.metric);
     tables.push_back(ranking_table(ranking));
     if (!arguments.figures.empty())
-      write_atomically(fs::path(arguments.figures) / fmt::format("ranks_{}.svg", c + 1), diagram(ranking));
+      write_atomically(fs::path(arguments.figures) / fmt::format("ranks_{}.svg", c + 1),
+                       diagram(ranking));
   }
   console.out << render(tables, format);
   return complete;
@@ -59,12 +62,15 @@ int run(const RankArguments& arguments, Console& console) {
 }  // namespace
 
 void add_rank(CLI::App& program, Console& console, int& exit_code) {
-  auto* verb = program.add_subcommand("rank", "which filter wins each cell of a run, and how sure that is");
+  auto* verb =
+      program.add_subcommand("rank", "which filter wins each cell of a run, and how sure that is");
   auto arguments = std::make_shared<RankArguments>();
   verb->add_option("folder", arguments->folder, "folder of a run, as runs/<study>")->required();
-  verb->add_option("--metric", arguments->metric, "error to rank by (default: the one methods are judged by)");
+  verb->add_option("--metric", arguments->metric,
+                   "error to rank by (default: the one methods are judged by)");
   verb->add_option("--cell", arguments->cell, "this cell alone");
-  verb->add_option("--figures", arguments->figures, "folder for critical-difference diagrams, an SVG a cell");
+  verb->add_option("--figures", arguments->figures,
+                   "folder for critical-difference diagrams, an SVG a cell");
   arguments->format.add_to(verb);
   verb->footer(examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

@@ -33,8 +33,9 @@ Study study_of(const ReplayArguments& arguments) {
   if (!arguments.study.empty()) return read_study(arguments.study);
   const auto folder = store_of(arguments);
   if (!fs::exists(folder / Store::file_name))
-    throw InputError(folder.string(), "there is no run here; name its folder with --store, or the study "
-                                      "file with --study");
+    throw InputError(folder.string(),
+                     "there is no run here; name its folder with --store, or the study "
+                     "file with --study");
   return stored_study(Store::open(folder));
 }
 
@@ -58,25 +59,30 @@ void print_steps(const Series& series, const Track& track, std::ostream& out) {
 }
 
 Table outcome_table(const std::string& address, const Outcome& outcome) {
-  Table table{.title = address, .columns = {{"metric", ""}, {"value", ""}}, .rows = {}, .notes = {}};
+  Table table{
+      .title = address, .columns = {{"metric", ""}, {"value", ""}}, .rows = {}, .notes = {}};
   const auto ids = Metrics::ids();
   for (std::size_t m = 0; m < metric_count; ++m)
     table.rows.push_back({ids[m], gyrostat::cell(outcome.metrics[m])});
   for (std::size_t s = 0; s < status_names.size(); ++s)
-    table.rows.push_back({"steps: " + std::string(status_names[s]), std::int64_t{outcome.status_counts[s]}});
+    table.rows.push_back(
+        {"steps: " + std::string(status_names[s]), std::int64_t{outcome.status_counts[s]}});
   table.rows.push_back({"diverged", outcome.diverged ? "yes" : "no"});
   if (!outcome.thrown.empty()) table.notes.push_back("threw: " + outcome.thrown);
   return table;
 }
 
 /// Whether the store has this very outcome; nothing to say where it has none.
-std::string compared(const Store& store, const TrialAddress& at, const std::vector<double>& replayed) {
+std::string compared(const Store& store, const TrialAddress& at,
+                     const std::vector<double>& replayed) {
   std::string verdict;
   store.for_each_trial(static_cast<std::uint32_t>(at.cell), at.trial + 1, [&](const auto& trial) {
     if (trial.trial != at.trial) return;
-    const bool same = std::equal(
-        trial.outcomes.begin(), trial.outcomes.end(), replayed.begin(), replayed.end(),
-        [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); });
+    const bool same =
+        std::equal(trial.outcomes.begin(), trial.outcomes.end(), replayed.begin(), replayed.end(),
+                   [](double a, double b) {
+                     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+                   });
     verdict = same ? "the same outcome, to the bit, as in the store"
                    : "the store has another outcome: was it made by another build?";
   });
@@ -94,7 +100,8 @@ int run(const ReplayArguments& arguments, Console& console) {
   const auto record = run_trial(cell, prepared.calibration, study.seed, at.trial, workspace);
   const auto& outcome = record.outcomes[at.method];
   if (arguments.steps) {
-    if (!outcome.thrown.empty()) throw std::runtime_error(arguments.address + ": " + outcome.thrown);
+    if (!outcome.thrown.empty())
+      throw std::runtime_error(arguments.address + ": " + outcome.thrown);
     Cell alone = cell;
     alone.methods = {cell.methods[at.method]};
     run_trial(alone, prepared.calibration, study.seed, at.trial, workspace);
@@ -119,7 +126,8 @@ void add_replay(CLI::App& program, Console& console, int& exit_code) {
   auto* verb = program.add_subcommand("replay", "run one filter in one trial of a study again");
   auto arguments = std::make_shared<ReplayArguments>();
   verb->add_option("address", arguments->address, "study:cell:trial:filter")->required();
-  verb->add_option("--study", arguments->study, "study file (default: the study that the run keeps)");
+  verb->add_option("--study", arguments->study,
+                   "study file (default: the study that the run keeps)");
   verb->add_option("--store", arguments->store, "folder of the run (default: runs/<study>)");
   verb->add_flag("--steps", arguments->steps, "print every step as CSV");
   arguments->format.add_to(verb);

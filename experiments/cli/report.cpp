@@ -1,8 +1,9 @@
+#include "experiments/report/report.hpp"
+
 #include "experiments/atomic_file.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/verbs.hpp"
 #include "experiments/outcome_file.hpp"
-#include "experiments/report/report.hpp"
 #include "experiments/study_store.hpp"
 
 namespace gyrostat::cli {
@@ -23,11 +24,14 @@ struct ReportArguments {
 int run(const ReportArguments& arguments, Console& console) {
   const auto database = fs::path(arguments.folder) / Store::file_name;
   if (!fs::exists(database))
-    throw InputError(arguments.folder, "there is no run here; a folder that gyrostat run made is needed");
-  const auto out = arguments.out.empty() ? fs::path(arguments.folder) / "report.html" : fs::path(arguments.out);
+    throw InputError(arguments.folder,
+                     "there is no run here; a folder that gyrostat run made is needed");
+  const auto out =
+      arguments.out.empty() ? fs::path(arguments.folder) / "report.html" : fs::path(arguments.out);
   require_writable(out, database);
   const Store store = Store::open(arguments.folder);
-  write_atomically(out, report_page(stored_study(store), store, arguments.folder, arguments.options));
+  write_atomically(out,
+                   report_page(stored_study(store), store, arguments.folder, arguments.options));
   console.log << fmt::format("report: {}\n", out.string());
   return complete;
 }
@@ -38,12 +42,15 @@ void add_report(CLI::App& program, Console& console, int& exit_code) {
   auto* verb = program.add_subcommand("report", "a run's results as one page to open in a browser");
   auto arguments = std::make_shared<ReportArguments>();
   verb->add_option("folder", arguments->folder, "folder of a run, as runs/<study>")->required();
-  verb->add_option("--out", arguments->out, "HTML file to write (default: report.html in the folder)");
+  verb->add_option("--out", arguments->out,
+                   "HTML file to write (default: report.html in the folder)");
   verb->add_option("--cell", arguments->options.cells, "a cell to show in full; may be repeated");
   verb->add_option("--replay", arguments->options.replay,
-                   "trials simulated again for pictures over time (default: 2 to 64 by the length of a trial)")
+                   "trials simulated again for pictures over time (default: 2 to 64 by the length "
+                   "of a trial)")
       ->check(CLI::Range(0U, 100000U));
-  verb->add_option("--threads", arguments->options.threads, "threads (default: all)")->check(CLI::Range(1, 1024));
+  verb->add_option("--threads", arguments->options.threads, "threads (default: all)")
+      ->check(CLI::Range(1, 1024));
   verb->footer(examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }

@@ -94,10 +94,15 @@ class Run {
  private:
   int run() {
     const auto build = this_build();
-    log_->write("start", {{"study", study_.name()}, {"digest", study_.digest}, {"build", build.version},
-                          {"compiler", build.compiler}, {"flags", build.flags},
-                          {"machine", this_machine()}, {"shard", shard_.index},
-                          {"shards", shard_.count}, {"trials", study_.trials()}});
+    log_->write("start", {{"study", study_.name()},
+                          {"digest", study_.digest},
+                          {"build", build.version},
+                          {"compiler", build.compiler},
+                          {"flags", build.flags},
+                          {"machine", this_machine()},
+                          {"shard", shard_.index},
+                          {"shards", shard_.count},
+                          {"trials", study_.trials()}});
     if (shard_.count > 1)
       console_.log << fmt::format("shard {} of {}\n", shard_.index, shard_.count);
     Stopper stopper(console_, until_);
@@ -132,7 +137,8 @@ class Run {
     const auto prepared = prepare_cell(cell, study_.seed, threads_);
     const bool looks = cell.stop && shard_.count == 1;
     if (cell.stop && !looks)
-      console_.log << cell.name << ": a shard runs all of its trials; its stop rule is for the merged run\n";
+      console_.log << cell.name
+                   << ": a shard runs all of its trials; its stop rule is for the merged run\n";
     std::vector<double> nanoseconds;
     std::optional<std::string> reason;
     for (const auto limit : stages(cell, looks)) {
@@ -147,21 +153,25 @@ class Run {
     }
     Json times = Json::object();
     for (std::size_t m = 0; m < nanoseconds.size(); ++m)
-      if (!std::isnan(nanoseconds[m])) times[cell.methods[m].id] = std::round(nanoseconds[m] * 10.0) / 10.0;
-    log_->write("cell", {{"cell", cell.name}, {"failed", failed_}, {"stopped", reason.value_or("")},
+      if (!std::isnan(nanoseconds[m]))
+        times[cell.methods[m].id] = std::round(nanoseconds[m] * 10.0) / 10.0;
+    log_->write("cell", {{"cell", cell.name},
+                         {"failed", failed_},
+                         {"stopped", reason.value_or("")},
                          {"ns_per_step", times}});
     summarise(index, prepared, nanoseconds, reason);
   }
 
   /// Numbers of trials up to which a cell is run before its rule is asked.
   static std::vector<std::uint32_t> stages(const Cell& cell, bool looks) {
-    auto limits = looks ? look_counts(cell.stop->at_least, cell.trials) : std::vector<std::uint32_t>{};
+    auto limits =
+        looks ? look_counts(cell.stop->at_least, cell.trials) : std::vector<std::uint32_t>{};
     if (limits.empty() || limits.back() < cell.trials) limits.push_back(cell.trials);
     return limits;
   }
 
-  void run_trials_below(std::uint32_t limit, std::uint32_t index, PreparedCell prepared, CellState& state,
-                        Stopper& stopper, std::vector<double>& nanoseconds) {
+  void run_trials_below(std::uint32_t limit, std::uint32_t index, PreparedCell prepared,
+                        CellState& state, Stopper& stopper, std::vector<double>& nanoseconds) {
     if (!state.misses_below(limit)) return;
     prepared.cell.trials = limit;
     Progress progress(console_.log, console_.log_is_terminal, prepared.cell.name, state.trials());
@@ -178,9 +188,9 @@ class Run {
         log_->write("progress", to_json(now));
       }
     };
-    nanoseconds = run_missing(*store_, prepared, index, study_.seed, state,
-                              {.threads = threads_, .stop = &stopper.flag(), .lanes = lanes_, .progress = {}},
-                              watch);
+    nanoseconds = run_missing(
+        *store_, prepared, index, study_.seed, state,
+        {.threads = threads_, .stop = &stopper.flag(), .lanes = lanes_, .progress = {}}, watch);
   }
 
   OutcomeSource outcomes_of(std::uint32_t index, std::uint32_t limit) const {
@@ -190,13 +200,14 @@ class Run {
     };
   }
 
-  /// The points of a design, one after the other under one line of progress. They have no tables of their
-  /// own: those of the design say what came out.
+  /// The points of a design, one after the other under one line of progress. They have no tables of
+  /// their own: those of the design say what came out.
   void run_design(const Design& design, std::vector<CellState>& states, Stopper& stopper) {
     using Clock = std::chrono::steady_clock;
     const auto first = static_cast<std::uint32_t>(design.first_cell);
     const auto last = first + static_cast<std::uint32_t>(design.values.size());
-    CellProgress whole{.cell = design.name, .finished = 0, .trials = 0, .failed = failed_, .widest = {}};
+    CellProgress whole{
+        .cell = design.name, .finished = 0, .trials = 0, .failed = failed_, .widest = {}};
     for (auto c = first; c < last; ++c) {
       whole.finished += states[c].finished();
       whole.trials += states[c].trials();
@@ -216,8 +227,9 @@ class Run {
                     [&](const CellProgress& now) {
                       whole.failed = failed_ = failed_before + now.failed;
                       whole.finished = done + now.finished;
-                      whole.trials_per_s = (whole.finished - before) /
-                                           std::chrono::duration<double>(Clock::now() - start).count();
+                      whole.trials_per_s =
+                          (whole.finished - before) /
+                          std::chrono::duration<double>(Clock::now() - start).count();
                       whole.left_s = (whole.trials - whole.finished) / whole.trials_per_s;
                       progress.set(whole.finished, to_text(whole));
                       if (over_budget()) stopper.stop("more failures than the budget allows");
@@ -234,7 +246,8 @@ class Run {
       }
       store_->note_progress(to_json(whole).dump());
     }
-    log_->write("design", {{"design", design.name}, {"points", design.values.size()}, {"failed", failed_}});
+    log_->write("design",
+                {{"design", design.name}, {"points", design.values.size()}, {"failed", failed_}});
   }
 
   /// What the designs say; many points are for the files alone.
@@ -248,7 +261,8 @@ class Run {
   }
 
   void summarise(std::uint32_t index, const PreparedCell& prepared,
-                 const std::vector<double>& nanoseconds, const std::optional<std::string>& stopped_by) {
+                 const std::vector<double>& nanoseconds,
+                 const std::optional<std::string>& stopped_by) {
     const auto& cell = study_.cells[index];
     const TrialSource trials = [&](const auto& visit) {
       store_->for_each_trial(index, cell.trials, [&](const Store::TrialView& trial) {
@@ -272,7 +286,8 @@ class Run {
   void write_results() {
     const auto all = with_points(most_files);
     console_.out << render(with_points(most_shown), format_) << std::flush;
-    if (format_ == Format::text && !timings_.empty()) console_.out << '\n' << render(timings_, format_);
+    if (format_ == Format::text && !timings_.empty())
+      console_.out << '\n' << render(timings_, format_);
     write_outcomes(folder_ / "outcomes.csv.gz", *store_);
     write_atomically(folder_ / "tables.json", render(all, Format::json));
     write_atomically(folder_ / "tables.md", render(all, Format::markdown));
@@ -289,13 +304,15 @@ class Run {
   }
 
   bool over_budget() const {
-    return static_cast<double>(failed_) > study_.failure_budget * static_cast<double>(study_.trials());
+    return static_cast<double>(failed_) >
+           study_.failure_budget * static_cast<double>(study_.trials());
   }
 
   int end(const Stopper& stopper) {
     if (failed_ > 0)
-      console_.log << fmt::format("{} trials failed; gyrostat status {} --failures has their addresses\n",
-                                  failed_, folder_.string());
+      console_.log << fmt::format(
+          "{} trials failed; gyrostat status {} --failures has their addresses\n", failed_,
+          folder_.string());
     console_.log << fmt::format("results: {} (tables.md, tables.json, outcomes.csv.gz)\n",
                                 folder_.string());
     const int code = over_budget() ? over_failure_budget : stopper.flag() ? stopped : complete;
@@ -304,8 +321,9 @@ class Run {
       console_.log << fmt::format("failures over the budget: {} of {} trials, allowed are {:g} %\n",
                                   failed_, study_.trials(), 100.0 * study_.failure_budget);
     if (code == stopped)
-      console_.log << stopper.reason() << ": the tables are of the trials that were done, and the same "
-                                          "command goes on from them\n";
+      console_.log << stopper.reason()
+                   << ": the tables are of the trials that were done, and the same "
+                      "command goes on from them\n";
     return code;
   }
 
@@ -336,18 +354,22 @@ void add_run(CLI::App& program, Console& console, int& exit_code) {
       ->check(CLI::Range(1U, 4294967295U));
   verb->add_option("--shard", arguments->shard,
                    "run only the trials of part i of n (in a Slurm job array: the task's own)");
-  verb->add_option("--stop", arguments->stop,
-                   "rule by which cells stop before all trials are run, instead of the study's; none");
+  verb->add_option(
+      "--stop", arguments->stop,
+      "rule by which cells stop before all trials are run, instead of the study's; none");
   verb->add_option("--until", arguments->until, "stop in good order at this time of day, as 07:00");
   verb->add_option("--failure-budget", arguments->failure_budget,
                    "share of the trials that may fail, instead of the study's")
       ->check(within(0.0, 1.0));
-  auto* mix = verb->add_flag("--mix", arguments->mix,
-                             "go on in a folder begun by another build or before the study was changed");
+  auto* mix =
+      verb->add_flag("--mix", arguments->mix,
+                     "go on in a folder begun by another build or before the study was changed");
   verb->add_flag("--set-aside", arguments->set_aside,
                  "keep the outcomes that are there under another name and begin anew")
       ->excludes(mix);
-  verb->add_option("--lanes", arguments->lanes, "trials side by side: 1, 2, 4 or 8 (default: as many as a register holds; the same results)")
+  verb->add_option("--lanes", arguments->lanes,
+                   "trials side by side: 1, 2, 4 or 8 (default: as many as a register holds; the "
+                   "same results)")
       ->check(CLI::IsMember(possible_lanes));
   arguments->format.add_to(verb);
   verb->footer(examples);

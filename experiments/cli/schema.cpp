@@ -12,7 +12,8 @@ An editor completes and checks a study that names it: {"$schema": "study.schema.
 }  // namespace
 
 void add_schema(CLI::App& program, Console& console, int& exit_code) {
-  auto* verb = program.add_subcommand("schema", "the JSON Schema of study files, for editors and other programs");
+  auto* verb = program.add_subcommand(
+      "schema", "the JSON Schema of study files, for editors and other programs");
   verb->footer(examples);
   verb->callback([&console, &exit_code] {
     console.out << study_schema().dump(1) << '\n';

@@ -35,20 +35,22 @@ int run(SlurmArguments arguments, Console& console) {
                    .string();
   job.program = fs::read_symlink("/proc/self/exe").string();
   if (arguments.trials > 0) job.options = fmt::format("--trials {}", arguments.trials);
-  if (job.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-") !=
-      std::string::npos)
-    throw InputError(job.study, "a job is named as its study file: letters, digits, '_', '.' and '-' only");
+  if (job.name.find_first_not_of(
+          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-") != std::string::npos)
+    throw InputError(job.study,
+                     "a job is named as its study file: letters, digits, '_', '.' and '-' only");
   const auto file = arguments.file.empty() ? job.name + ".sbatch" : arguments.file;
   write_atomically(file, sbatch_file(job));
-  console.log << fmt::format("{}: {} tasks of {} trials in all; send it with sbatch {}\n", file, job.shards,
-                             study.trials(), file);
+  console.log << fmt::format("{}: {} tasks of {} trials in all; send it with sbatch {}\n", file,
+                             job.shards, study.trials(), file);
   return complete;
 }
 
 }  // namespace
 
 void add_slurm(CLI::App& program, Console& console, int& exit_code) {
-  auto* verb = program.add_subcommand("slurm", "write a Slurm job array that runs a study in shards");
+  auto* verb =
+      program.add_subcommand("slurm", "write a Slurm job array that runs a study in shards");
   auto arguments = std::make_shared<SlurmArguments>();
   auto& job = arguments->job;
   const auto time_limit = CLI::Validator(

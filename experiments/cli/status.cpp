@@ -1,7 +1,7 @@
+#include "analysis/statistics/sequential.hpp"
 #include "experiments/address.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/verbs.hpp"
-#include "analysis/statistics/sequential.hpp"
 #include "experiments/study_store.hpp"
 #include "results/store.hpp"
 
@@ -19,10 +19,12 @@ struct StatusArguments {
   FormatOption format;
 };
 
-/// The cells from `first` on that are points of one design, by their names; one where there are few.
+/// The cells from `first` on that are points of one design, by their names; one where there are
+/// few.
 std::uint32_t together(const Manifest& manifest, std::uint32_t first) {
   constexpr std::uint32_t few = 20;
-  const auto design = manifest.cells[first].name.substr(0, manifest.cells[first].name.find('[') + 1);
+  const auto design =
+      manifest.cells[first].name.substr(0, manifest.cells[first].name.find('[') + 1);
   std::uint32_t last = first;
   while (design.ends_with('[') && last < manifest.cells.size() &&
          manifest.cells[last].name.starts_with(design))
@@ -31,14 +33,18 @@ std::uint32_t together(const Manifest& manifest, std::uint32_t first) {
 }
 
 Table cells_table(const Store& store, const Manifest& manifest) {
-  Table table{.title = fmt::format("{}: seed {}, digest {}", manifest.name, manifest.seed, manifest.digest),
-              .columns = {{"cell", ""}, {"finished", ""}, {"trials", ""}, {"failed", ""}},
-              .rows = {}, .notes = {}};
+  Table table{
+      .title = fmt::format("{}: seed {}, digest {}", manifest.name, manifest.seed, manifest.digest),
+      .columns = {{"cell", ""}, {"finished", ""}, {"trials", ""}, {"failed", ""}},
+      .rows = {},
+      .notes = {}};
   for (std::uint32_t c = 0; c < manifest.cells.size();) {
     const std::uint32_t count = together(manifest, c);
-    const auto name = count == 1 ? manifest.cells[c].name
-                                 : fmt::format("{} ({} points)",
-                                               manifest.cells[c].name.substr(0, manifest.cells[c].name.find('[')), count);
+    const auto name =
+        count == 1 ? manifest.cells[c].name
+                   : fmt::format("{} ({} points)",
+                                 manifest.cells[c].name.substr(0, manifest.cells[c].name.find('[')),
+                                 count);
     std::int64_t finished = 0, trials = 0, failed = 0;
     for (const auto end = c + count; c < end; ++c) {
       const auto& cell = manifest.cells[c];
@@ -53,7 +59,9 @@ Table cells_table(const Store& store, const Manifest& manifest) {
 
 /// Why cells have stopped before all of their trials, where rules have been asked.
 Table stops_table(const Store& store) {
-  Table table{.title = "stop rules", .columns = {{"cell", ""}, {"trials", ""}, {"stopped", ""}}, .rows = {},
+  Table table{.title = "stop rules",
+              .columns = {{"cell", ""}, {"trials", ""}, {"stopped", ""}},
+              .rows = {},
               .notes = {}};
   const auto study = stored_study(store);
   for (std::uint32_t c = 0; c < study.cells.size(); ++c) {
@@ -69,7 +77,8 @@ Table stops_table(const Store& store) {
       });
     });
     const bool at_look = !looks.empty() && looks.back() == cell.trials && finished == cell.trials;
-    table.rows.push_back({cell.name, std::int64_t{finished}, at_look && reason ? *reason : "not yet"});
+    table.rows.push_back(
+        {cell.name, std::int64_t{finished}, at_look && reason ? *reason : "not yet"});
   }
   return table;
 }
@@ -79,8 +88,8 @@ std::string last_words(const Session& session) {
   const auto p = Json::parse(session.progress, nullptr, false);
   if (!p.is_object() || !p.contains("cell")) return "–";
   auto text = fmt::format("{}: {}/{}, {:.1f} trials/s, {:.0f} s left", p.value("cell", ""),
-                          p.value("finished", 0), p.value("trials", 0), p.value("trials_per_s", 0.0),
-                          p.value("left_s", 0.0));
+                          p.value("finished", 0), p.value("trials", 0),
+                          p.value("trials_per_s", 0.0), p.value("left_s", 0.0));
   if (p.contains("widest"))
     text += fmt::format(", widest ± {:.2g} ({})", p["widest"].value("half_width", 0.0),
                         p["widest"].value("method", ""));
@@ -89,22 +98,31 @@ std::string last_words(const Session& session) {
 
 Table sessions_table(const Store& store) {
   Table table{.title = "sessions",
-              .columns = {{"started", "UTC"}, {"process", ""}, {"trials", ""}, {"last batch", ""}, {"build", ""},
-                          {"compiler", ""}, {"flags", ""}, {"machine", ""}},
-              .rows = {}, .notes = {}};
+              .columns = {{"started", "UTC"},
+                          {"process", ""},
+                          {"trials", ""},
+                          {"last batch", ""},
+                          {"build", ""},
+                          {"compiler", ""},
+                          {"flags", ""},
+                          {"machine", ""}},
+              .rows = {},
+              .notes = {}};
   for (const auto& session : store.sessions())
-    table.rows.push_back({session.started, session.process, session.trials, last_words(session), session.build.version,
-                          session.build.compiler, session.build.flags, session.machine});
+    table.rows.push_back({session.started, session.process, session.trials, last_words(session),
+                          session.build.version, session.build.compiler, session.build.flags,
+                          session.machine});
   return table;
 }
 
 Table failures_table(const Store& store, const Manifest& manifest) {
-  Table table{.title = "failures", .columns = {{"address", ""}, {"reason", ""}}, .rows = {}, .notes = {}};
+  Table table{
+      .title = "failures", .columns = {{"address", ""}, {"reason", ""}}, .rows = {}, .notes = {}};
   store.for_each_failure([&](const Failure& failure) {
     const auto& cell = manifest.cells.at(failure.cell);
-    table.rows.push_back({address_text(manifest.name, cell.name, failure.trial,
-                                       cell.methods.at(failure.method)),
-                          failure.reason});
+    table.rows.push_back(
+        {address_text(manifest.name, cell.name, failure.trial, cell.methods.at(failure.method)),
+         failure.reason});
   });
   return table;
 }

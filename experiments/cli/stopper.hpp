@@ -17,9 +17,12 @@ class Stopper {
   Stopper(const Console& console, std::optional<std::time_t> until)
       : watch_([this, &console, until](const std::stop_token& end) {
           while (!end.stop_requested() && !stop_) {
-            if (console.stop) stop("stopped early");
-            else if (until && std::time(nullptr) >= *until) stop("stopped at the hour that was set");
-            else std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            if (console.stop)
+              stop("stopped early");
+            else if (until && std::time(nullptr) >= *until)
+              stop("stopped at the hour that was set");
+            else
+              std::this_thread::sleep_for(std::chrono::milliseconds(20));
           }
         }) {}
 

@@ -12,8 +12,8 @@ constexpr const char* examples = R"(Examples:
 std::string described(const Design& design) {
   std::vector<std::string> names;
   for (const auto& parameter : design.parameters) names.push_back(parameter.name);
-  return fmt::format("{}, {} of {} points over {}", design.name, name_of(design.kind), design.values.size(),
-                     fmt::join(names, ", "));
+  return fmt::format("{}, {} of {} points over {}", design.name, name_of(design.kind),
+                     design.values.size(), fmt::join(names, ", "));
 }
 
 int run(const std::string& path, Console& console) {

@@ -1,18 +1,18 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <atomic>
 #include <ostream>
+
+#include <CLI/CLI.hpp>
 
 namespace gyrostat::cli {
 
 /// What a verb may touch of the outside world.
 struct Console {
-  std::ostream& out;               ///< results
-  std::ostream& log;               ///< progress and warnings
+  std::ostream& out;  ///< results
+  std::ostream& log;  ///< progress and warnings
   bool log_is_terminal = false;
-  const std::atomic<bool>& stop;   ///< set by Ctrl-C
+  const std::atomic<bool>& stop;  ///< set by Ctrl-C
 };
 
 enum ExitCode { complete = 0, error = 1, usage = 2, over_failure_budget = 3, stopped = 4 };

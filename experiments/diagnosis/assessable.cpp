@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "experiments/diagnosis/candidate.hpp"
 
@@ -54,7 +54,9 @@ std::string needs_turns(const Conditions& c) {
 }
 
 template <class E>
-std::string why_not(const E& /*effect*/, const Conditions& /*c*/) { return {}; }
+std::string why_not(const E& /*effect*/, const Conditions& /*c*/) {
+  return {};
+}
 
 std::string why_not(const NoiseTemperature&, const Conditions& c) { return needs_temperature(c); }
 std::string why_not(const ThermalCurvature&, const Conditions& c) { return needs_temperature(c); }
@@ -70,8 +72,9 @@ std::string why_not(const ThermalHysteresis&, const Conditions& c) {
     fall = std::max(fall, high - t);
   }
   if (std::min(rise, fall) >= least_temperature_span_C) return {};
-  return fmt::format("the temperature rises by {:.2g} °C and falls by {:.2g} °C; {:g} °C each way are needed",
-                     rise, fall, least_temperature_span_C);
+  return fmt::format(
+      "the temperature rises by {:.2g} °C and falls by {:.2g} °C; {:g} °C each way are needed",
+      rise, fall, least_temperature_span_C);
 }
 std::string why_not(const BiasInstability&, const Conditions& c) { return needs_time(c); }
 std::string why_not(const RateRamp&, const Conditions& c) { return needs_time(c); }
@@ -83,9 +86,10 @@ std::string why_not(const Saturation&, const Conditions& c) { return needs_motio
 std::string why_not(const DeadZone&, const Conditions& c) { return needs_motion(c); }
 std::string why_not(const GSensitivity&, const Conditions& c) {
   if (!c.has_acceleration()) return "there are no acc_x_mps2, … columns";
-  const double span = std::max({span_of(c.slow_means(c.series().acc_x_mps2)),
-                                c.series().acc_y_mps2.empty() ? 0.0 : span_of(c.slow_means(c.series().acc_y_mps2)),
-                                c.series().acc_z_mps2.empty() ? 0.0 : span_of(c.slow_means(c.series().acc_z_mps2))});
+  const double span = std::max(
+      {span_of(c.slow_means(c.series().acc_x_mps2)),
+       c.series().acc_y_mps2.empty() ? 0.0 : span_of(c.slow_means(c.series().acc_y_mps2)),
+       c.series().acc_z_mps2.empty() ? 0.0 : span_of(c.slow_means(c.series().acc_z_mps2))});
   if (span >= least_acceleration_mps2) return {};
   return fmt::format("the acceleration changes by {:.2g} m/s²; at least {:g} m/s² are needed", span,
                      least_acceleration_mps2);

@@ -13,8 +13,8 @@ struct Evidence {
   const Simulator& simulator;
   const Series& recording;
   Scene scene;
-  Scenario baseline;       ///< fitted to the recording
-  double white_std_dps;    ///< of the recording, from its single steps
+  Scenario baseline;     ///< fitted to the recording
+  double white_std_dps;  ///< of the recording, from its single steps
   double seconds_of_train() const;
 };
 
@@ -35,8 +35,8 @@ struct Start {
 };
 
 /// Whether the parameters are what the effect's name says: narrow-band noise is narrower than its
-/// frequency is high but no line, slow errors last for more than a few samples, a disturbance of the
-/// compass does not turn it round.
+/// frequency is high but no line, slow errors last for more than a few samples, a disturbance of
+/// the compass does not turn it round.
 bool is_what_it_is_called(const Effects::Any& effect, const Conditions& conditions);
 
 /// Why the recording cannot show the effect, with how much more it would need; empty where it can.

@@ -33,17 +33,17 @@ struct Where {
 /// A candidate, fitted on the train part.
 struct Cause {
   std::string effect;
-  Scenario scenario;             ///< the baseline with the effect, both fitted
-  double log_score = 0.0;        ///< of the train part, beyond the scenario without the effect
-  double recovered = 0.0;        ///< share of the log score that a true cause would gain
+  Scenario scenario;       ///< the baseline with the effect, both fitted
+  double log_score = 0.0;  ///< of the train part, beyond the scenario without the effect
+  double recovered = 0.0;  ///< share of the log score that a true cause would gain
   double probability = 0.0;
-  double gap_after = 0.0;        ///< held-out
+  double gap_after = 0.0;  ///< held-out
   double closed = 0.0;
 };
 
 struct Step {
   std::string added;
-  double gap = 0.0;              ///< held-out
+  double gap = 0.0;  ///< held-out
 };
 
 struct Shortfall {
@@ -61,21 +61,21 @@ struct Diagnosis {
   double duration_s = 0.0, rate_hz = 0.0;
   std::vector<std::string> channels;
   Scenario baseline;
-  Scenario enriched;             ///< with every effect that was added; the baseline where none was
+  Scenario enriched;  ///< with every effect that was added; the baseline where none was
   std::vector<Where> where, where_after;  ///< on the train part, before and after the effects
   double gap_before = 0.0, gap_after = 0.0, closed = 0.0, closed_low = 0.0, closed_high = 0.0;
   double p_before = 1.0, p_after = 1.0;  ///< of the train part
   std::vector<Cause> causes;             ///< most probable first
   std::string verdict = "none";
-  bool claimed = false;                  ///< the causes were given, not found
+  bool claimed = false;  ///< the causes were given, not found
   std::vector<std::string> verdict_set;
   std::vector<Step> steps;
   std::vector<Shortfall> not_assessable;
   std::vector<Transfer> transfer;
-  NextExperiment next;           ///< empty where one cause stands alone
+  NextExperiment next;  ///< empty where one cause stands alone
   std::vector<Band> bands;
   std::vector<std::pair<std::string, double>> screening;  ///< log scores at the starts
-  std::vector<std::pair<std::string, double>> seconds;  ///< spent in each part of the work
+  std::vector<std::pair<std::string, double>> seconds;    ///< spent in each part of the work
 };
 
 /// Says what is being done, with the share that is done.

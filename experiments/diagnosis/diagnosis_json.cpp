@@ -8,9 +8,11 @@ namespace gyrostat::gap {
 
 Json parameters_json(const Effects::Any& effect) {
   Json json = Json::object();
-  std::visit([&](const auto& any) {
-    for (const auto& field : any.fields()) json[std::string(field.name)] = any.*(field.member);
-  }, effect);
+  std::visit(
+      [&](const auto& any) {
+        for (const auto& field : any.fields()) json[std::string(field.name)] = any.*(field.member);
+      },
+      effect);
   return json;
 }
 
@@ -22,9 +24,15 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); 
 Json departures_json(const std::vector<Where>& departures) {
   Json list = Json::array();
   for (const auto& w : departures)
-    list.push_back({{"lens", w.lens}, {"channel", w.channel}, {"coordinate", w.coordinate},
-                    {"from", w.from}, {"to", w.to}, {"observed", w.observed},
-                    {"simulated", w.simulated}, {"unit", w.unit}, {"p_adjusted", w.p_adjusted}});
+    list.push_back({{"lens", w.lens},
+                    {"channel", w.channel},
+                    {"coordinate", w.coordinate},
+                    {"from", w.from},
+                    {"to", w.to},
+                    {"observed", w.observed},
+                    {"simulated", w.simulated},
+                    {"unit", w.unit},
+                    {"p_adjusted", w.p_adjusted}});
   return list;
 }
 
@@ -32,24 +40,33 @@ Json departures_json(const std::vector<Where>& departures) {
 
 Json to_json(const Diagnosis& d) {
   Json json;
-  json["recording"] = {{"samples", d.samples}, {"duration_s", d.duration_s}, {"rate_hz", d.rate_hz},
+  json["recording"] = {{"samples", d.samples},
+                       {"duration_s", d.duration_s},
+                       {"rate_hz", d.rate_hz},
                        {"channels", d.channels}};
   Json parameters = Json::object();
-  for (const auto& [name, value] : parameter_values(d.baseline.random_error)) parameters[name] = value;
-  for (const auto& [name, value] : parameter_values(d.baseline.thermal_drift)) parameters[name] = value;
+  for (const auto& [name, value] : parameter_values(d.baseline.random_error))
+    parameters[name] = value;
+  for (const auto& [name, value] : parameter_values(d.baseline.thermal_drift))
+    parameters[name] = value;
   parameters["compass_noise_std_deg"] = d.baseline.compass.noise_std_deg;
-  json["baseline"] = {{"effects", Json::array({"white_noise", "arima111", "thermal_drift", "compass_noise"})},
-                      {"parameters", parameters}};
+  json["baseline"] = {
+      {"effects", Json::array({"white_noise", "arima111", "thermal_drift", "compass_noise"})},
+      {"parameters", parameters}};
   json["where"] = departures_json(d.where);
   json["where_after"] = departures_json(d.where_after);
-  json["gap"] = {{"before", d.gap_before}, {"after", d.gap_after}, {"closed", d.closed},
-                 {"closed_interval", Json::array({d.closed_low, d.closed_high})},
-                 {"p_before", d.p_before}, {"p_after", d.p_after}};
+  json["gap"] = {
+      {"before", d.gap_before}, {"after", d.gap_after},
+      {"closed", d.closed},     {"closed_interval", Json::array({d.closed_low, d.closed_high})},
+      {"p_before", d.p_before}, {"p_after", d.p_after}};
   json["causes"] = Json::array();
   for (const auto& c : d.causes)
-    json["causes"].push_back({{"effect", c.effect}, {"probability", c.probability},
-                              {"gap_after", c.gap_after}, {"closed", c.closed},
-                              {"log_score", c.log_score}, {"recovered", c.recovered},
+    json["causes"].push_back({{"effect", c.effect},
+                              {"probability", c.probability},
+                              {"gap_after", c.gap_after},
+                              {"closed", c.closed},
+                              {"log_score", c.log_score},
+                              {"recovered", c.recovered},
                               {"parameters", parameters_json(c.scenario.effects.back())}});
   json["verdict"] = d.verdict;
   json["verdict_set"] = d.verdict_set;
@@ -60,10 +77,14 @@ Json to_json(const Diagnosis& d) {
     json["not_assessable"].push_back({{"effect", n.effect}, {"why", n.why}});
   json["transfer"] = Json::array();
   for (const auto& t : d.transfer)
-    json["transfer"].push_back({{"filter", t.filter}, {"metric", t.metric}, {"unit", t.unit},
-                                {"real", number(t.real)}, {"sim_before", number(t.before)},
+    json["transfer"].push_back({{"filter", t.filter},
+                                {"metric", t.metric},
+                                {"unit", t.unit},
+                                {"real", number(t.real)},
+                                {"sim_before", number(t.before)},
                                 {"sim_after", number(t.after)}});
-  json["next_experiment"] = {{"what", d.next.what}, {"separates", Json::array({d.next.first, d.next.second})},
+  json["next_experiment"] = {{"what", d.next.what},
+                             {"separates", Json::array({d.next.first, d.next.second})},
                              {"expected_power", d.next.expected_power}};
   return json;
 }

@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "experiments/diagnosis/diagnosis_tables.hpp"
 #include "results/render/html.hpp"
@@ -9,7 +9,8 @@
 namespace gyrostat::gap {
 namespace {
 
-constexpr double width = 460.0, height = 230.0, left = 64.0, bottom = 34.0, top = 10.0, right = 10.0;
+constexpr double width = 460.0, height = 230.0, left = 64.0, bottom = 34.0, top = 10.0,
+                 right = 10.0;
 
 /// A scale from values to pixels.
 struct Axis {
@@ -37,41 +38,64 @@ std::string picture(const Band& band) {
     }
   const bool log_x = logarithmic && !branches && x.front() > 0.0 && n > 1;
   const auto scaled = [&](double v) { return log_x ? std::log10(v) : v; };
-  const Axis across{n > 1 ? scaled(x.front()) : x.front() - 1.0, n > 1 ? scaled(x.back()) : x.front() + 1.0, left, width - right, log_x};
+  const Axis across{n > 1 ? scaled(x.front()) : x.front() - 1.0,
+                    n > 1 ? scaled(x.back()) : x.front() + 1.0, left, width - right, log_x};
   const Axis up{low, high, height - bottom, top, false};
-  const auto ribbon = [&](const std::vector<double>& mean, const std::vector<double>& spread, const char* style) {
+  const auto ribbon = [&](const std::vector<double>& mean, const std::vector<double>& spread,
+                          const char* style) {
     std::string points;
-    for (std::size_t i = 0; i < n; ++i) points += fmt::format("{:.1f},{:.1f} ", across(x[i]), up(mean[i] + 2 * spread[i]));
-    for (std::size_t i = n; i-- > 0;) points += fmt::format("{:.1f},{:.1f} ", across(x[i]), up(mean[i] - 2 * spread[i]));
+    for (std::size_t i = 0; i < n; ++i)
+      points += fmt::format("{:.1f},{:.1f} ", across(x[i]), up(mean[i] + 2 * spread[i]));
+    for (std::size_t i = n; i-- > 0;)
+      points += fmt::format("{:.1f},{:.1f} ", across(x[i]), up(mean[i] - 2 * spread[i]));
     return fmt::format("<polygon class=\"{}\" points=\"{}\"/>", style, points);
   };
-  std::string svg = fmt::format("<figure><svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", width, height, escaped(band.title));
-  svg += ribbon(band.before, band.before_spread, "before") + ribbon(band.after, band.after_spread, "after");
+  std::string svg =
+      fmt::format("<figure><svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", width,
+                  height, escaped(band.title));
+  svg += ribbon(band.before, band.before_spread, "before") +
+         ribbon(band.after, band.after_spread, "after");
   for (std::size_t i = 0; i < n; ++i)
-    svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.4\"><title>{:.4g} {}: recording {:.5g}, simulated "
-                       "before {:.5g} ± {:.2g}, after {:.5g} ± {:.2g} {}</title></circle>",
-                       across(x[i]), up(band.observed[i]), band.at[i], band.coordinate, band.observed[i], band.before[i],
-                       band.before_spread[i], band.after[i], band.after_spread[i], escaped(band.unit));
-  svg += fmt::format("<line x1=\"{0}\" y1=\"{1}\" x2=\"{2}\" y2=\"{1}\"/><line x1=\"{0}\" y1=\"{1}\" x2=\"{0}\" y2=\"{3}\"/>",
-                     left, height - bottom, width - right, top);
-  svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:.3g}</text><text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:.3g}</text>",
-                     left - 4, height - bottom, low, left - 4, top + 10, high);
-  svg += fmt::format("<text x=\"{}\" y=\"{}\">{:.3g}</text><text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:.3g} {}</text>", left,
-                     height - bottom + 16, band.at.front(), width - right, height - bottom + 16, band.at.back(), band.coordinate);
-  return svg + fmt::format("</svg><figcaption>{} [{}]</figcaption></figure>\n", escaped(band.title), escaped(band.unit));
+    svg += fmt::format(
+        "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.4\"><title>{:.4g} {}: recording {:.5g}, "
+        "simulated "
+        "before {:.5g} ± {:.2g}, after {:.5g} ± {:.2g} {}</title></circle>",
+        across(x[i]), up(band.observed[i]), band.at[i], band.coordinate, band.observed[i],
+        band.before[i], band.before_spread[i], band.after[i], band.after_spread[i],
+        escaped(band.unit));
+  svg += fmt::format(
+      "<line x1=\"{0}\" y1=\"{1}\" x2=\"{2}\" y2=\"{1}\"/><line x1=\"{0}\" y1=\"{1}\" x2=\"{0}\" "
+      "y2=\"{3}\"/>",
+      left, height - bottom, width - right, top);
+  svg += fmt::format(
+      "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:.3g}</text><text x=\"{}\" y=\"{}\" "
+      "text-anchor=\"end\">{:.3g}</text>",
+      left - 4, height - bottom, low, left - 4, top + 10, high);
+  svg += fmt::format(
+      "<text x=\"{}\" y=\"{}\">{:.3g}</text><text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:.3g} "
+      "{}</text>",
+      left, height - bottom + 16, band.at.front(), width - right, height - bottom + 16,
+      band.at.back(), band.coordinate);
+  return svg + fmt::format("</svg><figcaption>{} [{}]</figcaption></figure>\n", escaped(band.title),
+                           escaped(band.unit));
 }
 
-std::string bars(const std::string& title, const std::vector<std::pair<std::string, double>>& values) {
+std::string bars(const std::string& title,
+                 const std::vector<std::pair<std::string, double>>& values) {
   double high = 1e-12;
   for (const auto& [name, v] : values) high = std::max(high, v);
   const double row = 24.0;
-  std::string svg = fmt::format("<figure><svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", width,
-                                row * static_cast<double>(values.size()) + 8.0, escaped(title));
+  std::string svg =
+      fmt::format("<figure><svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", width,
+                  row * static_cast<double>(values.size()) + 8.0, escaped(title));
   double y = 4.0;
   for (const auto& [name, v] : values) {
-    svg += fmt::format("<text x=\"140\" y=\"{}\" text-anchor=\"end\">{}</text><rect x=\"146\" y=\"{}\" width=\"{:.1f}\" height=\"16\"/>"
-                       "<text x=\"{:.1f}\" y=\"{}\">{:.3g}</text>",
-                       y + 13, escaped(name), y, 240.0 * std::max(v, 0.0) / high, 150.0 + 240.0 * std::max(v, 0.0) / high, y + 13, v);
+    svg += fmt::format(
+        "<text x=\"140\" y=\"{}\" text-anchor=\"end\">{}</text><rect x=\"146\" y=\"{}\" "
+        "width=\"{:.1f}\" height=\"16\"/>"
+        "<text x=\"{:.1f}\" y=\"{}\">{:.3g}</text>",
+        y + 13, escaped(name), y, 240.0 * std::max(v, 0.0) / high,
+        150.0 + 240.0 * std::max(v, 0.0) / high, y + 13, v);
     y += row;
   }
   return svg + fmt::format("</svg><figcaption>{}</figcaption></figure>\n", escaped(title));
@@ -95,8 +119,11 @@ std::string diagnosis_page(const Diagnosis& d, const std::string& name) {
   page += "<div class=\"grid\">";
   if (!probabilities.empty()) page += bars("probability of each cause", probabilities);
   page += bars("gap on the held-out part, spreads", steps) + "</div>";
-  page += "<h2>Held-out readings of each lens</h2><p class=\"key\">points: recording; <b class=\"b\">simulator before</b> "
-          "<b class=\"a\">and after</b>, ± 2 spreads; point at a dot for its numbers</p><div class=\"grid\">";
+  page +=
+      "<h2>Held-out readings of each lens</h2><p class=\"key\">points: recording; <b "
+      "class=\"b\">simulator before</b> "
+      "<b class=\"a\">and after</b>, ± 2 spreads; point at a dot for its numbers</p><div "
+      "class=\"grid\">";
   for (const auto& band : d.bands) page += picture(band);
   page += "</div>";
   for (const auto& table : diagnosis_tables(d, name)) page += html(table);

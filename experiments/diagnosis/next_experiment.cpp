@@ -1,8 +1,8 @@
 #include "experiments/diagnosis/next_experiment.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 #include "analysis/gap/scoring.hpp"
 #include "experiments/diagnosis/simulator.hpp"
@@ -24,25 +24,27 @@ std::vector<Proposal> proposals(const Scenario& like, double recorded_s) {
                         const Motions::Any& motion) {
     Scenario s = like;
     s.effects.clear();
-    s.sampling = {duration_s, std::min(like.sampling.rate_hz, static_cast<double>(samples) / duration_s)};
+    s.sampling = {duration_s,
+                  std::min(like.sampling.rate_hz, static_cast<double>(samples) / duration_s)};
     s.temperature = temperature;
     s.motion = motion;
     return Proposal{std::move(what), s};
   };
   const double hour = 3600.0;
-  return {
-      make(fmt::format("static at constant temperature for {:.3g} h", 4.0 * recorded_s / hour), 4.0 * recorded_s, still, motion::Stationary{}),
-      make("static, temperature cycles of 20 min between 23 and 57 °C for 2 h", 2 * hour,
-           temperature::Cycle{23.0, 57.0, 1200.0}, motion::Stationary{}),
-      make("static, temperature cycles of 2 h between 23 and 57 °C for 4 h", 4 * hour,
-           temperature::Cycle{23.0, 57.0, 2 * hour}, motion::Stationary{}),
-      make("rate table, +-80 dps in 32 s swings, for 20 min", 1200.0, still,
-           motion::Sinusoidal{80.0, 1.0 / 32.0}),
-      make("turns on the spot: 30 dps, rest, -30 dps, rest, in 60 s, for 20 min", 1200.0, still,
-           motion::RateTable{30.0, 60.0})};
+  return {make(fmt::format("static at constant temperature for {:.3g} h", 4.0 * recorded_s / hour),
+               4.0 * recorded_s, still, motion::Stationary{}),
+          make("static, temperature cycles of 20 min between 23 and 57 °C for 2 h", 2 * hour,
+               temperature::Cycle{23.0, 57.0, 1200.0}, motion::Stationary{}),
+          make("static, temperature cycles of 2 h between 23 and 57 °C for 4 h", 4 * hour,
+               temperature::Cycle{23.0, 57.0, 2 * hour}, motion::Stationary{}),
+          make("rate table, +-80 dps in 32 s swings, for 20 min", 1200.0, still,
+               motion::Sinusoidal{80.0, 1.0 / 32.0}),
+          make("turns on the spot: 30 dps, rest, -30 dps, rest, in 60 s, for 20 min", 1200.0, still,
+               motion::RateTable{30.0, 60.0})};
 }
 
-double power(const Scenario& conditions, const Scenario& first, const Scenario& second, std::uint64_t seed) {
+double power(const Scenario& conditions, const Scenario& first, const Scenario& second,
+             std::uint64_t seed) {
   Series imagined;
   synthesise(conditions, {seed, 0}, imagined);
   const Simulator simulator(imagined, seed);
@@ -66,7 +68,8 @@ double power(const Scenario& conditions, const Scenario& first, const Scenario& 
 
 NextExperiment next_experiment(const Scenario& first, const Scenario& second, double recorded_s,
                                std::uint64_t seed) {
-  NextExperiment best{.what = "", .first = std::string(Effects::id_of(first.effects.back())),
+  NextExperiment best{.what = "",
+                      .first = std::string(Effects::id_of(first.effects.back())),
                       .second = std::string(Effects::id_of(second.effects.back()))};
   for (const auto& proposal : proposals(first, recorded_s))
     if (const double p = power(proposal.conditions, first, second, seed); p > best.expected_power) {

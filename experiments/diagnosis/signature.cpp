@@ -66,8 +66,8 @@ std::vector<double> trace_values(const Evidence& evidence, Trace trace, const Se
 /// The baseline's drift-free, noise-free simulator.
 Scenario quiet_scenario(const Evidence& evidence) {
   Scenario quiet;
-  quiet.random_error = {.phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0,
-                        .measurement_noise_std_dps = 0.0};
+  quiet.random_error = {
+      .phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.0};
   quiet.thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = 0.0};
   quiet.compass.noise_std_deg = 0.0;
   quiet.compass.initial_heading_deg = evidence.baseline.compass.initial_heading_deg;
@@ -104,7 +104,8 @@ Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
     synthesise_under(quiet, conditions, {}, with);
     auto added = trace_values(evidence, trace, with);
     for (std::size_t i = 0; i < added.size(); ++i)
-      added[i] = trace == Trace::heading ? wrap_degrees(added[i] - nothing[i]) : added[i] - nothing[i];
+      added[i] =
+          trace == Trace::heading ? wrap_degrees(added[i] - nothing[i]) : added[i] - nothing[i];
     const Eigen::VectorXd column = reduce(evidence, trace, std::move(added));
     columns.conservativeResize(column.size(), static_cast<Eigen::Index>(k) + 1);
     columns.col(static_cast<Eigen::Index>(k)) = column;

@@ -11,8 +11,8 @@ namespace gyrostat::gap {
 enum class Trace { rate, slow_rate, heading };
 
 /// What effects without noise add to the trace of the train part, under the recording's conditions,
-/// as one column an effect. Slow columns are whitened for the baseline's random walk and are free of
-/// what the thermal drift explains.
+/// as one column an effect. Slow columns are whitened for the baseline's random walk and are free
+/// of what the thermal drift explains.
 Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
                            const std::vector<Effects::Any>& effects);
 /// The recording's own trace, treated alike.

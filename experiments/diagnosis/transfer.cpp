@@ -1,10 +1,10 @@
 #include "experiments/diagnosis/transfer.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include <tbb/parallel_for.h>
 
 #include "core/filters/list.hpp"
 #include "core/track.hpp"
@@ -29,7 +29,8 @@ double allan_deviation_1s(const std::vector<double>& rate, double rate_hz) {
   double square = 0.0, count = 0.0, previous = no_value;
   for (std::size_t first = 0; first + cluster <= rate.size(); first += cluster) {
     double mean = 0.0;
-    for (std::size_t i = first; i < first + cluster; ++i) mean += rate[i] / static_cast<double>(cluster);
+    for (std::size_t i = first; i < first + cluster; ++i)
+      mean += rate[i] / static_cast<double>(cluster);
     if (!is_missing(mean - previous)) {
       square += 0.5 * (mean - previous) * (mean - previous);
       count += 1.0;
@@ -43,9 +44,11 @@ double allan_deviation_1s(const std::vector<double>& rate, double rate_hz) {
 double heading_drift(const Series& series, const std::vector<double>& compensated) {
   if (series.heading_deg.empty()) return no_value;
   const std::size_t n = series.size();
-  double angle = 0.0, first = 0.0, last = 0.0, in_first = 0.0, in_last = 0.0, previous = 0.0, turns = 0.0;
+  double angle = 0.0, first = 0.0, last = 0.0, in_first = 0.0, in_last = 0.0, previous = 0.0,
+         turns = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    if (i > 0 && !is_missing(compensated[i])) angle += compensated[i] * (series.t_s[i] - series.t_s[i - 1]);
+    if (i > 0 && !is_missing(compensated[i]))
+      angle += compensated[i] * (series.t_s[i] - series.t_s[i - 1]);
     if (is_missing(series.heading_deg[i])) continue;
     double error = angle - series.heading_deg[i] + turns;
     const double jump = 360.0 * std::round((error - previous) / 360.0);
@@ -91,7 +94,8 @@ ParameterMap parameters_of(const Scenario& scenario, const Series& recording) {
 std::array<Values, judged.size()> all_values(const ParameterMap& parameters, const Series& series) {
   std::array<Values, judged.size()> all;
   const auto samples = static_cast<std::size_t>(random_error_s * series.rate_hz());
-  const Series beginning = series.slice(0, std::min(series.size(), std::max<std::size_t>(samples, 2)));
+  const Series beginning =
+      series.slice(0, std::min(series.size(), std::max<std::size_t>(samples, 2)));
   Track track;
   for (std::size_t f = 0; f < judged.size(); ++f) {
     all[f].fill(no_value);
@@ -111,7 +115,8 @@ std::array<Values, judged.size()> all_values(const ParameterMap& parameters, con
 }  // namespace
 
 std::vector<Transfer> transfer(const Simulator& simulator, const Series& recording,
-                               const Scenario& before, const Scenario& after, std::size_t replicas) {
+                               const Scenario& before, const Scenario& after,
+                               std::size_t replicas) {
   const auto parameters = parameters_of(before, recording);
   const auto real = all_values(parameters, recording);
   std::vector<std::array<Values, judged.size()>> sims(2 * replicas);
@@ -124,8 +129,12 @@ std::vector<Transfer> transfer(const Simulator& simulator, const Series& recordi
   for (std::size_t f = 0; f < judged.size(); ++f)
     for (std::size_t m = 0; m < metrics; ++m) {
       if (is_missing(real[f][m])) continue;
-      Transfer row{std::string(judged[f]), std::string(metric_names[m].first),
-                   std::string(metric_names[m].second), real[f][m], 0.0, 0.0};
+      Transfer row{std::string(judged[f]),
+                   std::string(metric_names[m].first),
+                   std::string(metric_names[m].second),
+                   real[f][m],
+                   0.0,
+                   0.0};
       // Signs of a drift are chance; its size is what is promised.
       const bool size = metric_names[m].first == "heading_drift_against_compass";
       if (size) row.real = std::abs(row.real);

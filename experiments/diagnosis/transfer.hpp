@@ -13,8 +13,8 @@ struct Transfer {
 
 /// Runs the filters of both studies over the recording and over `replicas` of either scenario, with
 /// the parameters that the baseline gives them: standard deviation of the innovations, NIS, Allan
-/// deviation of the compensated rate, and the range of the heading integrated from it where there is
-/// a compass. At most two minutes' worth of samples go through the random-error filters.
+/// deviation of the compensated rate, and the range of the heading integrated from it where there
+/// is a compass. At most two minutes' worth of samples go through the random-error filters.
 std::vector<Transfer> transfer(const Simulator& simulator, const Series& recording,
                                const Scenario& before, const Scenario& after, std::size_t replicas);
 

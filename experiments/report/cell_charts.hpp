@@ -21,7 +21,8 @@ struct CellView {
   std::string id;                  ///< begins the charts' own
 
   std::string address(std::size_t place, std::size_t method) const;
-  /// Whether a method is among the `count` best that do compensate, which is what pictures show at first.
+  /// Whether a method is among the `count` best that do compensate, which is what pictures show at
+  /// first.
   bool leads(std::size_t method, std::size_t count) const;
 };
 

@@ -7,9 +7,10 @@
 
 namespace gyrostat {
 
-/// One cell in full: sentences, ranking, pictures, worst trials, tables. `replayed` has no trials where
-/// none were simulated again.
-std::string cell_section(const CellView& view, const CellRanking& ranking, const PreparedCell& prepared,
-                         const Replayed& replayed, const std::map<std::string, double>& nanoseconds);
+/// One cell in full: sentences, ranking, pictures, worst trials, tables. `replayed` has no trials
+/// where none were simulated again.
+std::string cell_section(const CellView& view, const CellRanking& ranking,
+                         const PreparedCell& prepared, const Replayed& replayed,
+                         const std::map<std::string, double>& nanoseconds);
 
 }  // namespace gyrostat

@@ -39,10 +39,13 @@ std::vector<std::size_t> best_first(const Cell& cell, const CellSummary& summary
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](std::size_t m) {
     const double mean = summary.of(m, judging_metric(cell)).mean;
-    return std::pair(cell.methods[m].filter == "oracle" ? 2 : std::isnan(mean) ? 1 : 0,
+    return std::pair(cell.methods[m].filter == "oracle" ? 2
+                     : std::isnan(mean)                 ? 1
+                                                        : 0,
                      std::isnan(mean) ? 0.0 : mean);
   };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   return order;
 }
 

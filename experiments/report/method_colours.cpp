@@ -8,8 +8,10 @@ MethodColours::MethodColours(const Study& study) {
   for (const auto& cell : study.cells)
     for (const auto& method : cell.methods) {
       if (looks_.contains(method.id)) continue;
-      if (method.filter == "none") looks_[method.id] = {"none", false};
-      else if (method.filter == "oracle") looks_[method.id] = {"oracle", true};
+      if (method.filter == "none")
+        looks_[method.id] = {"none", false};
+      else if (method.filter == "oracle")
+        looks_[method.id] = {"oracle", true};
       else {
         looks_[method.id] = {fmt::format("m{}", next % colours), next / colours % 2 == 1};
         ++next;

@@ -8,8 +8,8 @@
 
 namespace gyrostat {
 
-/// One look for each method of a study, the same in every picture. Where there are more methods than
-/// colours, the later ones are dashed or hollow.
+/// One look for each method of a study, the same in every picture. Where there are more methods
+/// than colours, the later ones are dashed or hollow.
 class MethodColours {
  public:
   explicit MethodColours(const Study& study);

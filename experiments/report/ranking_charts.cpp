@@ -5,14 +5,19 @@
 namespace gyrostat {
 
 Chart rank_chart(const CellView& v, const CellRanking& ranking) {
-  Chart chart{.id = v.id + "-ranks", .title = "Critical differences", .note = {},
-              .x = {"mean rank over trials (1 is best)", "", false, {}}, .y = {}, .marks = {}};
+  Chart chart{.id = v.id + "-ranks",
+              .title = "Critical differences",
+              .note = {},
+              .x = {"mean rank over trials (1 is best)", "", false, {}},
+              .y = {},
+              .marks = {}};
   const auto& methods = ranking.methods;
   for (const auto& group : ranking.not_separable) {
     if (group.size() < 2) continue;
     Mark link;
     link.colour = "soft";
-    for (const std::size_t i : group) link.x.push_back(methods[i].mean_rank), link.y.push_back(static_cast<double>(i));
+    for (const std::size_t i : group)
+      link.x.push_back(methods[i].mean_rank), link.y.push_back(static_cast<double>(i));
     chart.marks.push_back(std::move(link));
   }
   for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -24,17 +29,27 @@ Chart rank_chart(const CellView& v, const CellRanking& ranking) {
     if (half >= 0.0) dot.x_low = {dot.x[0] - half}, dot.x_high = {dot.x[0] + half};
     chart.marks.push_back(std::move(dot));
   }
-  chart.note = fmt::format("By {}, over {} trials, each method ranked in each trial. A grey line links methods that are not "
-                           "separable.", ranking.metric, ranking.trials);
+  chart.note = fmt::format(
+      "By {}, over {} trials, each method ranked in each trial. A grey line links methods that are "
+      "not "
+      "separable.",
+      ranking.metric, ranking.trials);
   if (ranking.critical_difference >= 0.0)
-    chart.note += fmt::format(" Whiskers: half the critical difference ({:.3g}, Nemenyi), so methods whose whiskers do not "
-                              "overlap differ in rank.", ranking.critical_difference);
+    chart.note += fmt::format(
+        " Whiskers: half the critical difference ({:.3g}, Nemenyi), so methods whose whiskers do "
+        "not "
+        "overlap differ in rank.",
+        ranking.critical_difference);
   return chart;
 }
 
 Chart consistency_chart(const CellView& v) {
-  Chart chart{.id = v.id + "-consistency", .title = "Does a filter know how wrong it is?", .note = {},
-              .x = {"normalised squared error", "1", true, {}}, .y = {}, .marks = {}};
+  Chart chart{.id = v.id + "-consistency",
+              .title = "Does a filter know how wrong it is?",
+              .note = {},
+              .x = {"normalised squared error", "1", true, {}},
+              .y = {},
+              .marks = {}};
   Mark nis, nees, one;
   nis.kind = nees.kind = Mark::Kind::points;
   nis.name = "NIS (innovations)", nees.name = "NEES (estimates)";
@@ -43,7 +58,8 @@ Chart consistency_chart(const CellView& v) {
   for (const std::size_t m : v.order) {
     const auto row = static_cast<double>(chart.y.names.size());
     bool any = false;
-    for (const auto& [metric, mark, shift] : {std::tuple("nis", &nis, -0.12), std::tuple("nees", &nees, 0.12)}) {
+    for (const auto& [metric, mark, shift] :
+         {std::tuple("nis", &nis, -0.12), std::tuple("nees", &nees, 0.12)}) {
       const auto& s = v.summary.of(m, metric);
       if (!(s.mean > 0.0)) continue;
       any = true;
@@ -60,14 +76,20 @@ Chart consistency_chart(const CellView& v) {
   one.x = {1.0, 1.0}, one.y = {-0.5, static_cast<double>(chart.y.names.size()) - 0.5};
   for (auto* mark : {&one, &nis, &nees})
     if (!mark->x.empty()) chart.marks.push_back(std::move(*mark));
-  chart.note = "Mean over trials with its 95 % interval. 1 (dashed): the stated covariance is true; to the right the filter is "
-               "surer than it should be, to the left it is too careful.";
+  chart.note =
+      "Mean over trials with its 95 % interval. 1 (dashed): the stated covariance is true; to the "
+      "right the filter is "
+      "surer than it should be, to the left it is too careful.";
   return chart;
 }
 
 Chart speed_chart(const CellView& v, const std::map<std::string, double>& nanoseconds) {
-  Chart chart{.id = v.id + "-speed", .title = "Speed and accuracy", .note = {},
-              .x = {"time per step", "ns", true, {}}, .y = {"mean, " + v.values.title, v.values.unit, false, {}}, .marks = {}};
+  Chart chart{.id = v.id + "-speed",
+              .title = "Speed and accuracy",
+              .note = {},
+              .x = {"time per step", "ns", true, {}},
+              .y = {"mean, " + v.values.title, v.values.unit, false, {}},
+              .marks = {}};
   double low = INFINITY, high = 0.0;
   for (const std::size_t m : v.order) {
     const auto& name = v.cell.methods[m].id;
@@ -83,8 +105,10 @@ Chart speed_chart(const CellView& v, const std::map<std::string, double>& nanose
     chart.marks.push_back(std::move(dot));
   }
   chart.y.logarithmic = low > 0.0 && high > 10.0 * low;
-  chart.note = "Lower and further left is better. Times were measured by the run itself, metrics included, on its machine: they "
-               "are from its log and differ from run to run.";
+  chart.note =
+      "Lower and further left is better. Times were measured by the run itself, metrics included, "
+      "on its machine: they "
+      "are from its log and differ from run to run.";
   return chart;
 }
 

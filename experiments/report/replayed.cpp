@@ -1,10 +1,10 @@
 #include "experiments/report/replayed.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <new>
+
+#include <tbb/parallel_for.h>
 
 #include "analysis/error_series.hpp"
 #include "analysis/errors.hpp"
@@ -24,11 +24,13 @@ struct Seen {
 std::vector<std::size_t> places(std::size_t samples) {
   const std::size_t points = std::min(most_points, samples);
   std::vector<std::size_t> at(points);
-  for (std::size_t k = 0; k < points; ++k) at[k] = points == 1 ? 0 : k * (samples - 1) / (points - 1);
+  for (std::size_t k = 0; k < points; ++k)
+    at[k] = points == 1 ? 0 : k * (samples - 1) / (points - 1);
   return at;
 }
 
-Seen look(const Series& series, const Series& judged, const Track& track, const std::vector<std::size_t>& at) {
+Seen look(const Series& series, const Series& judged, const Track& track,
+          const std::vector<std::size_t>& at) {
   const bool truth = has_truth(series);
   const auto heading = heading_errors_deg(judged, track);
   Seen seen;
@@ -38,20 +40,23 @@ Seen look(const Series& series, const Series& judged, const Track& track, const 
     seen.heading.push_back(heading[i]);
   }
   if (series.size() >= 8)
-    for (const auto& point : overlapping_allan_deviation(bridged_rate_errors_dps(judged, track), judged.rate_hz()))
+    for (const auto& point :
+         overlapping_allan_deviation(bridged_rate_errors_dps(judged, track), judged.rate_hz()))
       seen.allan.push_back(point.deviation * point.deviation);
   return seen;
 }
 
 /// Mean and standard deviation over the trials in which the method has a value at place `i`.
-ErrorMoments over_trials(const std::vector<const Seen*>& trials, std::vector<double> Seen::*values, std::size_t i) {
+ErrorMoments over_trials(const std::vector<const Seen*>& trials, std::vector<double> Seen::*values,
+                         std::size_t i) {
   return error_moments(trials.size(), [&](std::size_t k) {
     const auto& all = trials[k]->*values;
     return i < all.size() ? all[i] : no_value;
   });
 }
 
-Replayed::Method folded(const std::vector<const Seen*>& trials, std::size_t times, std::size_t taus) {
+Replayed::Method folded(const std::vector<const Seen*>& trials, std::size_t times,
+                        std::size_t taus) {
   Replayed::Method method;
   for (std::size_t i = 0; i < times; ++i) {
     const auto error = over_trials(trials, &Seen::error, i);
@@ -63,7 +68,8 @@ Replayed::Method folded(const std::vector<const Seen*>& trials, std::size_t time
   for (std::size_t i = 0; i < taus; ++i) {
     const auto variance = over_trials(trials, &Seen::allan, i);
     method.allan_variance.push_back(variance.mean);
-    method.allan_error.push_back(variance.std / std::sqrt(static_cast<double>(variance.count) - 1.0));
+    method.allan_error.push_back(variance.std /
+                                 std::sqrt(static_cast<double>(variance.count) - 1.0));
   }
   return method;
 }
@@ -71,13 +77,15 @@ Replayed::Method folded(const std::vector<const Seen*>& trials, std::size_t time
 }  // namespace
 
 std::uint32_t trials_to_replay(const Cell& cell) {
-  const double samples = static_cast<double>(cell.scenario.sampling.samples() * cell.methods.size());
+  const double samples =
+      static_cast<double>(cell.scenario.sampling.samples() * cell.methods.size());
   return std::min(cell.trials, static_cast<std::uint32_t>(std::clamp(1e7 / samples, 2.0, 64.0)));
 }
 
 Replayed replay_trials(const PreparedCell& prepared, std::uint64_t seed, std::uint32_t trials) {
   const auto& cell = prepared.cell;
-  Replayed replayed{.trials = trials, .truth = !cell.recording, .t_s = {}, .tau_s = {}, .methods = {}};
+  Replayed replayed{
+      .trials = trials, .truth = !cell.recording, .t_s = {}, .tau_s = {}, .methods = {}};
   Series first;
   cell.make_trial(seed, 0, first);
   const auto at = places(first.size());
@@ -91,11 +99,13 @@ Replayed replay_trials(const PreparedCell& prepared, std::uint64_t seed, std::ui
     Workspace w;
     cell.make_trial(seed, trial, w.series);
     const bool own = cell.calibration.each_trial && cell.needs_calibration();
-    const auto calibration = own ? calibrate_cell(cell, seed, trial, w.calibration_series) : prepared.calibration;
+    const auto calibration =
+        own ? calibrate_cell(cell, seed, trial, w.calibration_series) : prepared.calibration;
     const auto& judged = cell.judged(w.series, w.denoised);
     for (std::size_t m = 0; m < cell.methods.size(); ++m) try {
         const auto& method = cell.methods[m];
-        track_method(method, told_parameters(cell, method, calibration, w.series), w.series, w.track);
+        track_method(method, told_parameters(cell, method, calibration, w.series), w.series,
+                     w.track);
         seen[trial][m] = look(w.series, judged, w.track, at);
       } catch (const std::bad_alloc&) {
         throw;

@@ -10,12 +10,13 @@ namespace gyrostat {
 /// What trials of a cell look like over time: the first few, simulated again.
 struct Replayed {
   struct Method {
-    // By time. The error is estimate minus drift and random error, or where the truth is unknown the
-    // innovation; the filter states the variance of either. Means over trials.
+    // By time. The error is estimate minus drift and random error, or where the truth is unknown
+    // the innovation; the filter states the variance of either. Means over trials.
     std::vector<double> error_mean, error_std, stated_std;  ///< dps
     std::vector<double> heading_rms;                        ///< deg
-    // By tau, of the compensated rate; mean over trials of the Allan variance and its standard error.
-    std::vector<double> allan_variance, allan_error;        ///< dps^2
+    // By tau, of the compensated rate; mean over trials of the Allan variance and its standard
+    // error.
+    std::vector<double> allan_variance, allan_error;  ///< dps^2
   };
   std::uint32_t trials = 0;
   bool truth = false;

@@ -11,7 +11,8 @@
 namespace gyrostat {
 
 struct ReportOptions {
-  std::vector<std::string> cells;       ///< to be shown in full; empty: at most six, one of those made from one
+  std::vector<std::string>
+      cells;  ///< to be shown in full; empty: at most six, one of those made from one
   std::optional<std::uint32_t> replay;  ///< trials simulated again for pictures over time; 0: none
   int threads = 0;                      ///< 0: as many as the machine has
 };

@@ -7,10 +7,16 @@ namespace gyrostat {
 namespace {
 
 /// A chart with a row for each parameter; each method has its own marks, of which one is seen.
-Chart by_parameter(const std::string& id, const std::string& title, const std::string& x, const std::string& unit,
-                   const std::string& note, std::vector<std::string> parameters) {
-  return {.id = id, .title = title, .note = note, .x = {x, unit, false, {}},
-          .y = {"", "", false, std::move(parameters)}, .marks = {}, .exclusive = true};
+Chart by_parameter(const std::string& id, const std::string& title, const std::string& x,
+                   const std::string& unit, const std::string& note,
+                   std::vector<std::string> parameters) {
+  return {.id = id,
+          .title = title,
+          .note = note,
+          .x = {x, unit, false, {}},
+          .y = {"", "", false, std::move(parameters)},
+          .marks = {},
+          .exclusive = true};
 }
 
 void add(Mark& mark, double row, const Estimate& e) {
@@ -21,24 +27,30 @@ void add(Mark& mark, double row, const Estimate& e) {
 }
 
 double row_of(const std::vector<std::string>& parameters, const std::string& name) {
-  return static_cast<double>(std::find(parameters.begin(), parameters.end(), name) - parameters.begin());
+  return static_cast<double>(std::find(parameters.begin(), parameters.end(), name) -
+                             parameters.begin());
 }
 
 /// Parameters by the size that the first method gives them, the largest on top.
 template <class T, class Size>
 std::vector<std::string> by_size(std::vector<T> list, const Size& size) {
-  std::stable_sort(list.begin(), list.end(), [&](const T& a, const T& b) { return size(a) > size(b); });
+  std::stable_sort(list.begin(), list.end(),
+                   [&](const T& a, const T& b) { return size(a) > size(b); });
   std::vector<std::string> names;
   for (const auto& entry : list) names.push_back(entry.parameter);
   return names;
 }
 
-Chart tornado(const std::vector<Sensitivity>& all, const MethodColours& colours, const std::string& id) {
-  auto chart = by_parameter(id + "-tornado", "Elasticity of " + all.front().metric,
-                            "relative change of the metric per relative change of the parameter", "1",
-                            "One parameter at a time around the base, with 95 % intervals: 1 means 10 % more of the parameter "
-                            "gives 10 % more error.",
-                            by_size(all.front().elasticities, [](const Elasticity& e) { return std::abs(e.value.value); }));
+Chart tornado(const std::vector<Sensitivity>& all, const MethodColours& colours,
+              const std::string& id) {
+  auto chart =
+      by_parameter(id + "-tornado", "Elasticity of " + all.front().metric,
+                   "relative change of the metric per relative change of the parameter", "1",
+                   "One parameter at a time around the base, with 95 % intervals: 1 means 10 % "
+                   "more of the parameter "
+                   "gives 10 % more error.",
+                   by_size(all.front().elasticities,
+                           [](const Elasticity& e) { return std::abs(e.value.value); }));
   for (const auto& s : all) {
     auto bars = colours.mark(Mark::Kind::bars, s.method);
     bars.shown = &s == &all.front();
@@ -48,16 +60,21 @@ Chart tornado(const std::vector<Sensitivity>& all, const MethodColours& colours,
   return chart;
 }
 
-Chart sobol(const std::vector<Sensitivity>& all, const MethodColours& colours, const std::string& id) {
-  auto chart = by_parameter(id + "-sobol", "Sobol' indices of " + all.front().metric, "share of the variance", "1",
-                            "Bars: total index, what a parameter does alone and with others; dots: first order, what it does "
-                            "alone; each with its 95 % interval. The noise of the trials is taken out of them and has a row "
-                            "of its own: the variance of a point's mean, as a share of the same variance.",
-                            by_size(all.front().indices, [](const SobolIndex& e) { return e.total.value; }));
+Chart sobol(const std::vector<Sensitivity>& all, const MethodColours& colours,
+            const std::string& id) {
+  auto chart = by_parameter(
+      id + "-sobol", "Sobol' indices of " + all.front().metric, "share of the variance", "1",
+      "Bars: total index, what a parameter does alone and with others; dots: first order, what it "
+      "does "
+      "alone; each with its 95 % interval. The noise of the trials is taken out of them and has a "
+      "row "
+      "of its own: the variance of a point's mean, as a share of the same variance.",
+      by_size(all.front().indices, [](const SobolIndex& e) { return e.total.value; }));
   const auto noise_row = static_cast<double>(chart.y.names.size());
   chart.y.names.emplace_back("trial noise");
   for (const auto& s : all) {
-    auto total = colours.mark(Mark::Kind::bars, s.method), first = colours.mark(Mark::Kind::points, s.method);
+    auto total = colours.mark(Mark::Kind::bars, s.method),
+         first = colours.mark(Mark::Kind::points, s.method);
     total.shown = first.shown = &s == &all.front();
     first.colour = "ink";
     for (const auto& e : s.indices) {
@@ -75,12 +92,18 @@ Chart sobol(const std::vector<Sensitivity>& all, const MethodColours& colours, c
   return chart;
 }
 
-Chart morris(const std::vector<Sensitivity>& all, const MethodColours& colours, const std::string& id) {
-  Chart chart{.id = id + "-morris", .title = "Elementary effects on " + all.front().metric,
-              .note = "Each parameter over its range, scaled to 1, with 95 % intervals. To the right: it matters. Above the "
-                      "dashed line (σ = μ*): its effect depends on the others or is not linear.",
+Chart morris(const std::vector<Sensitivity>& all, const MethodColours& colours,
+             const std::string& id) {
+  Chart chart{.id = id + "-morris",
+              .title = "Elementary effects on " + all.front().metric,
+              .note =
+                  "Each parameter over its range, scaled to 1, with 95 % intervals. To the right: "
+                  "it matters. Above the "
+                  "dashed line (σ = μ*): its effect depends on the others or is not linear.",
               .x = {"μ*, mean size of the effect", all.front().unit, false, {}},
-              .y = {"σ of the effect", all.front().unit, false, {}}, .marks = {}, .exclusive = true};
+              .y = {"σ of the effect", all.front().unit, false, {}},
+              .marks = {},
+              .exclusive = true};
   double most = 0.0;
   for (const auto& s : all) {
     auto dots = colours.mark(Mark::Kind::points, s.method);
@@ -105,8 +128,8 @@ Chart morris(const std::vector<Sensitivity>& all, const MethodColours& colours, 
 
 }  // namespace
 
-std::vector<Chart> sensitivity_charts(const std::vector<Sensitivity>& all, const MethodColours& colours,
-                                      const std::string& id) {
+std::vector<Chart> sensitivity_charts(const std::vector<Sensitivity>& all,
+                                      const MethodColours& colours, const std::string& id) {
   std::vector<Chart> charts;
   if (all.empty()) return charts;
   if (!all.front().elasticities.empty()) charts.push_back(tornado(all, colours, id));

@@ -24,11 +24,14 @@ double quantile(const std::vector<double>& values, double share) {
 bool spans_decades(const CellValues& all) {
   double low = INFINITY, high = 0.0;
   for (const auto& values : all.values)
-    for (const double v : values) low = std::min(low, std::isnan(v) ? low : v), high = std::max(high, v);
+    for (const double v : values)
+      low = std::min(low, std::isnan(v) ? low : v), high = std::max(high, v);
   return low > 0.0 && high > 10.0 * low;
 }
 
-ChartAxis metric_axis(const CellValues& all) { return {all.title, all.unit, spans_decades(all), {}}; }
+ChartAxis metric_axis(const CellValues& all) {
+  return {all.title, all.unit, spans_decades(all), {}};
+}
 
 }  // namespace
 
@@ -47,15 +50,20 @@ bool CellView::leads(std::size_t method, std::size_t count) const {
 
 Chart box_chart(const CellView& v) {
   constexpr std::size_t shown_outliers = 10;
-  Chart chart{.id = v.id + "-boxes", .title = "Spread over trials, and the worst of them", .note = {},
-              .x = metric_axis(v.values), .y = {}, .marks = {}};
+  Chart chart{.id = v.id + "-boxes",
+              .title = "Spread over trials, and the worst of them",
+              .note = {},
+              .x = metric_axis(v.values),
+              .y = {},
+              .marks = {}};
   for (std::size_t row = 0; row < v.order.size(); ++row) {
     const std::size_t m = v.order[row];
     const auto& name = v.cell.methods[m].id;
     chart.y.names.push_back(name);
     const auto values = sorted(v.values.values[m]);
     if (values.empty()) continue;
-    const double y = static_cast<double>(row), q1 = quantile(values, 0.25), q3 = quantile(values, 0.75);
+    const double y = static_cast<double>(row), q1 = quantile(values, 0.25),
+                 q3 = quantile(values, 0.75);
     const double reach = 1.5 * (q3 - q1);
     auto box = v.colours.mark(Mark::Kind::boxes, name);
     box.x = {quantile(values, 0.5)}, box.y = {y}, box.x_low = {q1}, box.x_high = {q3};
@@ -73,15 +81,21 @@ Chart box_chart(const CellView& v) {
     if (!worst.x.empty()) chart.marks.push_back(std::move(worst));
   }
   chart.note = fmt::format(
-      "Boxes: quartiles and median of {} trials; whiskers: the farthest trials within 1.5 box lengths; "
-      "dots: trials beyond, the worst {} of each method. Choose a dot to copy the command that replays it.",
+      "Boxes: quartiles and median of {} trials; whiskers: the farthest trials within 1.5 box "
+      "lengths; "
+      "dots: trials beyond, the worst {} of each method. Choose a dot to copy the command that "
+      "replays it.",
       v.values.trials.size(), shown_outliers);
   return chart;
 }
 
 Chart ecdf_chart(const CellView& v) {
-  Chart chart{.id = v.id + "-ecdf", .title = "Share of trials below an error", .note = {},
-              .x = metric_axis(v.values), .y = {"share of trials", "", false, {}}, .marks = {}};
+  Chart chart{.id = v.id + "-ecdf",
+              .title = "Share of trials below an error",
+              .note = {},
+              .x = metric_axis(v.values),
+              .y = {"share of trials", "", false, {}},
+              .marks = {}};
   for (const std::size_t m : v.order) {
     const auto values = sorted(v.values.values[m]);
     if (values.empty()) continue;
@@ -98,14 +112,20 @@ Chart ecdf_chart(const CellView& v) {
     }
     chart.marks.push_back(std::move(line));
   }
-  chart.note = "Higher and further left is better: a curve above all others is of a method that is better in "
-               "every quantile. The right end is the worst trial.";
+  chart.note =
+      "Higher and further left is better: a curve above all others is of a method that is better "
+      "in "
+      "every quantile. The right end is the worst trial.";
   return chart;
 }
 
 Chart convergence_chart(const CellView& v) {
-  Chart chart{.id = v.id + "-convergence", .title = "Convergence over trials", .note = {},
-              .x = {"trials", "", true, {}}, .y = {"mean, " + v.values.title, v.values.unit, false, {}}, .marks = {}};
+  Chart chart{.id = v.id + "-convergence",
+              .title = "Convergence over trials",
+              .note = {},
+              .x = {"trials", "", true, {}},
+              .y = {"mean, " + v.values.title, v.values.unit, false, {}},
+              .marks = {}};
   for (const std::size_t m : v.order) {
     auto line = v.colours.mark(Mark::Kind::line, v.cell.methods[m].id);
     line.shown = v.leads(m, 3);
@@ -129,8 +149,10 @@ Chart convergence_chart(const CellView& v) {
     if (n >= 2.0 && line.x.back() != n) note();
     if (!line.x.empty()) chart.marks.push_back(std::move(line));
   }
-  chart.note = "Running mean with its 95 % interval at that number of trials. Each interval holds for one look, not for "
-               "stopping as soon as it pleases. Choose methods in the legend.";
+  chart.note =
+      "Running mean with its 95 % interval at that number of trials. Each interval holds for one "
+      "look, not for "
+      "stopping as soon as it pleases. Choose methods in the legend.";
   return chart;
 }
 

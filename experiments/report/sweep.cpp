@@ -54,9 +54,12 @@ void drop_constant(Sweep& sweep) {
 std::vector<std::string> Sweep::levels(std::size_t parameter) const {
   std::vector<std::string> all;
   for (const auto& of_cell : values)
-    if (std::find(all.begin(), all.end(), of_cell[parameter]) == all.end()) all.push_back(of_cell[parameter]);
-  if (std::all_of(all.begin(), all.end(), [](const auto& text) { return number(text).has_value(); }))
-    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return *number(a) < *number(b); });
+    if (std::find(all.begin(), all.end(), of_cell[parameter]) == all.end())
+      all.push_back(of_cell[parameter]);
+  if (std::all_of(all.begin(), all.end(),
+                  [](const auto& text) { return number(text).has_value(); }))
+    std::sort(all.begin(), all.end(),
+              [](const auto& a, const auto& b) { return *number(a) < *number(b); });
   return all;
 }
 
@@ -67,13 +70,13 @@ std::vector<Sweep> sweeps_of(const Study& study) {
     const auto setting = setting_of(name);
     if (setting.empty()) continue;
     std::vector<std::string> parameters, values;
-    for (const auto& [parameter, value] : setting) parameters.push_back(parameter), values.push_back(value);
+    for (const auto& [parameter, value] : setting)
+      parameters.push_back(parameter), values.push_back(value);
     const auto base = name.substr(0, name.find('['));
-    auto at = std::find_if(sweeps.begin(), sweeps.end(),
-                           [&](const Sweep& s) {
-                             return s.name == base && s.parameters == parameters &&
-                                    same_methods(study.cells[s.cells.front()], study.cells[c]);
-                           });
+    auto at = std::find_if(sweeps.begin(), sweeps.end(), [&](const Sweep& s) {
+      return s.name == base && s.parameters == parameters &&
+             same_methods(study.cells[s.cells.front()], study.cells[c]);
+    });
     if (at == sweeps.end()) at = sweeps.insert(sweeps.end(), {base, parameters, {}, {}});
     at->cells.push_back(c);
     at->values.push_back(values);

@@ -14,12 +14,12 @@
 
 namespace gyrostat::effects {
 
-/// Flicker rate noise, two-sided density B^2 / (2 pi f), so that the Allan deviation has its floor at
-/// sqrt(2 ln 2 / pi) B (IEEE Std 952 annex C, bias instability). It is a sum of Gauss-Markov
+/// Flicker rate noise, two-sided density B^2 / (2 pi f), so that the Allan deviation has its floor
+/// at sqrt(2 ln 2 / pi) B (IEEE Std 952 annex C, bias instability). It is a sum of Gauss-Markov
 /// processes, one every second octave of correlation time from one sampling interval to four times
 /// the signal, whose Lorentzians of equal variance 2 B^2 ln 2 / pi add up to 1/f within 0.4 %
-/// (van der Ziel, Physica 16, 1950). A slow process is drawn sixteen times a correlation time and is
-/// linear between.
+/// (van der Ziel, Physica 16, 1950). A slow process is drawn sixteen times a correlation time and
+/// is linear between.
 struct BiasInstability {
   double coefficient_dps = 0.002;
 

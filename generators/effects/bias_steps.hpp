@@ -26,8 +26,7 @@ struct BiasSteps {
     return std::array{
         Field{"steps_per_hour", &P::steps_per_hour, "1/h", Range{.from = 0, .to = 1e6},
               "mean number of jumps an hour"},
-        Field{"std_dps", &P::std_dps, "dps", ranges::non_negative,
-              "standard deviation of a jump"},
+        Field{"std_dps", &P::std_dps, "dps", ranges::non_negative, "standard deviation of a jump"},
     };
   }
 

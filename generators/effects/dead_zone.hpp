@@ -12,8 +12,8 @@
 namespace gyrostat::effects {
 
 /// Rates about zero are not sensed (IEEE Std 528, dead band): up to the half width the rate is 0.
-/// Beyond it is the rate itself, as behind a threshold, or the rate less the half width, as behind a
-/// mechanical play, or between.
+/// Beyond it is the rate itself, as behind a threshold, or the rate less the half width, as behind
+/// a mechanical play, or between.
 struct DeadZone {
   double half_width_dps = 0.5;
   double lost_beyond = 0.0;

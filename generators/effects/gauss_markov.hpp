@@ -24,8 +24,7 @@ struct GaussMarkov {
   static constexpr auto fields() {
     using P = GaussMarkov;
     return std::array{
-        Field{"std_dps", &P::std_dps, "dps", ranges::non_negative,
-              "standard deviation"},
+        Field{"std_dps", &P::std_dps, "dps", ranges::non_negative, "standard deviation"},
         Field{"correlation_time_s", &P::correlation_time_s, "s", ranges::positive,
               "lag at which the autocorrelation is 1/e"},
     };

@@ -27,8 +27,7 @@ struct HardIron {
     return std::array{
         Field{"amplitude_deg", &P::amplitude_deg, "deg", ranges::non_negative,
               "largest heading error"},
-        Field{"phase_deg", &P::phase_deg, "deg", ranges::any,
-              "phase of the error at heading 0"},
+        Field{"phase_deg", &P::phase_deg, "deg", ranges::any, "phase of the error at heading 0"},
     };
   }
 

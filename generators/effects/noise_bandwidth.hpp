@@ -29,7 +29,8 @@ struct NoiseBandwidth {
     return std::array{
         Field{"cutoff_hz", &P::cutoff_hz, "Hz", ranges::positive,
               "frequency at which each pole has taken 3 dB"},
-        Field{"poles", &P::poles, "1", Range{.from = 1, .to = most_poles, .whole = true}, "how many poles"},
+        Field{"poles", &P::poles, "1", Range{.from = 1, .to = most_poles, .whole = true},
+              "how many poles"},
     };
   }
 
@@ -39,7 +40,8 @@ struct NoiseBandwidth {
   void apply(Series& series, const Noise& /*noise*/) const {
     Decay decay(0.5 / (std::numbers::pi * cutoff_hz));
     std::array<double, most_poles> filtered{};
-    const auto count = static_cast<std::size_t>(std::clamp(std::lround(poles), 1L, long{most_poles}));
+    const auto count =
+        static_cast<std::size_t>(std::clamp(std::lround(poles), 1L, long{most_poles}));
     const std::size_t samples = samples_with(series, needs);
     for (std::size_t i = 0; i < samples; ++i) {
       const double white = series.gyro_dps[i] - series.rate_ref_dps[i] -

@@ -21,15 +21,15 @@ struct Saturation {
   static constexpr auto fields() {
     using P = Saturation;
     return std::array{
-        Field{"limit_dps", &P::limit_dps, "dps", ranges::positive,
-              "largest output"},
+        Field{"limit_dps", &P::limit_dps, "dps", ranges::positive, "largest output"},
     };
   }
 
   static constexpr Saturation absent() { return {.limit_dps = 1e9}; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
-    for (double& z : series.gyro_dps) z = z > limit_dps ? limit_dps : z < -limit_dps ? -limit_dps : z;
+    for (double& z : series.gyro_dps)
+      z = z > limit_dps ? limit_dps : z < -limit_dps ? -limit_dps : z;
   }
 };
 

@@ -22,8 +22,7 @@ struct ScaleAsymmetry {
   static constexpr auto fields() {
     using P = ScaleAsymmetry;
     return std::array{
-        Field{"error", &P::error, "1", ranges::any,
-              "half the difference of the scale factors"},
+        Field{"error", &P::error, "1", ranges::any, "half the difference of the scale factors"},
     };
   }
 

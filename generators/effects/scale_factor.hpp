@@ -21,8 +21,7 @@ struct ScaleFactor {
   static constexpr auto fields() {
     using P = ScaleFactor;
     return std::array{
-        Field{"error", &P::error, "1", ranges::any,
-              "share of the rate that is added"},
+        Field{"error", &P::error, "1", ranges::any, "share of the rate that is added"},
     };
   }
 

@@ -25,12 +25,9 @@ struct Sinusoidal {
   static constexpr auto fields() {
     using P = Sinusoidal;
     return std::array{
-        Field{"amplitude_dps", &P::amplitude_dps, "dps", ranges::non_negative,
-              "amplitude"},
-        Field{"frequency_hz", &P::frequency_hz, "Hz", ranges::non_negative,
-              "frequency"},
-        Field{"phase_deg", &P::phase_deg, "deg", ranges::any,
-              "phase at the first sample"},
+        Field{"amplitude_dps", &P::amplitude_dps, "dps", ranges::non_negative, "amplitude"},
+        Field{"frequency_hz", &P::frequency_hz, "Hz", ranges::non_negative, "frequency"},
+        Field{"phase_deg", &P::phase_deg, "deg", ranges::any, "phase at the first sample"},
     };
   }
 

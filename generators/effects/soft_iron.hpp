@@ -12,8 +12,8 @@
 
 namespace gyrostat::effects {
 
-/// Iron that bends the field and turns with the vehicle: heading += amplitude sin(2 heading + phase),
-/// two periods a turn (compass deviation, coefficients D and E).
+/// Iron that bends the field and turns with the vehicle: heading += amplitude sin(2 heading +
+/// phase), two periods a turn (compass deviation, coefficients D and E).
 struct SoftIron {
   double amplitude_deg = 2.0;
   double phase_deg = 0.0;
@@ -27,8 +27,7 @@ struct SoftIron {
     return std::array{
         Field{"amplitude_deg", &P::amplitude_deg, "deg", ranges::non_negative,
               "largest heading error"},
-        Field{"phase_deg", &P::phase_deg, "deg", ranges::any,
-              "phase of the error at heading 0"},
+        Field{"phase_deg", &P::phase_deg, "deg", ranges::any, "phase of the error at heading 0"},
     };
   }
 

@@ -10,9 +10,9 @@
 
 namespace gyrostat::effects {
 
-/// The recorder repeats its last value where a new one came too late. Repeats last a geometric number
-/// of samples and a fresh one follows each, so that the share of repeated samples is
-/// p m / (1 + p m) with p = probability and m = mean run.
+/// The recorder repeats its last value where a new one came too late. Repeats last a geometric
+/// number of samples and a fresh one follows each, so that the share of repeated samples is p m /
+/// (1 + p m) with p = probability and m = mean run.
 struct StaleSamples {
   double probability = 0.01;
   double mean_run = 1.0;

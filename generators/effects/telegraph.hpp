@@ -26,8 +26,7 @@ struct Telegraph {
     return std::array{
         Field{"amplitude_dps", &P::amplitude_dps, "dps", ranges::non_negative,
               "half the distance of the levels"},
-        Field{"mean_dwell_s", &P::mean_dwell_s, "s", Range{.from = 1e-3},
-              "mean time on a level"},
+        Field{"mean_dwell_s", &P::mean_dwell_s, "s", Range{.from = 1e-3}, "mean time on a level"},
     };
   }
 

@@ -13,9 +13,9 @@
 
 namespace gyrostat::effects {
 
-/// Narrow-band random vibration: a carrier whose two quadratures are Gauss-Markov processes, so that
-/// its density is a Lorentzian about the centre, `bandwidth` wide between the points of half power.
-/// Exact between samples, even or not.
+/// Narrow-band random vibration: a carrier whose two quadratures are Gauss-Markov processes, so
+/// that its density is a Lorentzian about the centre, `bandwidth` wide between the points of half
+/// power. Exact between samples, even or not.
 struct Vibration {
   double std_dps = 0.05;
   double centre_hz = 10.0;
@@ -28,8 +28,7 @@ struct Vibration {
   static constexpr auto fields() {
     using P = Vibration;
     return std::array{
-        Field{"std_dps", &P::std_dps, "dps", ranges::non_negative,
-              "standard deviation"},
+        Field{"std_dps", &P::std_dps, "dps", ranges::non_negative, "standard deviation"},
         Field{"centre_hz", &P::centre_hz, "Hz", ranges::non_negative,
               "frequency of the highest density"},
         Field{"bandwidth_hz", &P::bandwidth_hz, "Hz", ranges::positive,

@@ -34,11 +34,13 @@ struct Axis {
     std::vector<double> all;
     if (logarithmic) {
       const std::vector<double> within = !fine || to - from > 2.5 ? std::vector{1.0}
-                                         : to - from > 0.8        ? std::vector{1.0, 2.0, 5.0}
-                                                                  : std::vector{1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0};
+                                         : to - from > 0.8
+                                             ? std::vector{1.0, 2.0, 5.0}
+                                             : std::vector{1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0};
       for (double e = fine ? std::floor(from) : std::ceil(from); e <= to; e += 1.0)
         for (const double part : within)
-          if (const double v = part * std::pow(10.0, e); scaled(v) >= from && scaled(v) <= to) all.push_back(v);
+          if (const double v = part * std::pow(10.0, e); scaled(v) >= from && scaled(v) <= to)
+            all.push_back(v);
       return all;
     }
     const double raw = (to - from) / 5.0, decade = std::pow(10.0, std::floor(std::log10(raw)));

@@ -5,15 +5,16 @@
 
 namespace gyrostat {
 
-/// An axis of numbers, or of names: then the number i stands for names[i], from the top or the left.
+/// An axis of numbers, or of names: then the number i stands for names[i], from the top or the
+/// left.
 struct ChartAxis {
   std::string label, unit;
   bool logarithmic = false;
   std::vector<std::string> names;
 };
 
-/// What is drawn in one colour. Marks of one name are one entry of the legend; marks without a name are
-/// not in it and always drawn.
+/// What is drawn in one colour. Marks of one name are one entry of the legend; marks without a name
+/// are not in it and always drawn.
 struct Mark {
   enum class Kind {
     line,    ///< through the points, with the band y_low to y_high where there is one
@@ -38,19 +39,20 @@ struct Mark {
 
 /// A picture and its numbers. NaN is no point.
 struct Chart {
-  std::string id;     ///< its anchor, and the name of its file of numbers
+  std::string id;  ///< its anchor, and the name of its file of numbers
   std::string title;
-  std::string note;   ///< how to read it, and of how many trials it is
+  std::string note;  ///< how to read it, and of how many trials it is
   ChartAxis x, y;
   std::vector<Mark> marks;
   bool exclusive = false;  ///< one name at a time
 };
 
-/// The chart as it is before anything is chosen, as SVG coloured by the page's style; the same bytes for
-/// the same numbers.
+/// The chart as it is before anything is chosen, as SVG coloured by the page's style; the same
+/// bytes for the same numbers.
 std::string chart_svg(const Chart& chart);
 
-/// The chart for the page's script, six significant digits, as JSON that may stand in a script element.
+/// The chart for the page's script, six significant digits, as JSON that may stand in a script
+/// element.
 std::string chart_json(const Chart& chart);
 
 /// The figure: title, legend, SVG, note and numbers.

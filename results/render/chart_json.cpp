@@ -1,6 +1,6 @@
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "results/render/chart.hpp"
@@ -26,14 +26,15 @@ ordered_json axis(const ChartAxis& a) {
 
 ordered_json mark(const Mark& m) {
   static constexpr const char* kinds[] = {"line", "points", "bars", "boxes", "cells"};
-  ordered_json out = {{"kind", kinds[static_cast<int>(m.kind)]}, {"name", m.name}, {"colour", m.colour}};
+  ordered_json out = {
+      {"kind", kinds[static_cast<int>(m.kind)]}, {"name", m.name}, {"colour", m.colour}};
   if (!m.shown) out["shown"] = false;
   if (m.dashed) out["dashed"] = true;
   if (m.stepped) out["stepped"] = true;
   if (m.labelled) out["labelled"] = true;
   const std::pair<const char*, const std::vector<double>*> columns[] = {
-      {"x", &m.x}, {"y", &m.y}, {"x_low", &m.x_low}, {"x_high", &m.x_high}, {"y_low", &m.y_low},
-      {"y_high", &m.y_high}, {"from", &m.from}, {"to", &m.to}};
+      {"x", &m.x},         {"y", &m.y},           {"x_low", &m.x_low}, {"x_high", &m.x_high},
+      {"y_low", &m.y_low}, {"y_high", &m.y_high}, {"from", &m.from},   {"to", &m.to}};
   for (const auto& [name, values] : columns)
     if (!values->empty()) out[name] = numbers(*values);
   if (!m.labels.empty()) out["labels"] = m.labels;
@@ -45,15 +46,18 @@ ordered_json mark(const Mark& m) {
 }  // namespace
 
 std::string chart_json(const Chart& chart) {
-  ordered_json out = {{"id", chart.id}, {"title", chart.title}, {"x", axis(chart.x)}, {"y", axis(chart.y)}};
+  ordered_json out = {
+      {"id", chart.id}, {"title", chart.title}, {"x", axis(chart.x)}, {"y", axis(chart.y)}};
   if (chart.exclusive) out["exclusive"] = true;
   out["marks"] = ordered_json::array();
   for (const auto& m : chart.marks) out["marks"].push_back(mark(m));
   const auto text = out.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   std::string safe;  // no text of a study can end the script element
   for (const char c : text)
-    if (c == '<') safe += "\\u003c";
-    else safe += c;
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
   return safe;
 }
 

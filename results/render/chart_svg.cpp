@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+
+#include <fmt/format.h>
 
 #include "results/render/axis.hpp"
 #include "results/render/chart.hpp"
@@ -29,11 +29,13 @@ double value(const std::vector<double>& values, std::size_t i) {
 }
 
 std::string segment(double x1, double y1, double x2, double y2, const std::string& style) {
-  return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" style=\"{}\"/>", x1, y1, x2, y2, style);
+  return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" style=\"{}\"/>", x1, y1, x2, y2,
+                     style);
 }
 
 std::string text_at(double x, double y, const std::string& text, const char* anchor) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", x, y, anchor, escaped(text));
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", x, y, anchor,
+                     escaped(text));
 }
 
 void include(Axis& axis, const ChartAxis& of, const std::vector<double>& values) {
@@ -47,7 +49,8 @@ Canvas canvas_of(const Chart& chart, double left, double height) {
   c.y.logarithmic = chart.y.logarithmic;
   for (const auto& m : chart.marks) {
     if (!m.shown) continue;
-    for (const auto* values : {&m.x, &m.x_low, &m.x_high, &m.from, &m.to}) include(c.x, chart.x, *values);
+    for (const auto* values : {&m.x, &m.x_low, &m.x_high, &m.from, &m.to})
+      include(c.x, chart.x, *values);
     for (const auto* values : {&m.y, &m.y_low, &m.y_high}) include(c.y, chart.y, *values);
     if (m.kind == Mark::Kind::bars) c.x.include(0.0);
   }
@@ -114,13 +117,18 @@ struct Labels {
   std::vector<std::array<double, 4>> taken;
   std::string place(double x, double y, const std::string& text) {
     const double w = letter * static_cast<double>(text.size());
-    const std::array<std::array<double, 2>, 6> spots = {
-        {{x + 6, y - 17}, {x - 6 - w, y - 17}, {x + 7, y - 6}, {x - 7 - w, y - 6}, {x - w / 2, y - 20}, {x - w / 2, y + 7}}};
+    const std::array<std::array<double, 2>, 6> spots = {{{x + 6, y - 17},
+                                                         {x - 6 - w, y - 17},
+                                                         {x + 7, y - 6},
+                                                         {x - 7 - w, y - 6},
+                                                         {x - w / 2, y - 20},
+                                                         {x - w / 2, y + 7}}};
     for (const auto& [left, up] : spots) {
       const std::array<double, 4> box = {left, up, left + w, up + 13};
-      const bool free = left > 0 && left + w < width && std::none_of(taken.begin(), taken.end(), [&](const auto& b) {
-        return box[0] < b[2] && b[0] < box[2] && box[1] < b[3] && b[1] < box[3];
-      });
+      const bool free = left > 0 && left + w < width &&
+                        std::none_of(taken.begin(), taken.end(), [&](const auto& b) {
+                          return box[0] < b[2] && b[0] < box[2] && box[1] < b[3] && b[1] < box[3];
+                        });
       if (!free) continue;
       taken.push_back(box);
       return text_at(left, up + 10, text, "start");
@@ -142,27 +150,38 @@ std::string point(const Mark& m, std::size_t i, const Canvas& c, Labels& labels)
   switch (m.kind) {
     case Mark::Kind::bars: {
       const double half = 0.36 * c.row, zero = c.x.at(0.0);
-      return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" style=\"fill:{};fill-opacity:.75\"/>",
-                         std::min(x, zero), y - half, std::abs(x - zero), 2 * half, colour) + out;
+      return fmt::format(
+                 "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
+                 "style=\"fill:{};fill-opacity:.75\"/>",
+                 std::min(x, zero), y - half, std::abs(x - zero), 2 * half, colour) +
+             out;
     }
     case Mark::Kind::boxes: {
       const double half = 0.32 * c.row, low = c.x.at(m.x_low[i]), high = c.x.at(m.x_high[i]);
-      return out + fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" style=\"fill:var(--paper);stroke:{}\"/>",
-                               low, y - half, std::max(high - low, 0.5), 2 * half, colour) +
+      return out +
+             fmt::format(
+                 "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
+                 "style=\"fill:var(--paper);stroke:{}\"/>",
+                 low, y - half, std::max(high - low, 0.5), 2 * half, colour) +
              segment(x, y - half, x, y + half, "stroke:" + colour + ";stroke-width:2.5");
     }
     case Mark::Kind::cells: {
       const auto& fill = m.fills[i];
-      out = fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" style=\"fill:{};stroke:var(--paper)\"/>",
-                        x - c.column / 2, y - c.row / 2, c.column, c.row, property(fill));
+      out = fmt::format(
+          "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
+          "style=\"fill:{};stroke:var(--paper)\"/>",
+          x - c.column / 2, y - c.row / 2, c.column, c.row, property(fill));
       if (i < m.labels.size() && letter * static_cast<double>(m.labels[i].size()) < c.column)
-        out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" style=\"fill:{}\">{}</text>", x, y + 4,
-                           fill.starts_with('#') ? (is_dark(fill) ? "#fff" : "#111") : "var(--paper)", escaped(m.labels[i]));
+        out += fmt::format(
+            "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" style=\"fill:{}\">{}</text>", x,
+            y + 4, fill.starts_with('#') ? (is_dark(fill) ? "#fff" : "#111") : "var(--paper)",
+            escaped(m.labels[i]));
       return out;
     }
     default:
-      out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" style=\"fill:{};stroke:{}\"/>", x, y,
-                         m.labelled ? 4 : 3, m.dashed ? "var(--paper)" : colour, colour);
+      out +=
+          fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" style=\"fill:{};stroke:{}\"/>",
+                      x, y, m.labelled ? 4 : 3, m.dashed ? "var(--paper)" : colour, colour);
       if (m.labelled && i < m.labels.size()) out += labels.place(x, y, m.labels[i]);
       return out;
   }
@@ -180,16 +199,21 @@ std::string axes(const Chart& chart, const Canvas& c) {
   for (std::size_t i = 0; i < chart.x.names.size(); ++i)
     along_x(c.x.at(static_cast<double>(i)), chart.x.names[i], false);
   const auto along_y = [&](double at, const std::string& text) {
-    out += segment(left, at, width - right, at, "stroke:var(--line)") + text_at(left - 6.0, at + 4.0, text, "end");
+    out += segment(left, at, width - right, at, "stroke:var(--line)") +
+           text_at(left - 6.0, at + 4.0, text, "end");
   };
   if (chart.y.names.empty())
     for (const double v : c.y.ticks(true)) along_y(c.y.at(v), fmt::format("{:g}", v));
-  for (std::size_t i = 0; i < chart.y.names.size(); ++i) along_y(c.y.at(static_cast<double>(i)), chart.y.names[i]);
-  const auto head = [](const ChartAxis& a) { return a.unit.empty() ? a.label : a.label + " [" + a.unit + "]"; };
+  for (std::size_t i = 0; i < chart.y.names.size(); ++i)
+    along_y(c.y.at(static_cast<double>(i)), chart.y.names[i]);
+  const auto head = [](const ChartAxis& a) {
+    return a.unit.empty() ? a.label : a.label + " [" + a.unit + "]";
+  };
   out += text_at(left + 0.5 * c.x.length, base + 36.0, head(chart.x), "middle");
   if (!chart.y.label.empty())
-    out += fmt::format("<text transform=\"translate(12,{:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-                       0.5 * (base + top), escaped(head(chart.y)));
+    out += fmt::format(
+        "<text transform=\"translate(12,{:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+        0.5 * (base + top), escaped(head(chart.y)));
   return out;
 }
 
@@ -198,11 +222,15 @@ std::string axes(const Chart& chart, const Canvas& c) {
 std::string chart_svg(const Chart& chart) {
   std::size_t longest = 7;
   for (const auto& name : chart.y.names) longest = std::max(longest, name.size());
-  const double left = std::min(190.0, letter * static_cast<double>(longest) + 10.0) + (chart.y.label.empty() ? 0 : 18);
-  const double height = chart.y.names.empty() ? 320.0 : top + bottom + 27.0 * static_cast<double>(chart.y.names.size());
+  const double left = std::min(190.0, letter * static_cast<double>(longest) + 10.0) +
+                      (chart.y.label.empty() ? 0 : 18);
+  const double height = chart.y.names.empty()
+                            ? 320.0
+                            : top + bottom + 27.0 * static_cast<double>(chart.y.names.size());
   const auto canvas = canvas_of(chart, left, height);
-  std::string out = fmt::format("<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">", width, height,
-                                escaped(chart.title));
+  std::string out =
+      fmt::format("<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">", width,
+                  height, escaped(chart.title));
   out += axes(chart, canvas);
   Labels labels;
   for (const auto& m : chart.marks) {
@@ -225,8 +253,9 @@ std::string ramp(double share) {
   const double at = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
   const auto k = std::min<std::size_t>(static_cast<std::size_t>(at), stops.size() - 2);
   const auto mix = [&](std::size_t channel) {
-    return static_cast<int>(std::lround(stops[k][channel] + (at - static_cast<double>(k)) *
-                                                                (stops[k + 1][channel] - stops[k][channel])));
+    return static_cast<int>(
+        std::lround(stops[k][channel] +
+                    (at - static_cast<double>(k)) * (stops[k + 1][channel] - stops[k][channel])));
   };
   return fmt::format("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2));
 }

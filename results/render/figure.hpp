@@ -26,8 +26,8 @@ struct HeatMap {
   std::vector<bool> ranked;  ///< by column: whether it counts for the least of a row
 };
 
-/// Mean ranks on a line, best at the left; a bar joins those that differ by no more than the critical
-/// difference (Demsar, JMLR 7, 2006, fig. 1).
+/// Mean ranks on a line, best at the left; a bar joins those that differ by no more than the
+/// critical difference (Demsar, JMLR 7, 2006, fig. 1).
 struct RankDiagram {
   struct Method {
     std::string name;

@@ -10,11 +10,16 @@ namespace gyrostat {
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
   }
   return out;
 }
@@ -30,22 +35,29 @@ bool is_text(const TableCell& cell) {
 }  // namespace
 
 std::string html(const Table& table) {
-  std::string out = fmt::format("<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{0}\">"
-                                "<table><caption>{0}</caption><thead><tr>", escaped(table.title));
+  std::string out = fmt::format(
+      "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{0}\">"
+      "<table><caption>{0}</caption><thead><tr>",
+      escaped(table.title));
   for (std::size_t c = 0; c < table.columns.size(); ++c)
-    out += fmt::format("<th scope=\"col\"{}>{}</th>",
-                       !table.rows.empty() && is_text(table.rows.front()[c]) ? " class=\"text\"" : "",
-                       escaped(render_detail::head(table.columns[c])));
+    out +=
+        fmt::format("<th scope=\"col\"{}>{}</th>",
+                    !table.rows.empty() && is_text(table.rows.front()[c]) ? " class=\"text\"" : "",
+                    escaped(render_detail::head(table.columns[c])));
   out += "</tr></thead>\n<tbody>";
   for (const auto& row : table.rows) {
     out += "<tr>";
     for (std::size_t c = 0; c < row.size(); ++c)
-      out += fmt::format("<{0}>{2}</{1}>", c == 0 ? "th scope=\"row\"" : is_text(row[c]) ? "td class=\"text\"" : "td",
+      out += fmt::format("<{0}>{2}</{1}>",
+                         c == 0            ? "th scope=\"row\""
+                         : is_text(row[c]) ? "td class=\"text\""
+                                           : "td",
                          c == 0 ? "th" : "td", escaped(render_detail::readable(row[c])));
     out += "</tr>\n";
   }
   out += "</tbody></table></div>\n";
-  for (const auto& note : table.notes) out += fmt::format("<p class=\"note\">{}</p>\n", escaped(note));
+  for (const auto& note : table.notes)
+    out += fmt::format("<p class=\"note\">{}</p>\n", escaped(note));
   return out;
 }
 

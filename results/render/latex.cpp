@@ -8,12 +8,37 @@ namespace {
 
 std::string escaped(std::string_view s) {
   static constexpr std::pair<std::string_view, std::string_view> symbols[] = {
-      {"\\", "\\textbackslash{}"}, {"&", "\\&"}, {"%", "\\%"}, {"_", "\\_"}, {"#", "\\#"},
-      {"$", "\\$"}, {"{", "\\{"}, {"}", "\\}"}, {"~", "\\textasciitilde{}"},
-      {"^", "\\textasciicircum{}"}, {"|", "\\textbar{}"}, {"<", "\\textless{}"}, {">", "\\textgreater{}"}, {"°", "\\textdegree{}"}, {"±", "$\\pm$"}, {"²", "$^2$"},
-      {"σ", "$\\sigma$"}, {"χ", "$\\chi$"}, {"φ", "$\\varphi$"}, {"δ", "$\\delta$"},
-      {"τ", "$\\tau$"}, {"μ", "$\\mu$"}, {"θ", "$\\theta$"}, {"·", "$\\cdot$"}, {"–", "--"},
-      {"≥", "$\\ge$"}, {"≤", "$\\le$"}, {"×", "$\\times$"}, {"−", "$-$"}, {"…", "\\dots{}"}, {"³", "$^3$"},
+      {"\\", "\\textbackslash{}"},
+      {"&", "\\&"},
+      {"%", "\\%"},
+      {"_", "\\_"},
+      {"#", "\\#"},
+      {"$", "\\$"},
+      {"{", "\\{"},
+      {"}", "\\}"},
+      {"~", "\\textasciitilde{}"},
+      {"^", "\\textasciicircum{}"},
+      {"|", "\\textbar{}"},
+      {"<", "\\textless{}"},
+      {">", "\\textgreater{}"},
+      {"°", "\\textdegree{}"},
+      {"±", "$\\pm$"},
+      {"²", "$^2$"},
+      {"σ", "$\\sigma$"},
+      {"χ", "$\\chi$"},
+      {"φ", "$\\varphi$"},
+      {"δ", "$\\delta$"},
+      {"τ", "$\\tau$"},
+      {"μ", "$\\mu$"},
+      {"θ", "$\\theta$"},
+      {"·", "$\\cdot$"},
+      {"–", "--"},
+      {"≥", "$\\ge$"},
+      {"≤", "$\\le$"},
+      {"×", "$\\times$"},
+      {"−", "$-$"},
+      {"…", "\\dots{}"},
+      {"³", "$^3$"},
       {"√", "$\\surd$"}};
   std::string out;
   while (!s.empty()) {
@@ -41,8 +66,9 @@ std::string joined(const std::vector<std::string>& cells) {
 }  // namespace
 
 std::string latex(const Table& table) {
-  std::string out = "\\begin{table}\n\\caption{" + escaped(one_line(table.title)) + "}\n\\begin{tabular}{l" +
-                    std::string(table.columns.size() - 1, 'r') + "}\n\\toprule\n";
+  std::string out = "\\begin{table}\n\\caption{" + escaped(one_line(table.title)) +
+                    "}\n\\begin{tabular}{l" + std::string(table.columns.size() - 1, 'r') +
+                    "}\n\\toprule\n";
   std::vector<std::string> heads;
   for (const auto& column : table.columns) heads.push_back(escaped(head(column)));
   out += joined(heads) + "\\midrule\n";
@@ -52,7 +78,8 @@ std::string latex(const Table& table) {
     out += joined(cells);
   }
   out += "\\bottomrule\n\\end{tabular}\n";
-  for (const auto& note : table.notes) out += "\\par\\footnotesize " + escaped(one_line(note)) + "\n";
+  for (const auto& note : table.notes)
+    out += "\\par\\footnotesize " + escaped(one_line(note)) + "\n";
   return out + "\\end{table}\n";
 }
 

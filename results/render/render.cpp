@@ -1,10 +1,10 @@
 #include "results/render/render.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "core/error.hpp"
 
@@ -40,10 +40,18 @@ std::string render(std::span<const Table> tables, Format format) {
   for (const auto& table : tables) {
     if (!out.empty()) out += '\n';
     switch (format) {
-      case Format::markdown: out += markdown(table); break;
-      case Format::csv: out += csv(table); break;
-      case Format::latex: out += latex(table); break;
-      default: out += text(table); break;
+      case Format::markdown:
+        out += markdown(table);
+        break;
+      case Format::csv:
+        out += csv(table);
+        break;
+      case Format::latex:
+        out += latex(table);
+        break;
+      default:
+        out += text(table);
+        break;
     }
   }
   return out;
@@ -52,7 +60,8 @@ std::string render(std::span<const Table> tables, Format format) {
 namespace render_detail {
 
 std::string one_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return text;
 }
 

@@ -1,8 +1,8 @@
 #include "analysis/search/box_search.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 namespace gyrostat {
 namespace {
@@ -18,9 +18,8 @@ TEST(BoxSearch, FindsTheMinimumOfACurvedValley) {
 }
 
 TEST(BoxSearch, SearchesPositiveRangesByTheirLogarithm) {
-  const auto found = box_search({{1e-6, 1.0}}, 60, [](const auto& x) {
-    return std::pow(std::log(x[0] / 3e-5), 2);
-  });
+  const auto found = box_search({{1e-6, 1.0}}, 60,
+                                [](const auto& x) { return std::pow(std::log(x[0] / 3e-5), 2); });
   EXPECT_NEAR(found.values[0], 3e-5, 1e-7);
 }
 

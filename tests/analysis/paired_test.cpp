@@ -1,16 +1,17 @@
 #include "analysis/statistics/paired.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "core/random.hpp"
 
 namespace gyrostat {
 namespace {
 
-std::vector<double> normals(std::uint32_t trial, const char* stream, std::size_t count, double mean) {
+std::vector<double> normals(std::uint32_t trial, const char* stream, std::size_t count,
+                            double mean) {
   std::vector<double> out(count);
   Noise{11, trial}.stream(stream).fill(0, out);
   for (double& v : out) v += mean;
@@ -45,8 +46,8 @@ TEST(PairedDifference, LeavesOutTrialsWhereEitherHasNoValue) {
   EXPECT_DOUBLE_EQ(d.mean, 1.5);
 }
 
-// 1000 families of 6 null comparisons: the rate of families with any separation has expectation of at
-// most 0.05 and standard error 0.007; 0.075 is exceeded by chance with probability below 2e-4.
+// 1000 families of 6 null comparisons: the rate of families with any separation has expectation of
+// at most 0.05 and standard error 0.007; 0.075 is exceeded by chance with probability below 2e-4.
 TEST(PairedDifference, FindsNothingInNothingWhateverThePairPicked) {
   int families_with_a_find = 0;
   for (std::uint32_t trial = 0; trial < 1000; ++trial) {
@@ -62,16 +63,17 @@ TEST(PairedDifference, FindsNothingInNothingWhateverThePairPicked) {
   EXPECT_GE(families_with_a_find, 10);
 }
 
-// 400 studies with the number of trials that `trials_needed` asked for at the true effect: the power
-// has a standard error of 0.02, so 0.74-0.86 fails by chance with probability 0.003.
+// 400 studies with the number of trials that `trials_needed` asked for at the true effect: the
+// power has a standard error of 0.02, so 0.74-0.86 fails by chance with probability 0.003.
 TEST(PairedDifference, AsksForTheTrialsThatItTakes) {
   const double effect = 0.25;
   const double reach = 2.6383 + 0.8416;  // normal quantiles of 1 - 0.025 / 6 and of 0.8
   const auto trials = static_cast<std::size_t>(std::ceil(2.0 * reach * reach / (effect * effect)));
   int found = 0;
   for (std::uint32_t study = 0; study < 400; ++study)
-    found += paired_difference(normals(study, "p", trials, effect), normals(study, "q", trials, 0.0), 6)
-                 .separable;
+    found +=
+        paired_difference(normals(study, "p", trials, effect), normals(study, "q", trials, 0.0), 6)
+            .separable;
   EXPECT_GE(found, 0.74 * 400);
   EXPECT_LE(found, 0.86 * 400);
 }

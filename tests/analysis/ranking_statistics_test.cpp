@@ -68,8 +68,9 @@ TEST(TailMean, OfFewValuesHasNoInterval) {
   EXPECT_TRUE(std::isnan(tail_of({}).value));
 }
 
-/// The tail mean of the exponential distribution is 1 - ln 0.05. The interval covers it in 95 % of samples:
-/// with 2000 of them the standard error is 0.5 %, and 93 to 97 % is missed by chance in under one of 10^4.
+/// The tail mean of the exponential distribution is 1 - ln 0.05. The interval covers it in 95 % of
+/// samples: with 2000 of them the standard error is 0.5 %, and 93 to 97 % is missed by chance in
+/// under one of 10^4.
 TEST(TailMean, ItsIntervalCoversTheTruthInNineteenOfTwentySamples) {
   std::mt19937_64 random(5);
   std::exponential_distribution<double> draw;

@@ -30,8 +30,9 @@ TEST(SequentialBounds, AgreeWithSciPy) {
   for (std::size_t k = 0; k < bounds.size(); ++k) EXPECT_NEAR(bounds[k], expected[k], 2e-3) << k;
 }
 
-/// A walk without drift looked at twelve times leaves its bounds with probability alpha 12 / 13. With
-/// 20,000 walks the standard error is 0.15 %: beyond 5 of them by chance in under one of a million.
+/// A walk without drift looked at twelve times leaves its bounds with probability alpha 12 / 13.
+/// With 20,000 walks the standard error is 0.15 %: beyond 5 of them by chance in under one of a
+/// million.
 TEST(SequentialBounds, AreLeftAsOftenAsTheySay) {
   const auto counts = look_counts(50, 2500);
   const auto bounds = sequential_bounds(counts, 0.05);

@@ -1,5 +1,3 @@
-#include "analysis/statistics/summary.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/statistics/summary.hpp"
 #include "core/random.hpp"
 
 namespace gyrostat {
@@ -98,7 +97,8 @@ TEST(StudentT, QuantilesAreThoseOfTheTables) {
 /// One degree of freedom is Cauchy's distribution, two have a closed form too.
 TEST(StudentT, QuantilesOfOneAndTwoDegreesAreAnalytic) {
   for (const double confidence : {0.5, 0.9, 0.95, 0.99}) {
-    EXPECT_NEAR(student_t_quantile(confidence, 1), std::tan(0.5 * std::numbers::pi * confidence), 1e-9);
+    EXPECT_NEAR(student_t_quantile(confidence, 1), std::tan(0.5 * std::numbers::pi * confidence),
+                1e-9);
     EXPECT_NEAR(student_t_quantile(confidence, 2),
                 confidence * std::sqrt(2.0 / (1.0 - confidence * confidence)), 1e-10);
   }

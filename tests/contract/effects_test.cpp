@@ -1,5 +1,3 @@
-#include "generators/effects/list.hpp"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "generators/effects/list.hpp"
 #include "generators/scenario.hpp"
 
 namespace gyrostat {
@@ -165,7 +164,8 @@ TYPED_TEST(EffectContract, IsFiniteWhateverItsRangesAllow) {
 
 TYPED_TEST(EffectContract, AloneWithOneSampleOrNoneIsFinite) {
   for (const std::size_t samples : {0, 1, 2})
-    EXPECT_TRUE(all_finite(applied(typename TypeParam::type{}, plain().slice(0, samples)))) << samples;
+    EXPECT_TRUE(all_finite(applied(typename TypeParam::type{}, plain().slice(0, samples))))
+        << samples;
 }
 
 TYPED_TEST(EffectContract, WithoutAChannelThatItNeedsChangesNothing) {
@@ -214,7 +214,8 @@ TYPED_TEST(EffectContract, AppliedToAGapDoesNotFail) {
 TYPED_TEST(EffectContract, TakesUnevenTimes) {
   auto series = plain();
   for (std::size_t i = 0; i < series.size(); ++i)
-    series.t_s[i] = 1.7e9 + 0.1 * (static_cast<double>(i) + (i % 3 == 1 ? 0.4 : 0.0)) + (i > 9000 ? 500.0 : 0.0);
+    series.t_s[i] = 1.7e9 + 0.1 * (static_cast<double>(i) + (i % 3 == 1 ? 0.4 : 0.0)) +
+                    (i > 9000 ? 500.0 : 0.0);
   EXPECT_TRUE(all_finite(applied(typename TypeParam::type{}, series)));
 }
 
@@ -225,7 +226,8 @@ TYPED_TEST(EffectContract, MovesNoDrawOfAnythingElse) {
   Effects::for_each([&](auto plugin) {
     if (plugin.id == TypeParam::id) return;
     const typename decltype(plugin)::type other;
-    const auto neither = with({}), one = with({effect}), two = with({other}), both = with({other, effect});
+    const auto neither = with({}), one = with({effect}), two = with({other}),
+               both = with({other, effect});
     EXPECT_TRUE(same_bits(neither.random_error_dps, both.random_error_dps)) << plugin.id;
     EXPECT_TRUE(same_bits(neither.rate_ref_dps, both.rate_ref_dps)) << plugin.id;
     EXPECT_TRUE(same_bits(neither.temperature_C, both.temperature_C)) << plugin.id;

@@ -1,5 +1,3 @@
-#include "core/filters/list.hpp"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,6 +9,7 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
+#include "core/filters/list.hpp"
 #include "core/random.hpp"
 
 namespace gyrostat {
@@ -106,7 +105,8 @@ void expect_same_bits(const Step<double>& a, const Step<double>& b) {
   ASSERT_EQ(a.status, b.status);
 }
 
-/// The defaults with every parameter that may be zero, or as close to it as its range allows, at zero.
+/// The defaults with every parameter that may be zero, or as close to it as its range allows, at
+/// zero.
 template <class P>
 P at_zero() {
   P p;
@@ -142,8 +142,9 @@ TYPED_TEST(FilterContract, NothingThatIsNotFiniteLeavesWhereEveryVarianceIsZero)
 TYPED_TEST(FilterContract, NothingThatIsNotFiniteLeavesWhereOneParameterIsAtAnEndOfItsRange) {
   const typename TestFixture::P defaults;
   for (const auto& field : defaults.fields())
-    for (const double value : {field.range.from, field.range.to, std::nextafter(field.range.from, 1.0),
-                               std::nextafter(field.range.to, 0.0)}) {
+    for (const double value :
+         {field.range.from, field.range.to, std::nextafter(field.range.from, 1.0),
+          std::nextafter(field.range.to, 0.0)}) {
       if (!field.range.contains(value) || std::abs(value) > 1e100) continue;
       auto p = defaults;
       p.*(field.member) = value;
@@ -194,7 +195,8 @@ TYPED_TEST(FilterContract, TheFutureDoesNotReachThePast) {
   const auto samples = tame(600);
   auto changed = samples;
   for (std::size_t i = 400; i < changed.size(); ++i) changed[i].gyro_dps += 5.0;
-  for (std::size_t i = 0; i < 400; ++i) expect_same_bits(one.step(samples[i]), other.step(changed[i]));
+  for (std::size_t i = 0; i < 400; ++i)
+    expect_same_bits(one.step(samples[i]), other.step(changed[i]));
 }
 
 TYPED_TEST(FilterContract, EstimatesOfNothingAreZero) {
@@ -209,8 +211,8 @@ TYPED_TEST(FilterContract, TheMirroredSignalGivesTheMirroredEstimate) {
   typename TestFixture::F filter{typename TestFixture::P{}}, mirror{typename TestFixture::P{}};
   for (auto sample : tame(2000)) {
     const double estimate = filter.step(sample).estimate_dps;
-    for (double* value : {&sample.gyro_dps, &sample.heading_deg, &sample.true_rate_dps,
-                          &sample.true_drift_dps})
+    for (double* value :
+         {&sample.gyro_dps, &sample.heading_deg, &sample.true_rate_dps, &sample.true_drift_dps})
       *value = -*value;
     ASSERT_NEAR(mirror.step(sample).estimate_dps, -estimate, 1e-12);
   }
@@ -244,7 +246,8 @@ T weighted_sum(const typename F<T>::Parameters& p, const std::vector<Sample<doub
   F<T> filter(p);
   T sum(0.0);
   for (std::size_t i = 0; i < samples.size(); ++i)
-    sum += T(1.0 + std::sin(static_cast<double>(i))) * filter.step(cast<T>(samples[i])).estimate_dps;
+    sum +=
+        T(1.0 + std::sin(static_cast<double>(i))) * filter.step(cast<T>(samples[i])).estimate_dps;
   return sum;
 }
 

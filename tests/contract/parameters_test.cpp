@@ -52,7 +52,8 @@ void check_plugins() {
   List::for_each([&](auto plugin) {
     using Type = typename decltype(plugin)::type;
     check<Type>(std::string(plugin.id));
-    EXPECT_TRUE(titles.insert(std::string(Type::title)).second) << plugin.id << ": title not unique";
+    EXPECT_TRUE(titles.insert(std::string(Type::title)).second)
+        << plugin.id << ": title not unique";
     EXPECT_FALSE(Type::title.empty()) << plugin.id;
   });
 }

@@ -16,7 +16,8 @@ inline std::vector<double> arima_signal(const Arima111<double>& model, std::size
   std::vector<double> z(samples);
   double x = 0.0, difference = 0.0;
   for (std::size_t k = 0; k < samples; ++k) {
-    difference = model.phi * difference + model.delta1_dps * a.normal(k + 1) - model.delta2_dps * a.normal(k);
+    difference = model.phi * difference + model.delta1_dps * a.normal(k + 1) -
+                 model.delta2_dps * a.normal(k);
     x += difference;
     z[k] = x + model.measurement_noise_std_dps * v.normal(k);
   }

@@ -48,8 +48,8 @@ struct Path {
     double before = p.initial_x_previous_dps + p.initial_x_previous_std_dps * normals[1];
     double a = normals[2];
     for (std::size_t i = 3; i < normals.size(); i += 2) {
-      const double next = (1.0 + p.phi) * now - p.phi * before + p.delta1_dps * normals[i] -
-                          p.delta2_dps * a;
+      const double next =
+          (1.0 + p.phi) * now - p.phi * before + p.delta1_dps * normals[i] - p.delta2_dps * a;
       before = now;
       now = next;
       a = normals[i];
@@ -122,7 +122,8 @@ NisStatistics nis_statistics(const Parameters& p, int steps = 20, int runs = 400
     F filter(p);
     std::vector<double> e;
     double nis = 0.0;
-    for (const double z : run(p, static_cast<std::size_t>(steps), static_cast<std::uint32_t>(trial)).z) {
+    for (const double z :
+         run(p, static_cast<std::size_t>(steps), static_cast<std::uint32_t>(trial)).z) {
       const auto s = step(filter, z);
       e.push_back(s.innovation_dps / std::sqrt(s.innovation_variance));
       nis += e.back() * e.back();
@@ -136,7 +137,8 @@ NisStatistics nis_statistics(const Parameters& p, int steps = 20, int runs = 400
                        (squares / n - 2.0 * K) / (2.0 * K * std::sqrt((2.0 + 12.0 / K) / n)),
                        {}};
   for (int lag = 1; lag <= 3; ++lag)
-    result.correlation[lag - 1] = products[static_cast<std::size_t>(lag - 1)] / std::sqrt(n * (K - lag));
+    result.correlation[lag - 1] =
+        products[static_cast<std::size_t>(lag - 1)] / std::sqrt(n * (K - lag));
   return result;
 }
 
@@ -193,8 +195,7 @@ TEST(Kf, AMissingSampleIsPredictedAndCounted) {
   const auto s = step(kf, no_value);
   EXPECT_EQ(s.status, Status::no_measurement);
   EXPECT_TRUE(std::isnan(s.innovation_dps));
-  EXPECT_DOUBLE_EQ(s.estimate_dps,
-                   before.mean(0) + p.phi * (before.mean(0) - before.mean(1)));
+  EXPECT_DOUBLE_EQ(s.estimate_dps, before.mean(0) + p.phi * (before.mean(0) - before.mean(1)));
   EXPECT_GT(s.estimate_variance, before.covariance(0, 0));
 }
 
@@ -211,8 +212,8 @@ TEST(KfMa, NisIsChiSquareWhereTheModelIsTrue) {
   expect_consistent(nis_statistics<KfMa<double>>(parameters()));
 }
 
-// Of n independent runs the mean of error^2 / variance is 1 with standard error sqrt(2 / n); at 5 of
-// them the check fails falsely at 6e-7.
+// Of n independent runs the mean of error^2 / variance is 1 with standard error sqrt(2 / n); at 5
+// of them the check fails falsely at 6e-7.
 TEST(KfMa, StatesTheVarianceOfItsOwnError) {
   const auto p = parameters();
   constexpr int runs = 4000;
@@ -263,7 +264,8 @@ TEST(KfMa, EqualsGaussianConditioningOnEveryPrefixOfAShortSeries) {
   KfMa<double> filter(p);
   for (std::size_t k = 1; k <= z.size(); ++k) {
     const auto s = step(filter, z[k - 1]);
-    const auto [mean, variance] = conditioned(p, {z.begin(), z.begin() + static_cast<std::ptrdiff_t>(k)});
+    const auto [mean, variance] =
+        conditioned(p, {z.begin(), z.begin() + static_cast<std::ptrdiff_t>(k)});
     EXPECT_NEAR(s.estimate_dps, mean, 1e-11);
     EXPECT_NEAR(s.estimate_variance, variance, 1e-13);
   }

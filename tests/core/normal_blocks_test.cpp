@@ -1,5 +1,3 @@
-#include "core/packed/normals.hpp"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/packed/kernels.hpp"
+#include "core/packed/normals.hpp"
 #include "core/random.hpp"
 
 namespace gyrostat {
@@ -31,8 +30,7 @@ std::array<std::uint32_t, 4> words(const NormalAddress& at, std::uint32_t block)
 TEST(NormalBlocks, PhiloxPassesThePublishedKnownAnswers) {
   const std::uint32_t ones = 0xffffffff;
   using Words = std::array<std::uint32_t, 4>;
-  EXPECT_EQ(words({{0, 0}, 0, {0, 0}}, 0),
-            (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
+  EXPECT_EQ(words({{0, 0}, 0, {0, 0}}, 0), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
   EXPECT_EQ(words({{ones, ones}, ones, {ones, ones}}, ones),
             (Words{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
   EXPECT_EQ(words({{0xa4093822, 0x299f31d0}, 0x85a308d3, {0x13198a2e, 0x03707344}}, 0x243f6a88),
@@ -42,8 +40,8 @@ TEST(NormalBlocks, PhiloxPassesThePublishedKnownAnswers) {
 TEST(NormalBlocks, PhiloxIsThatOfRandom123) {
   for (std::uint32_t k = 0; k < 10'000; ++k) {
     const NormalAddress at{{k * 7919U, ~k}, k ^ 0x5bd1e995U, {k * k, 2654435761U * k}};
-    const auto expected = r123::Philox4x32{}({{k, at.trial, at.stream[0], at.stream[1]}},
-                                             {{at.key[0], at.key[1]}});
+    const auto expected =
+        r123::Philox4x32{}({{k, at.trial, at.stream[0], at.stream[1]}}, {{at.key[0], at.key[1]}});
     const auto made = words(at, k);
     EXPECT_TRUE(std::equal(made.begin(), made.end(), expected.begin())) << k;
   }
@@ -86,9 +84,9 @@ TEST(NormalBlocks, EveryInstructionSetGivesTheSameBits) {
 
 double upper_tail(double x) { return 0.5 * std::erfc(x / std::numbers::sqrt2); }
 
-// Counts beyond a quantile are binomial, far out Poisson. At 5 standard errors each of the ten checks
-// up to 5 sigma (57 expected there) fails falsely at 1e-6; beyond 6 sigma 0.2 draws are expected on
-// either side and more than 6 have probability 2e-9 (Poisson).
+// Counts beyond a quantile are binomial, far out Poisson. At 5 standard errors each of the ten
+// checks up to 5 sigma (57 expected there) fails falsely at 1e-6; beyond 6 sigma 0.2 draws are
+// expected on either side and more than 6 have probability 2e-9 (Poisson).
 TEST(NormalBlocks, TailsHoldTheirShareToSixSigma) {
   constexpr std::size_t draws = 200'000'000;
   const NormalStream stream(2024, 14, "tails");
@@ -107,14 +105,16 @@ TEST(NormalBlocks, TailsHoldTheirShareToSixSigma) {
     const double share = upper_tail(static_cast<double>(sigma));
     const double error = std::sqrt(total * share * (1.0 - share));
     for (const auto count : {above[sigma], below[sigma]}) {
-      if (sigma == 6) EXPECT_LE(count, 6U);
-      else EXPECT_NEAR(static_cast<double>(count), total * share, 5.0 * error) << sigma;
+      if (sigma == 6)
+        EXPECT_LE(count, 6U);
+      else
+        EXPECT_NEAR(static_cast<double>(count), total * share, 5.0 * error) << sigma;
     }
   }
 }
 
-// A^2 of a sample from the distribution itself exceeds 6 with probability 1.0e-3, and beyond that its
-// tail falls as exp(-A^2) (Marsaglia and Marsaglia 2004, "Evaluating the Anderson-Darling
+// A^2 of a sample from the distribution itself exceeds 6 with probability 1.0e-3, and beyond that
+// its tail falls as exp(-A^2) (Marsaglia and Marsaglia 2004, "Evaluating the Anderson-Darling
 // distribution"): 13 is passed falsely at 1e-6.
 TEST(NormalBlocks, DeviatesAreNormalByAndersonAndDarling) {
   constexpr std::size_t draws = 2'000'000;

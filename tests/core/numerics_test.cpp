@@ -1,5 +1,3 @@
-#include "core/numerics/cholesky.hpp"
-
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -8,6 +6,7 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
+#include "core/numerics/cholesky.hpp"
 #include "core/numerics/kalman.hpp"
 #include "core/numerics/unscented.hpp"
 #include "core/random.hpp"
@@ -332,9 +331,9 @@ TEST_F(Numerics, ASingularInnovationLeavesTheStateUntouched) {
   Gaussian<double, 3> state{random<3, 1>(), Matrix<double, 3>::Zero()};
   const auto before = state;
   const Matrix<double, 1, 3> H(1.0, 0.0, 0.0);
-  EXPECT_FALSE((measurement_update<double, 3, 1>(state, H, Matrix<double, 1>::Zero(),
-                                                 Vector<double, 1>(1.0))
-                    .sound));
+  EXPECT_FALSE(
+      (measurement_update<double, 3, 1>(state, H, Matrix<double, 1>::Zero(), Vector<double, 1>(1.0))
+           .sound));
   EXPECT_FALSE(measure_first(state, 0.0, 1.0).sound);
   EXPECT_EQ(state.mean, before.mean);
   EXPECT_EQ(state.covariance, before.covariance);

@@ -1,3 +1,5 @@
+#include "core/packed/pack.hpp"
+
 #include <array>
 #include <bit>
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "core/filters/list.hpp"
-#include "core/packed/pack.hpp"
 #include "core/random.hpp"
 
 namespace gyrostat {
@@ -34,15 +35,19 @@ TEST(Pack, ComparesAndSelectsLaneByLane) {
   EXPECT_TRUE((x < y)[1] && !(x < y)[0] && !(x >= y)[2]);
 }
 
-/// Lanes of noise, each with its own troubles: gaps, outliers, what is not finite, and what breaks a
-/// filter down.
+/// Lanes of noise, each with its own troubles: gaps, outliers, what is not finite, and what breaks
+/// a filter down.
 double sample_of(int lane, std::size_t k) {
   const double z = 0.05 * NormalStream(5, static_cast<std::uint32_t>(lane), "pack").normal(k);
   switch (lane % 4) {
-    case 1: return k % 7 == 0 ? no_value : z;
-    case 2: return k % 11 == 3 ? infinity : k % 13 == 5 ? 1e200 : z;
-    case 3: return k % 50 < 20 ? no_value : 100.0 * z;
-    default: return z;
+    case 1:
+      return k % 7 == 0 ? no_value : z;
+    case 2:
+      return k % 11 == 3 ? infinity : k % 13 == 5 ? 1e200 : z;
+    case 3:
+      return k % 50 < 20 ? no_value : 100.0 * z;
+    default:
+      return z;
   }
 }
 
@@ -52,7 +57,8 @@ P parameters_of(int lane) {
   P p;
   for (const auto& field : p.fields()) {
     double& value = p.*(field.member);
-    if (field.name.starts_with("mu_")) value = lane % 3 == 1 ? 0.0 : 0.01 * (1 + lane);
+    if (field.name.starts_with("mu_"))
+      value = lane % 3 == 1 ? 0.0 : 0.01 * (1 + lane);
     else if (!field.range.whole && field.range.contains(value * (1.0 + 0.05 * lane)))
       value *= 1.0 + 0.05 * lane;
     if (lane == 5 && field.name.find("std") != std::string_view::npos && field.range.contains(0.0))
@@ -85,10 +91,11 @@ void expect_lanes_are_doubles(std::size_t steps) {
     sample.true_rate_dps = sample.true_drift_dps = P::load(zero.data());
     const auto step = filter.step(sample);
     for (int lane = 0; lane < N; ++lane) {
-      const auto one = alone[lane].step(
-          {.gyro_dps = z[lane], .true_rate_dps = 0.0, .true_drift_dps = 0.0});
+      const auto one =
+          alone[lane].step({.gyro_dps = z[lane], .true_rate_dps = 0.0, .true_drift_dps = 0.0});
       ASSERT_EQ(bits(step.estimate_dps[lane]), bits(one.estimate_dps)) << lane << ", " << k;
-      ASSERT_EQ(bits(step.estimate_variance[lane]), bits(one.estimate_variance)) << lane << ", " << k;
+      ASSERT_EQ(bits(step.estimate_variance[lane]), bits(one.estimate_variance))
+          << lane << ", " << k;
       ASSERT_EQ(bits(step.innovation_dps[lane]), bits(one.innovation_dps)) << lane << ", " << k;
       ASSERT_EQ(bits(step.innovation_variance[lane]), bits(one.innovation_variance))
           << lane << ", " << k;

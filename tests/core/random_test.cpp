@@ -78,8 +78,9 @@ TEST(NormalStream, TheGeneratorUnderneathPassesItsKnownAnswers) {
   const std::uint32_t ones = 0xffffffff;
   EXPECT_EQ(Philox{}({{ones, ones, ones, ones}}, {{ones, ones}}),
             (Philox::ctr_type{{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}}));
-  EXPECT_EQ(Philox{}({{0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}}, {{0xa4093822, 0x299f31d0}}),
-            (Philox::ctr_type{{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}}));
+  EXPECT_EQ(
+      Philox{}({{0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}}, {{0xa4093822, 0x299f31d0}}),
+      (Philox::ctr_type{{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}}));
 }
 
 TEST(NormalStream, TheAddressIsBlockTrialAndStreamUnderTheSeedAsKey) {
@@ -161,8 +162,8 @@ TEST(NormalStream, TheEmpiricalDistributionIsNormalByKolmogorovAndSmirnov) {
   EXPECT_LT(distance * std::sqrt(static_cast<double>(draws)), 2.7);
 }
 
-// A correlation of n independent pairs has standard error 1 / sqrt(n); at 5 of them each check fails
-// falsely at 6e-7.
+// A correlation of n independent pairs has standard error 1 / sqrt(n); at 5 of them each check
+// fails falsely at 6e-7.
 TEST(NormalStream, NeighbouringSeedsTrialsAndStreamsAreUncorrelated) {
   const auto base = normals(100, 5, "stream");
   EXPECT_LT(std::abs(scaled_correlation(base, normals(101, 5, "stream"))), 5.0);
@@ -189,7 +190,8 @@ TEST(NormalStream, NoTwoOfManyAddressesAgree) {
   for (std::uint64_t seed = 0; seed < 10; ++seed)
     for (std::uint32_t trial = 0; trial < 10; ++trial)
       for (const char* name : {"a", "b", "white_noise", "random_error", "compass"})
-        for (std::uint64_t i = 0; i < 8; ++i) seen.push_back(NormalStream(seed, trial, name).normal(i));
+        for (std::uint64_t i = 0; i < 8; ++i)
+          seen.push_back(NormalStream(seed, trial, name).normal(i));
   std::sort(seen.begin(), seen.end());
   EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
 }

@@ -17,7 +17,8 @@ using Parameters = filters::SrUkfMlParameters<double>;
 
 constexpr Arima111<double> truth{0.8, 0.02, 0.004, 0.03};
 
-std::vector<double> signal(std::size_t samples, std::uint32_t trial, double delta2 = truth.delta2_dps) {
+std::vector<double> signal(std::size_t samples, std::uint32_t trial,
+                           double delta2 = truth.delta2_dps) {
   auto model = truth;
   model.delta2_dps = delta2;
   return arima_signal(model, samples, 9, trial);
@@ -42,12 +43,12 @@ TEST(SrUkfMl, WithoutDoubtIsTheSrUkf) {
   SrUkfMl<double> learning(p);
   SrUkf<double> fixed(known);
   for (const double z : signal(2000, 0))
-    ASSERT_NEAR(learning.step({.gyro_dps = z}).estimate_dps, fixed.step({.gyro_dps = z}).estimate_dps,
-                1e-12);
+    ASSERT_NEAR(learning.step({.gyro_dps = z}).estimate_dps,
+                fixed.step({.gyro_dps = z}).estimate_dps, 1e-12);
 }
 
-/// delta1 told four times too small: in each of 20 signals the learnt one ends within a third of the
-/// truth, where the SR-UKF's never moves.
+/// delta1 told four times too small: in each of 20 signals the learnt one ends within a third of
+/// the truth, where the SR-UKF's never moves.
 TEST(SrUkfMl, LearnsADelta1ThatTheSrUkfKeeps) {
   for (std::uint32_t trial = 0; trial < 20; ++trial) {
     auto p = told(0.25, 1.0);

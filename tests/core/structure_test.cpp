@@ -49,7 +49,8 @@ Draw draw(std::uint32_t number, std::size_t samples) {
 
 /// What differs between two steps, in units of the innovation's deviation and of the variances.
 double distance(const Step<double>& a, const Step<long double>& b) {
-  const long double S = std::isnan(b.innovation_variance) ? b.estimate_variance : b.innovation_variance;
+  const long double S =
+      std::isnan(b.innovation_variance) ? b.estimate_variance : b.innovation_variance;
   long double worst = std::abs(a.estimate_dps - b.estimate_dps) / std::sqrt(S);
   worst = std::max(worst, std::abs(a.estimate_variance - b.estimate_variance) / S);
   if (!std::isnan(b.innovation_variance))
@@ -100,8 +101,10 @@ TEST(Structure, KeepsTheWholeCovarianceOfTheDenseForm) {
     const Matrix<double, 7> a = structured.root() * structured.root().transpose();
     const Matrix<double, 7> b = (dense.root() * dense.root().transpose()).cast<double>();
     const Vector<double, 7> unit = b.diagonal().cwiseSqrt();
-    EXPECT_LT(((a - b).array() / (unit * unit.transpose()).array()).abs().maxCoeff(), 1e-8) << number;
-    EXPECT_LT((structured.mean() - dense.mean().cast<double>()).cwiseAbs().maxCoeff(), 1e-9) << number;
+    EXPECT_LT(((a - b).array() / (unit * unit.transpose()).array()).abs().maxCoeff(), 1e-8)
+        << number;
+    EXPECT_LT((structured.mean() - dense.mean().cast<double>()).cwiseAbs().maxCoeff(), 1e-9)
+        << number;
   }
 }
 
@@ -137,8 +140,8 @@ TEST(Structure, FindsTheSameEdgeOfTheRiskUpdate) {
   }
 }
 
-/// A kappa below -4 gives a central weight so negative that the covariance after the time update may
-/// not exist: both forms leave out the same steps.
+/// A kappa below -4 gives a central weight so negative that the covariance after the time update
+/// may not exist: both forms leave out the same steps.
 TEST(Structure, LeavesOutTheSameStepsWhereTheCentralWeightTakesDefinitenessAway) {
   std::size_t broken = 0;
   for (std::uint32_t number = 0; number < 200; ++number) {

@@ -42,7 +42,8 @@ double slope(int epoch) {
 
 /// A gyro turning at `rate_dps` whose drift is exactly linear in the T and T' of the epoch that it
 /// leads to, with a compass of white noise.
-std::vector<Sample<double>> record(int epochs, double rate_dps = 0.0, double compass_std_deg = 0.0) {
+std::vector<Sample<double>> record(int epochs, double rate_dps = 0.0,
+                                   double compass_std_deg = 0.0) {
   const NormalStream compass(5, 0, "compass");
   std::vector<Sample<double>> samples;
   for (int i = 0; i <= epochs * steps_per_epoch; ++i) {
@@ -141,9 +142,9 @@ TEST(CompassAiding, AMissingHeadingAtEitherEndLeavesTheIntervalWithoutABias) {
   EXPECT_EQ(valid, (std::vector<bool>{false, true, false, false, true, true}));
 }
 
-// M has standard deviation sqrt(2) s / dt and, neighbours sharing a compass sample, a correlation of
-// -1/2 at lag 1. Over n values: Bartlett's standard errors, sqrt(2 (1 + 2/4) / n) of the relative
-// variance and sqrt((1 - 3/4 + 4/16) / n) of the correlation; each fails falsely at 6e-7.
+// M has standard deviation sqrt(2) s / dt and, neighbours sharing a compass sample, a correlation
+// of -1/2 at lag 1. Over n values: Bartlett's standard errors, sqrt(2 (1 + 2/4) / n) of the
+// relative variance and sqrt((1 - 3/4 + 4/16) / n) of the correlation; each fails falsely at 6e-7.
 TEST(CompassAiding, NeighbouringMeasurementsShareACompassSample) {
   constexpr int n = 4000;
   const double s = 0.05;
@@ -151,10 +152,11 @@ TEST(CompassAiding, NeighbouringMeasurementsShareACompassSample) {
   std::vector<double> error;
   const NormalStream compass(6, 0, "compass");
   for (int k = 0; k <= n; ++k) {
-    const auto epoch = aiding.observe({.t_s = k * interval_s,
-                                       .gyro_dps = 0.2,
-                                       .heading_deg = s * compass.normal(static_cast<std::uint64_t>(k))},
-                                      0.0);
+    const auto epoch =
+        aiding.observe({.t_s = k * interval_s,
+                        .gyro_dps = 0.2,
+                        .heading_deg = s * compass.normal(static_cast<std::uint64_t>(k))},
+                       0.0);
     if (k > 0) error.push_back(epoch->bias_dps - 0.2);
   }
   double square = 0.0, product = 0.0;
@@ -178,8 +180,8 @@ struct FilterNames {
   }
 };
 
-using All = testing::Types<ThermalMlr<double>, ThermalKf<double>, ThermalLsm<double>,
-                           ThermalStf<double>>;
+using All =
+    testing::Types<ThermalMlr<double>, ThermalKf<double>, ThermalLsm<double>, ThermalStf<double>>;
 TYPED_TEST_SUITE(ThermalFilter, All, FilterNames);
 
 TYPED_TEST(ThermalFilter, FromTheTruthStaysAtTheTruth) {
@@ -229,7 +231,8 @@ TYPED_TEST(ThermalFilter, HoldsItsBiasBetweenEpochs) {
 
 TEST(ThermalMlr, KeepsItsCoefficientsWhateverTheData) {
   ThermalParameters<double> p;
-  static_cast<ThermalDrift<double>&>(p) = {.a_dps_per_C = 0.001, .b_dps_s_per_C = 0.1, .c_dps = 0.2};
+  static_cast<ThermalDrift<double>&>(p) = {
+      .a_dps_per_C = 0.001, .b_dps_s_per_C = 0.1, .c_dps = 0.2};
   ThermalMlr<double> filter(p);
   for (const auto& sample : record(50, 3.0, 1.0)) {
     filter.step(sample);
@@ -291,8 +294,8 @@ TYPED_TEST(ThermalFilter, KeepsASoundCovarianceAtConstantTemperature) {
                      .temperature_C = 40.1 - 2.3 * std::exp(-t / 20.0),
                      .heading_deg = 0.05 * compass.normal(static_cast<std::uint64_t>(k))});
     ASSERT_GT(s.estimate_variance, 0.0) << t << " s";
-    // Fading multiplies the variance of what is not observed without end: the strong tracking filter
-    // winds up here, and has to say so.
+    // Fading multiplies the variance of what is not observed without end: the strong tracking
+    // filter winds up here, and has to say so.
     if (std::is_same_v<TypeParam, filters::ThermalStf<double>>) continue;
     ASSERT_FALSE(is_breakdown(s.status)) << t << " s: " << name_of(s.status);
     const Vector<double, 3> variances = filter.rule().coefficients().covariance.diagonal();
@@ -356,14 +359,16 @@ TEST(ThermalKf, WithAHugePriorIsLeastSquaresThatCountsEachEpochThrice) {
   Eigen::MatrixX3d X(n, 3);
   Eigen::VectorXd y(n);
   for (std::ptrdiff_t k = 0; k < n; ++k) {
-    const double weight = std::sqrt(static_cast<double>(std::min({k + 1, n - k, std::ptrdiff_t{3}})));
+    const double weight =
+        std::sqrt(static_cast<double>(std::min({k + 1, n - k, std::ptrdiff_t{3}})));
     X.row(k) = weight * epochs[static_cast<std::size_t>(k)].regressors.transpose();
     y(k) = weight * epochs[static_cast<std::size_t>(k)].bias_dps;
   }
   const Eigen::Vector3d expected = X.colPivHouseholderQr().solve(y);
   const Eigen::Matrix3d covariance = 1e-4 * (X.transpose() * X).inverse();
   for (int i = 0; i < 3; ++i)
-    EXPECT_NEAR(filter.rule().coefficients().mean(i), expected(i), 1e-3 * std::sqrt(covariance(i, i)));
+    EXPECT_NEAR(filter.rule().coefficients().mean(i), expected(i),
+                1e-3 * std::sqrt(covariance(i, i)));
 }
 
 }  // namespace

@@ -58,7 +58,9 @@ Step<T> step(F& filter, T z) {
   return filter.step(sample);
 }
 
-double variance_of_phi(const NlUnscented<double>& state) { return state.root().row(2).squaredNorm(); }
+double variance_of_phi(const NlUnscented<double>& state) {
+  return state.root().row(2).squaredNorm();
+}
 
 /// The unscented filter of the augmented model in covariance form, point by point as in the
 /// textbook (Wan and van der Merwe 2000, table 7.3.2), with the risk update by inverses.
@@ -155,10 +157,10 @@ double distance_from_dense(const SrRsukfParameters<double>& p, std::size_t sampl
     const auto b = dense.step(z);
     EXPECT_EQ(name_of(a.status), "ok");
     const long double unit = std::sqrt(b.innovation_variance);
-    for (const long double e : {(a.estimate_dps - b.estimate_dps) / unit,
-                                (a.innovation_dps - b.innovation_dps) / unit,
-                                a.estimate_variance / b.estimate_variance - 1,
-                                a.innovation_variance / b.innovation_variance - 1})
+    for (const long double e :
+         {(a.estimate_dps - b.estimate_dps) / unit, (a.innovation_dps - b.innovation_dps) / unit,
+          a.estimate_variance / b.estimate_variance - 1,
+          a.innovation_variance / b.innovation_variance - 1})
       worst = std::max(worst, static_cast<double>(std::abs(e)));
   }
   return worst;
@@ -172,8 +174,8 @@ TEST(ModelNl, TheIncrementIsTheDifferenceOfTransitions) {
       s(static_cast<int>(i)) = stream.normal(14 * k + i);
       d(static_cast<int>(i)) = stream.normal(14 * k + 7 + i);
     }
-    const Vector<double, 7> difference =
-        reference::DenseModelNl<double>::transition(s + d) - reference::DenseModelNl<double>::transition(s);
+    const Vector<double, 7> difference = reference::DenseModelNl<double>::transition(s + d) -
+                                         reference::DenseModelNl<double>::transition(s);
     EXPECT_LT((reference::DenseModelNl<double>::increment(s, d) - difference).norm(), 1e-13);
   }
 }
@@ -338,7 +340,8 @@ TEST(SrUkf, TheKernelOnLongDoubleAgreesWhereTheCovarianceSpansTwelveDecades) {
   p.initial_x_std_dps = p.initial_x_previous_std_dps = 1000.0;
   p.initial_delta1_std_dps = p.initial_delta2_std_dps = 1e-6;
   SrUkf<double> narrow(p);
-  SrUkf<long double> wide(cast_parameters<long double>(static_cast<const NlParameters<double>&>(p)));
+  SrUkf<long double> wide(
+      cast_parameters<long double>(static_cast<const NlParameters<double>&>(p)));
   for (const double z : signal(1000)) {
     const auto a = step(narrow, z);
     const auto b = step(wide, static_cast<long double>(z));

@@ -460,7 +460,8 @@ TEST(List, EveryDefaultCanBeWrittenIntoAConfig) {
 TEST(List, WithoutArgumentsNamesEveryKindAndPlugin) {
   const TestFolder folder;
   const auto out = run_well(folder, {"list"}).out;
-  for (const char* kind : {"filters", "effects", "temperatures", "motions", "accelerations", "metrics", "studies"})
+  for (const char* kind :
+       {"filters", "effects", "temperatures", "motions", "accelerations", "metrics", "studies"})
     EXPECT_THAT(lines_of(out), testing::Contains(kind));
   for (const auto& ids : {Filters::ids(), Effects::ids(), Metrics::ids()}) {
     for (const auto& id : ids) EXPECT_THAT(out, HasSubstr("  " + id + " "));
@@ -469,7 +470,8 @@ TEST(List, WithoutArgumentsNamesEveryKindAndPlugin) {
 
 TEST(List, EveryKindIsJsonOnRequest) {
   const TestFolder folder;
-  for (const char* kind : {"effects", "temperatures", "motions", "accelerations", "metrics", "studies"})
+  for (const char* kind :
+       {"effects", "temperatures", "motions", "accelerations", "metrics", "studies"})
     EXPECT_TRUE(Json::parse(run_well(folder, {"list", kind, "--json"}).out).is_array()) << kind;
 }
 
@@ -493,8 +495,9 @@ TEST(Validate, NamesTheCellsWithTrialsSamplesAndMethods) {
 TEST(Help, NamesEveryVerbAndEveryVerbHasItsOwn) {
   const TestFolder folder;
   const auto help = run_well(folder, {"--help"}).out;
-  for (const std::string verb : {"run", "plan", "sensitivity", "status", "export", "replay", "merge", "slurm", "fit", "apply",
-                                 "simulate", "allan", "list", "validate"}) {
+  for (const std::string verb :
+       {"run", "plan", "sensitivity", "status", "export", "replay", "merge", "slurm", "fit",
+        "apply", "simulate", "allan", "list", "validate"}) {
     EXPECT_THAT(help, HasSubstr("  " + verb + " "));
     EXPECT_THAT(run_well(folder, {verb, "--help"}).out, HasSubstr("gyrostat " + verb));
   }
@@ -538,9 +541,12 @@ TEST(Memory, TenThousandTrialsOfAMinuteStayUnder300MiB) {
 // Beyond the first hundred thousand a trial takes disk, and one bit of memory.
 TEST(Memory, DoesNotGrowWithTheNumberOfTrials) {
   const TestFolder folder;
-  folder.write("many.json", R"({"cells": [{"filters": ["none"], "scenario": {"duration_s": 1, "rate_hz": 20}}]})");
+  folder.write(
+      "many.json",
+      R"({"cells": [{"filters": ["none"], "scenario": {"duration_s": 1, "rate_hz": 20}}]})");
   const auto peak_KiB = [&](const char* trials) {
-    const auto ended = run_program(folder, {"run", "many.json", "--trials", trials, "--out", trials});
+    const auto ended =
+        run_program(folder, {"run", "many.json", "--trials", trials, "--out", trials});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     return ended.peak_KiB;
   };

@@ -13,7 +13,8 @@ namespace {
 
 using testing::HasSubstr;
 
-Method told_the_truth(const std::string& id, const std::string& filter, const ParameterMap& overrides = {}) {
+Method told_the_truth(const std::string& id, const std::string& filter,
+                      const ParameterMap& overrides = {}) {
   Method method;
   method.id = id;
   method.filter = filter;
@@ -24,15 +25,15 @@ Method told_the_truth(const std::string& id, const std::string& filter, const Pa
 
 constexpr double noise_std = 0.05;
 
-/// A gyro without moving average, so that the KF's model is true: told the truth, its noise's variance
-/// halved, and doubled.
+/// A gyro without moving average, so that the KF's model is true: told the truth, its noise's
+/// variance halved, and doubled.
 Cell cell() {
   Cell cell;
   cell.name = "true model";
   cell.trials = 400;
   cell.scenario.sampling = {.duration_s = 20.0, .rate_hz = 20.0};
-  cell.scenario.random_error = {.phi = 0.3, .delta1_dps = 0.01, .delta2_dps = 0.0,
-                                .measurement_noise_std_dps = noise_std};
+  cell.scenario.random_error = {
+      .phi = 0.3, .delta1_dps = 0.01, .delta2_dps = 0.0, .measurement_noise_std_dps = noise_std};
   const double less = noise_std / std::sqrt(2.0), more = noise_std * std::sqrt(2.0);
   cell.methods = {told_the_truth("none", "none"), told_the_truth("kf", "kf"),
                   told_the_truth("oracle", "oracle"),
@@ -61,13 +62,13 @@ class Consistency : public testing::Test {
   }
 };
 
-/// All tests of all methods together err with a probability of 5 %; those of two methods, which are one
-/// filter here, with 1 % (seven of thirty-five tests).
+/// All tests of all methods together err with a probability of 5 %; those of two methods, which are
+/// one filter here, with 1 % (seven of thirty-five tests).
 TEST_F(Consistency, AFilterWhoseModelIsTrueIsConsistentInEveryTest) {
   for (const char* method : {"kf", "oracle"}) {
     for (const char* name : {"nis", "pit", "nees", "nees_end", "within_3_sigma"})
-      EXPECT_EQ(test(method, name).verdict, "consistent") << method << ' ' << name << ' '
-                                                          << test(method, name).value;
+      EXPECT_EQ(test(method, name).verdict, "consistent")
+          << method << ' ' << name << ' ' << test(method, name).value;
     EXPECT_EQ(test(method, "lag_1").verdict, "white");
     EXPECT_EQ(test(method, "ljung_box").verdict, "white");
   }
@@ -85,7 +86,8 @@ TEST_F(Consistency, AFilterThatDoublesTheNoiseIsConservative) {
 }
 
 TEST_F(Consistency, NoFilterStatesNothing) {
-  for (const char* name : {"nis", "lag_1", "pit", "nees"}) EXPECT_EQ(test("none", name).verdict, "–") << name;
+  for (const char* name : {"nis", "lag_1", "pit", "nees"})
+    EXPECT_EQ(test("none", name).verdict, "–") << name;
 }
 
 TEST(ConsistencyVerb, PrintsBoundsAndHistograms) {

@@ -1,6 +1,6 @@
-#include <gmock/gmock.h>
-
 #include <algorithm>
+
+#include <gmock/gmock.h>
 
 #include "tests/experiments/program.hpp"
 
@@ -41,18 +41,24 @@ std::string verdict(const std::string& claim) {
 
 TEST(Ledger, DecidesWhatIsKnown) {
   EXPECT_EQ(verdict(R"("method": "oracle", "than": "none", "metric": "bias_rmse")"), "holds");
-  EXPECT_EQ(verdict(R"("method": "none", "than": "oracle", "metric": "bias_rmse")"), "does not hold");
-  EXPECT_EQ(verdict(R"("method": "none", "than": "oracle", "metric": "bias_rmse", "above": 1)"), "holds");
+  EXPECT_EQ(verdict(R"("method": "none", "than": "oracle", "metric": "bias_rmse")"),
+            "does not hold");
+  EXPECT_EQ(verdict(R"("method": "none", "than": "oracle", "metric": "bias_rmse", "above": 1)"),
+            "holds");
   EXPECT_EQ(verdict(R"("method": "kf", "than": "again", "metric": "bias_rmse")"), "equal");
   EXPECT_EQ(verdict(R"("method": "none", "metric": "rate_std", "value": 1)"), "holds");
-  EXPECT_EQ(verdict(R"("method": "oracle", "metric": "rate_std", "value": 0.05)"), "holds only in quiet");
+  EXPECT_EQ(verdict(R"("method": "oracle", "metric": "rate_std", "value": 0.05)"),
+            "holds only in quiet");
 }
 
 TEST(Ledger, ComparesCellsByTheirTrials) {
-  EXPECT_EQ(verdict(R"("method": "kf", "metric": "bias_rmse", "cells": ["quiet"], "than_cell": "loud")"),
-            "holds");
-  EXPECT_EQ(verdict(R"("method": "none", "metric": "bias_rmse", "cells": ["quiet"], "than_cell": "loud")"),
-            "equal");  // the random error is the same, draw by draw
+  EXPECT_EQ(
+      verdict(R"("method": "kf", "metric": "bias_rmse", "cells": ["quiet"], "than_cell": "loud")"),
+      "holds");
+  EXPECT_EQ(
+      verdict(
+          R"("method": "none", "metric": "bias_rmse", "cells": ["quiet"], "than_cell": "loud")"),
+      "equal");  // the random error is the same, draw by draw
 }
 
 void expect_one_line(const Ended& ended, const std::string& naming) {
@@ -82,7 +88,9 @@ constexpr const char* target =
 Ended match(const std::string& keys, const char* with = study) {
   const TestFolder folder;
   folder.write("study.json", with);
-  folder.write("match.json", R"({"study": "study.json", "trials": 4, "evaluations": 40, "rounds": 1, )" + keys + "}");
+  folder.write(
+      "match.json",
+      R"({"study": "study.json", "trials": 4, "evaluations": 40, "rounds": 1, )" + keys + "}");
   return run_program(folder, {"match", "match.json", "--format", "csv"});
 }
 
@@ -101,12 +109,18 @@ TEST(Match, IsTheSameEveryTime) { EXPECT_EQ(match(target).out, match(target).out
 TEST(Match, NamesEveryMistakeInOneLine) {
   const auto targets = [](const std::string& t) { return R"("free": [], "targets": [)" + t + "]"; };
   expect_one_line(match(targets("")), "targets");
-  expect_one_line(match(targets(R"({"cell": "quit", "method": "none", "metric": "rate_std"})")), "quiet");
-  expect_one_line(match(targets(R"({"cell": "quiet", "method": "nine", "metric": "rate_std"})")), "none");
-  expect_one_line(match(targets(R"({"cell": "quiet", "method": "none", "metric": "rate"})")), "rate");
-  expect_one_line(match(targets(R"({"cell": "quiet", "method": "none", "metric": "rate_std", "tolerance": 0})")),
-                  "tolerance");
-  expect_one_line(match(R"("free": [{"path": "trials", "low": 2, "high": 1}], "targets": [])"), "low");
+  expect_one_line(match(targets(R"({"cell": "quit", "method": "none", "metric": "rate_std"})")),
+                  "quiet");
+  expect_one_line(match(targets(R"({"cell": "quiet", "method": "nine", "metric": "rate_std"})")),
+                  "none");
+  expect_one_line(match(targets(R"({"cell": "quiet", "method": "none", "metric": "rate"})")),
+                  "rate");
+  expect_one_line(
+      match(
+          targets(R"({"cell": "quiet", "method": "none", "metric": "rate_std", "tolerance": 0})")),
+      "tolerance");
+  expect_one_line(match(R"("free": [{"path": "trials", "low": 2, "high": 1}], "targets": [])"),
+                  "low");
   expect_one_line(match(std::string(target) + R"(, "tirals": 3)"), "trials");
 }
 
@@ -114,13 +128,15 @@ std::string tuned_study(const std::string& tune) {
   return R"({"cells": [{"name": "a", "trials": 8, "parameters_from": "truth", "assumed": {"delta1_dps": 30},
     "scenario": {"duration_s": 20, "rate_hz": 20, "random_error": {"phi": 0, "delta1_dps": 0.01, "delta2_dps": 0, "measurement_noise_std_dps": 0.1}},
     "tuning": {"trials": 10, "evaluations": 40},
-    "filters": ["kf", {"id": "tuned", "filter": "kf", "tune": )" + tune + R"(}, "kf_ma"]}]})";
+    "filters": ["kf", {"id": "tuned", "filter": "kf", "tune": )" +
+         tune + R"(}, "kf_ma"]}]})";
 }
 
 Ended run_tuned(const std::string& tune, const std::string& threads = "2") {
   const TestFolder folder;
   folder.write("study.json", tuned_study(tune));
-  return run_program(folder, {"run", "study.json", "--format", "csv", "--out", "o", "--threads", threads});
+  return run_program(folder,
+                     {"run", "study.json", "--format", "csv", "--out", "o", "--threads", threads});
 }
 
 /// delta1 told thirty times too large, tuned back to 0.01 within the flatness of the optimum.
@@ -146,13 +162,16 @@ TEST(Tuning, NamesEveryMistakeInOneLine) {
 
 Ended validate_grid(const std::string& grid) {
   const TestFolder folder;
-  folder.write("study.json", R"({"cells": [{"name": "g", "trials": 2, "filters": ["none"], "scenario":
-    {"effects": [{"effect": "outliers"}]}, "grid": )" + grid + "}]}");
+  folder.write("study.json",
+               R"({"cells": [{"name": "g", "trials": 2, "filters": ["none"], "scenario":
+    {"effects": [{"effect": "outliers"}]}, "grid": )" +
+                   grid + "}]}");
   return run_program(folder, {"validate", "study.json"});
 }
 
 TEST(Grid, IsEveryCombinationUnderAName) {
-  const auto ended = validate_grid(R"({"scenario.duration_s": [1, 2], "scenario.effects.0.std_dps": [0.5, 1, 2]})");
+  const auto ended = validate_grid(
+      R"({"scenario.duration_s": [1, 2], "scenario.effects.0.std_dps": [0.5, 1, 2]})");
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   for (const char* name : {"g[duration_s=1,std_dps=0.5]: 2 trials of 100 samples",
                            "g[duration_s=2,std_dps=2]: 2 trials of 200 samples"})
@@ -164,7 +183,8 @@ TEST(Grid, NamesEveryMistakeInOneLine) {
   expect_one_line(validate_grid("[1]"), "grid");
   expect_one_line(validate_grid(R"({"scenario.duration_s": []})"), "list of values");
   expect_one_line(validate_grid(R"({"scenario.effects.3.std_dps": [1]})"), "index");
-  expect_one_line(validate_grid(R"({"scenario.duration_s.x": [1], "trials": [1]})"), "scenario.duration_s");
+  expect_one_line(validate_grid(R"({"scenario.duration_s.x": [1], "trials": [1]})"),
+                  "scenario.duration_s");
   expect_one_line(validate_grid(R"({"scenario.duration": [1]})"), "duration_s");
 }
 
@@ -172,8 +192,10 @@ class Publish : public testing::Test {
  protected:
   Publish() {
     folder.write("study.json", study);
-    folder.write("page/page.json", page_of(R"({"name": "errors", "kind": "means", "cells": ["quiet"]})"));
-    folder.write("page/page.md", "The oracle: {{errors | quiet / oracle | bias_rmse}} dps.\n\n{{table errors}}\n");
+    folder.write("page/page.json",
+                 page_of(R"({"name": "errors", "kind": "means", "cells": ["quiet"]})"));
+    folder.write("page/page.md",
+                 "The oracle: {{errors | quiet / oracle | bias_rmse}} dps.\n\n{{table errors}}\n");
   }
   static std::string page_of(const std::string& table) {
     return R"({"sources": [{"study": "../study.json", "tables": [)" + table + "]}]}";
@@ -218,9 +240,11 @@ TEST_F(Publish, TheCheckFindsTextThatDisagreesWithTheData) {
 }
 
 TEST_F(Publish, MakesEveryKindOfTable) {
-  const std::string of = R"(", "cells": ["quiet", "loud"], "methods": ["none", "kf"], "than": ["oracle"]})";
+  const std::string of =
+      R"(", "cells": ["quiet", "loud"], "methods": ["none", "kf"], "than": ["oracle"]})";
   for (const char* kind : {"means", "map", "versus", "traces", "allan", "tuned"}) {
-    folder.write("page/page.json", page_of(std::string(R"({"name": "errors", "kind": ")") + kind + of));
+    folder.write("page/page.json",
+                 page_of(std::string(R"({"name": "errors", "kind": ")") + kind + of));
     folder.write("page/page.md", "{{table errors}}\n");
     EXPECT_EQ(publish().exit_code, 0) << kind;
   }
@@ -233,7 +257,8 @@ TEST_F(Publish, DrawsTheSameFigureFromTheSameData) {
                 {"name": "g", "kind": "heat", "table": "errors", "methods": ["none", "kf", "oracle"]}]})");
   folder.write("page/page.md", "x\n");
   ASSERT_EQ(publish().exit_code, 0);
-  for (const char* file : {"page/f.svg", "page/g.svg"}) EXPECT_THAT(folder.read(file), HasSubstr("</svg>"));
+  for (const char* file : {"page/f.svg", "page/g.svg"})
+    EXPECT_THAT(folder.read(file), HasSubstr("</svg>"));
   EXPECT_THAT(folder.read("page/f.svg"), Not(HasSubstr("nan")));
   EXPECT_EQ(publish({"--check"}).exit_code, 0);
 }
@@ -246,9 +271,10 @@ TEST_F(Publish, NamesEveryMistakeInOneLine) {
   expect_mistake(R"({"name": "errors", "kind": "means", "methods": ["nine"]})", "none");
   expect_mistake(R"({"name": "errors", "kind": "means", "metric": "nis"})", "metrics");
   folder.write("page/page.json", page_of(R"({"name": "errors", "kind": "means"})"));
-  for (const char* mark : {"{{errors | quiet / oracl | bias_rmse}}", "{{errors | quiet / kf | bias}}",
-                           "{{errors | quiet}}", "{{error | quiet / kf | bias_rmse}}",
-                           "{{nowhere: errors | quiet / kf | bias_rmse}}", "{{table errors"}) {
+  for (const char* mark :
+       {"{{errors | quiet / oracl | bias_rmse}}", "{{errors | quiet / kf | bias}}",
+        "{{errors | quiet}}", "{{error | quiet / kf | bias_rmse}}",
+        "{{nowhere: errors | quiet / kf | bias_rmse}}", "{{table errors"}) {
     folder.write("page/page.md", mark);
     const auto ended = publish();
     EXPECT_EQ(ended.exit_code, 2) << mark << ended.err;
@@ -262,11 +288,13 @@ TEST_F(Publish, NamesEveryMistakeInOneLine) {
 TEST(Denoising, MakesTheJudgedRateQuieterAndLeavesTheEstimateAlone) {
   const TestFolder folder;
   const auto cell = [](const char* name, const char* more) {
-    return std::string(R"({"name": ")") + name + R"(", "trials": 3, "parameters_from": "truth", )" + more +
+    return std::string(R"({"name": ")") + name + R"(", "trials": 3, "parameters_from": "truth", )" +
+           more +
            R"("scenario": {"duration_s": 60, "rate_hz": 10, "random_error": {"phi": 0, "delta1_dps": 0.001, "delta2_dps": 0, "measurement_noise_std_dps": 0.1},
               "motion": {"profile": "sinusoidal"}}, "filters": ["oracle"]})";
   };
-  folder.write("study.json", R"({"cells": [)" + cell("raw", "") + "," + cell("denoised", R"("denoise": 1, )") + "]}");
+  folder.write("study.json", R"({"cells": [)" + cell("raw", "") + "," +
+                                 cell("denoised", R"("denoise": 1, )") + "]}");
   folder.write("ledger.json", R"({"claims": [
     {"claim": "quieter", "study": "study.json", "cells": ["denoised"], "method": "oracle", "metric": "rate_std", "value": 0.03},
     {"claim": "loud", "study": "study.json", "cells": ["raw"], "method": "oracle", "metric": "rate_std", "value": 0.09, "above": 1},

@@ -31,7 +31,8 @@ Cell cell_of(const std::vector<std::string>& filters) {
 }
 
 /// Trials of which each gives every method its bias error.
-TrialSource source_of(const std::vector<std::vector<double>>& errors, const char* metric = "bias_rmse") {
+TrialSource source_of(const std::vector<std::vector<double>>& errors,
+                      const char* metric = "bias_rmse") {
   return [errors, at = metric_named(metric, "test")](const auto& visit) {
     for (const auto& trial : errors) {
       std::vector<double> outcomes(trial.size() * columns);
@@ -50,8 +51,8 @@ std::vector<std::vector<double>> four_methods(int trials) {
   std::normal_distribution<double> normal;
   std::vector<std::vector<double>> errors;
   for (int t = 0; t < trials; ++t)
-    errors.push_back({9.0 + normal(random), 2.001 + 0.1 * normal(random), 1.0 + 0.1 * normal(random),
-                      2.0 + 0.1 * normal(random)});
+    errors.push_back({9.0 + normal(random), 2.001 + 0.1 * normal(random),
+                      1.0 + 0.1 * normal(random), 2.0 + 0.1 * normal(random)});
   return errors;
 }
 
@@ -78,17 +79,19 @@ TEST(Ranking, OrdersByTheMeanAndGroupsWhatIsNotSeparable) {
 
 TEST(Ranking, SaysItInPlainSentences) {
   const auto sentences = rank_cell(cell_of(names), source_of(four_methods(300))).sentences;
-  EXPECT_THAT(sentences.front(), HasSubstr("kf has the smallest bias estimation error, RMSE, on average over 300 "
-                                           "trials: 1.0"));
+  EXPECT_THAT(sentences.front(),
+              HasSubstr("kf has the smallest bias estimation error, RMSE, on average over 300 "
+                        "trials: 1.0"));
   EXPECT_THAT(sentences.front(), HasSubstr("it beats every other filter"));
   EXPECT_THAT(sentences, Contains(HasSubstr("kf beats ")));
-  EXPECT_THAT(sentences, Contains(testing::AllOf(HasSubstr("not separable ("), HasSubstr(" more trials needed"))));
+  EXPECT_THAT(sentences, Contains(testing::AllOf(HasSubstr("not separable ("),
+                                                 HasSubstr(" more trials needed"))));
   EXPECT_THAT(sentences, Contains(testing::StartsWith("kf beats none in bias_rmse by 8.")));
 }
 
 TEST(Ranking, RanksErrorsWithASignByTheirSize) {
-  const auto ranking = rank_cell(cell_of({"kf", "stf"}), source_of({{-5, 1}, {5, -1}, {-4, 1}}, "heading_end"),
-                                 "heading_end");
+  const auto ranking = rank_cell(
+      cell_of({"kf", "stf"}), source_of({{-5, 1}, {5, -1}, {-4, 1}}, "heading_end"), "heading_end");
   EXPECT_EQ(ranking.methods.front().method, "stf");
   EXPECT_EQ(ranking.methods.front().mean, 1.0);
   EXPECT_EQ(ranking.methods.front().mean_rank, 1.0);

@@ -1,4 +1,5 @@
-// Recordings as other programs lay them out: other names, units, separators, comments, MATLAB files.
+// Recordings as other programs lay them out: other names, units, separators, comments, MATLAB
+// files.
 
 #include <cmath>
 #include <filesystem>
@@ -24,10 +25,12 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 RecordingLayout layout(const std::string& columns, const std::string& units = "") {
-  return {parse_assignments(columns, "--columns"), parse_assignments(units, "--units"), "--columns"};
+  return {parse_assignments(columns, "--columns"), parse_assignments(units, "--units"),
+          "--columns"};
 }
 
-Series read(const std::string& text, const RecordingLayout& how = {}, const std::string& axis = "") {
+Series read(const std::string& text, const RecordingLayout& how = {},
+            const std::string& axis = "") {
   const TestFolder folder;
   folder.write("rec.csv", text);
   return read_recording(folder.path() / "rec.csv", axis, how).series;
@@ -43,22 +46,26 @@ std::string refusal(const std::string& text, const RecordingLayout& how = {}) {
 }
 
 TEST(Layout, ColumnsAreFoundByTheirNamesAndConvertedByTheirUnits) {
-  const auto series = read("Time[ms],GyrX,GyrZ [rad/s],Temp (F)\n0,9,0,32\n10,9,3.141592653589793,212\n",
-                           layout("t=Time[ms],gyro=GyrZ,temp=Temp"));
+  const auto series =
+      read("Time[ms],GyrX,GyrZ [rad/s],Temp (F)\n0,9,0,32\n10,9,3.141592653589793,212\n",
+           layout("t=Time[ms],gyro=GyrZ,temp=Temp"));
   EXPECT_THAT(series.t_s, ElementsAre(0, 0.01));
   EXPECT_THAT(series.gyro_dps, ElementsAre(0, 180));
   EXPECT_THAT(series.temperature_C, ElementsAre(DoubleEq(0), DoubleEq(100)));
 }
 
 TEST(Layout, EveryUnitIsWhatItsDefinitionSays) {
-  const auto value_in = [](const std::string& channel, const std::string& unit, const std::string& value) {
-    const auto series = read("a,b,c\n" + std::string(channel == "t" ? value : "0") + ",1," + value + "\n",
-                             layout(channel == "t" ? "t=a,gyro=b" : channel == "gyro" ? "t=a,gyro=c"
-                                                                                      : "t=a,gyro=b," + channel + "=c",
-                                    channel + "=" + unit));
-    return channel == "t"      ? series.t_s[0]
-           : channel == "gyro" ? series.gyro_dps[0]
-           : channel == "temp" ? series.temperature_C[0]
+  const auto value_in = [](const std::string& channel, const std::string& unit,
+                           const std::string& value) {
+    const auto series =
+        read("a,b,c\n" + std::string(channel == "t" ? value : "0") + ",1," + value + "\n",
+             layout(channel == "t"      ? "t=a,gyro=b"
+                    : channel == "gyro" ? "t=a,gyro=c"
+                                        : "t=a,gyro=b," + channel + "=c",
+                    channel + "=" + unit));
+    return channel == "t"       ? series.t_s[0]
+           : channel == "gyro"  ? series.gyro_dps[0]
+           : channel == "temp"  ? series.temperature_C[0]
            : channel == "acc_x" ? series.acc_x_mps2[0]
                                 : series.heading_deg[0];
   };
@@ -79,7 +86,9 @@ TEST(Layout, EveryUnitIsWhatItsDefinitionSays) {
 }
 
 TEST(Layout, TheUnitThatIsGivenComesBeforeBracketsBeforeTheRowOfUnitsBeforeTheEnding) {
-  const auto gyro = [](const std::string& text, const RecordingLayout& how) { return read(text, how).gyro_dps[0]; };
+  const auto gyro = [](const std::string& text, const RecordingLayout& how) {
+    return read(text, how).gyro_dps[0];
+  };
   EXPECT_EQ(gyro("t_s,w_mdps\n0,500\n", layout("gyro=w_mdps", "gyro=dps")), 500);
   EXPECT_EQ(gyro("t_s,w\n0,500\n", layout("gyro=w[mdps]")), 0.5);
   EXPECT_EQ(gyro("t_s,w[mdps]\n0,500\n", layout("gyro=w")), 0.5);
@@ -97,17 +106,13 @@ TEST(Layout, AxesAreMappedAndThenChosen) {
 }
 
 TEST(Layout, SeparatorsCommentsQuotesAndLineEndsDoNotMatter) {
-  for (const std::string text : {
-           "t_s,gyro_dps\n0,0.5\n1,-2.5e-1\n",
-           "\xef\xbb\xbft_s,gyro_dps\r\n0,0.5\r\n1,-0.25\r\n",
-           "t_s;gyro_dps\n0;0,5\n1;-0,25\n",
-           "t_s;gyro_dps\n0;0.5\n1;-0.25\n",
-           "t_s\tgyro_dps\n0\t0.5\n1\t-0.25\n",
-           "t_s, gyro_dps\n 0 ,  0.5\n 1 , -0.25\n",
-           "# a logger\n% of some kind\n// version 3\n\nt_s,gyro_dps\n0,0.5\n1,-0.25\n",
-           "# t_s,gyro_dps\n0,0.5\n1,-0.25\n",
-           "t_s,gyro_dps\ns,dps\n0,0.5\n1,-0.25\n",
-           "\"t_s\",\"gyro_dps\"\n\"0\",\"0.5\"\n\"1\",\"-0.25\"\n"}) {
+  for (const std::string text :
+       {"t_s,gyro_dps\n0,0.5\n1,-2.5e-1\n", "\xef\xbb\xbft_s,gyro_dps\r\n0,0.5\r\n1,-0.25\r\n",
+        "t_s;gyro_dps\n0;0,5\n1;-0,25\n", "t_s;gyro_dps\n0;0.5\n1;-0.25\n",
+        "t_s\tgyro_dps\n0\t0.5\n1\t-0.25\n", "t_s, gyro_dps\n 0 ,  0.5\n 1 , -0.25\n",
+        "# a logger\n% of some kind\n// version 3\n\nt_s,gyro_dps\n0,0.5\n1,-0.25\n",
+        "# t_s,gyro_dps\n0,0.5\n1,-0.25\n", "t_s,gyro_dps\ns,dps\n0,0.5\n1,-0.25\n",
+        "\"t_s\",\"gyro_dps\"\n\"0\",\"0.5\"\n\"1\",\"-0.25\"\n"}) {
     const auto series = read(text);
     EXPECT_THAT(series.t_s, ElementsAre(0, 1)) << text;
     EXPECT_THAT(series.gyro_dps, ElementsAre(0.5, -0.25)) << text;
@@ -120,19 +125,23 @@ TEST(Layout, MistakesNameFileLineColumnValueAndTheNearest) {
               AllOf(HasSubstr("rec.csv:2"), HasSubstr("'GyrY' is missing"), HasSubstr("'GyrZ'")));
   EXPECT_THAT(refusal(text, layout("t=Time,gyro=GyrZ")),
               AllOf(HasSubstr("rec.csv:4"), HasSubstr("'GyrZ'"), HasSubstr("'x'")));
-  EXPECT_THAT(refusal(text, layout("t=Time,giro=GyrZ")), AllOf(HasSubstr("--columns"), HasSubstr("'giro'"), HasSubstr("'gyro'")));
+  EXPECT_THAT(refusal(text, layout("t=Time,giro=GyrZ")),
+              AllOf(HasSubstr("--columns"), HasSubstr("'giro'"), HasSubstr("'gyro'")));
   EXPECT_THAT(refusal(text, layout("t=Time,gyro=GyrZ", "gyro=rads/s")),
               AllOf(HasSubstr("'rads/s'"), HasSubstr("'rad/s'"), HasSubstr("mdps")));
   EXPECT_THAT(refusal(text, layout("t=Time,gyro=GyrZ", "heading=deg")), HasSubstr("'heading_deg'"));
-  EXPECT_THAT(refusal("Time[min.],w\n0,1\n", layout("t=Time,gyro=w")), AllOf(HasSubstr("rec.csv:1"), HasSubstr("'min.'"), HasSubstr("'min'")));
-  EXPECT_THAT(refusal("w [dps],w [rad/s],t_s\n0,1,2\n", layout("gyro=w")), AllOf(HasSubstr("w [dps]"), HasSubstr("w [rad/s]")));
+  EXPECT_THAT(refusal("Time[min.],w\n0,1\n", layout("t=Time,gyro=w")),
+              AllOf(HasSubstr("rec.csv:1"), HasSubstr("'min.'"), HasSubstr("'min'")));
+  EXPECT_THAT(refusal("w [dps],w [rad/s],t_s\n0,1,2\n", layout("gyro=w")),
+              AllOf(HasSubstr("w [dps]"), HasSubstr("w [rad/s]")));
   EXPECT_THAT(refusal("t_s,gyro_dps\n0,0,5\n"), HasSubstr("3 cells"));
   EXPECT_THAT(refusal(text, layout("t=Time,gyro=GyrZ,temp=GyrZ[F]")), HasSubstr("missing"));
 }
 
 TEST(Layout, ValuesOutOfRangeAreToldInTheFilesOwnUnit) {
   EXPECT_THAT(refusal("t_s,gyro_dps,T\ns,dps,F\n0,1,-500\n", layout("temp=T")),
-              AllOf(HasSubstr("rec.csv:3"), HasSubstr("'T'"), HasSubstr("'-500'"), HasSubstr("-459.67 to 1832 F")));
+              AllOf(HasSubstr("rec.csv:3"), HasSubstr("'T'"), HasSubstr("'-500'"),
+                    HasSubstr("-459.67 to 1832 F")));
   EXPECT_THAT(refusal("ms,gyro_dps\n20,1\n10,1\n", layout("t=ms[ms]")),
               AllOf(HasSubstr("rec.csv:3"), HasSubstr("'10' does not come after '20'")));
 }
@@ -145,10 +154,12 @@ TEST(Layout, AssignmentsAreCheckedOnTheCommandLine) {
 
 TEST(Layout, EveryVerbAndAStudyReadALoggersFile) {
   const TestFolder folder;
-  std::string standard = "t_s,gyro_dps,temperature_C\n", logger = "% logger\nTime (ms);GyrZ;Temp\nms;mdps;F\n";
+  std::string standard = "t_s,gyro_dps,temperature_C\n",
+              logger = "% logger\nTime (ms);GyrZ;Temp\nms;mdps;F\n";
   for (int i = 0; i < 3000; ++i) {
     const auto rate_mdps = std::lround(100 * std::sin(1e4 * std::sin(i + 1.0)));
-    standard += fmt::format("{},{},{}\n", 20 * i / 1000.0, static_cast<double>(rate_mdps) / 1000.0, 25);
+    standard +=
+        fmt::format("{},{},{}\n", 20 * i / 1000.0, static_cast<double>(rate_mdps) / 1000.0, 25);
     logger += fmt::format("{};{};{}\n", 20 * i, rate_mdps, 77);
   }
   folder.write("standard.csv", standard);
@@ -157,22 +168,31 @@ TEST(Layout, EveryVerbAndAStudyReadALoggersFile) {
 
   for (const char* verb : {"fit", "allan", "apply", "diagnose"}) {
     const auto expected = run_program(folder, {verb, "standard.csv", "--format", "json"});
-    const auto got = run_program(folder, {verb, "logger.csv.gz", mapping[0], mapping[1], "--format", "json"});
+    const auto got =
+        run_program(folder, {verb, "logger.csv.gz", mapping[0], mapping[1], "--format", "json"});
     EXPECT_EQ(got.exit_code, 0) << verb << got.err;
     auto names = got.out;
-    for (std::size_t at; (at = names.find("logger.csv.gz")) != names.npos;) names.replace(at, 13, "standard.csv");
+    for (std::size_t at; (at = names.find("logger.csv.gz")) != names.npos;)
+      names.replace(at, 13, "standard.csv");
     EXPECT_EQ(names, expected.out) << verb;
-    EXPECT_THAT(got.err, HasSubstr("Time (ms) as t_s in ms, GyrZ as gyro_dps in mdps, Temp as temperature_C in F"));
+    EXPECT_THAT(
+        got.err,
+        HasSubstr("Time (ms) as t_s in ms, GyrZ as gyro_dps in mdps, Temp as temperature_C in F"));
   }
   const auto study = [&](const std::string& source) {
-    folder.write("s.json", R"({"cells": [{"trials": 2, "filters": ["none", "kf"], "scenario": {"duration_s": 10,
-        "from_recording": )" + source + "}}]}");
+    folder.write(
+        "s.json",
+        R"({"cells": [{"trials": 2, "filters": ["none", "kf"], "scenario": {"duration_s": 10,
+        "from_recording": )" +
+            source + "}}]}");
     const auto ran = run_program(folder, {"run", "s.json", "--set-aside", "--format", "json"});
     EXPECT_EQ(ran.exit_code, 0) << ran.err;
     return ran.out;
   };
-  EXPECT_EQ(study(R"({"file": "logger.csv.gz", "columns": {"t": "Time", "gyro": "GyrZ", "temp": "Temp"}})"),
-            study(R"({"file": "standard.csv"})"));
+  EXPECT_EQ(
+      study(
+          R"({"file": "logger.csv.gz", "columns": {"t": "Time", "gyro": "GyrZ", "temp": "Temp"}})"),
+      study(R"({"file": "standard.csv"})"));
 }
 
 TEST(MatFile, ReadsWhatItWrites) {
@@ -188,7 +208,8 @@ TEST(MatFile, ReadsWhatItWrites) {
   const auto again = read_recording(path);
   EXPECT_EQ(again.series.t_s, series.t_s);
   EXPECT_EQ(again.series.gyro_dps, series.gyro_dps);
-  EXPECT_THAT(again.series.heading_deg, testing::Pointwise(testing::NanSensitiveDoubleEq(), series.heading_deg));
+  EXPECT_THAT(again.series.heading_deg,
+              testing::Pointwise(testing::NanSensitiveDoubleEq(), series.heading_deg));
   EXPECT_THAT(again.series.temperature_C, IsEmpty());
   const auto bytes = folder.read("rec.mat");
   write_series(path, series);
@@ -206,12 +227,18 @@ TEST(MatFile, MistakesAreOneLineWithTheRow) {
     }
     return "no error";
   };
-  const std::vector<double> up = {0, 1, 2}, back = {0, 2, 1}, two = {0, 1}, infinite = {0, INFINITY, 0};
-  EXPECT_THAT(refused({{"t_s", back, {}}, {"gyro_dps", up, {}}}), AllOf(HasSubstr("rec.mat: row 3"), HasSubstr("'t_s'")));
-  EXPECT_THAT(refused({{"t_s", up, {}}, {"gyro_dps", two, {}}}), AllOf(HasSubstr("'gyro_dps' has 2 values"), HasSubstr("'t_s' has 3")));
-  EXPECT_THAT(refused({{"t_s", up, {}}, {"gyro_dps", infinite, {}}}), AllOf(HasSubstr("row 2"), HasSubstr("'gyro_dps'")));
-  EXPECT_THAT(refused({{"t_s", up, {}}, {"gyr_dps", up, {}}}), AllOf(HasSubstr("'gyro_dps' is missing"), HasSubstr("'gyr_dps'")));
-  EXPECT_THAT(refused({{"t_s", up, {}}, {"stf_1.05", up, {}}, {"stf_1_05", up, {}}}), HasSubstr("stands twice"));
+  const std::vector<double> up = {0, 1, 2}, back = {0, 2, 1}, two = {0, 1},
+                            infinite = {0, INFINITY, 0};
+  EXPECT_THAT(refused({{"t_s", back, {}}, {"gyro_dps", up, {}}}),
+              AllOf(HasSubstr("rec.mat: row 3"), HasSubstr("'t_s'")));
+  EXPECT_THAT(refused({{"t_s", up, {}}, {"gyro_dps", two, {}}}),
+              AllOf(HasSubstr("'gyro_dps' has 2 values"), HasSubstr("'t_s' has 3")));
+  EXPECT_THAT(refused({{"t_s", up, {}}, {"gyro_dps", infinite, {}}}),
+              AllOf(HasSubstr("row 2"), HasSubstr("'gyro_dps'")));
+  EXPECT_THAT(refused({{"t_s", up, {}}, {"gyr_dps", up, {}}}),
+              AllOf(HasSubstr("'gyro_dps' is missing"), HasSubstr("'gyr_dps'")));
+  EXPECT_THAT(refused({{"t_s", up, {}}, {"stf_1.05", up, {}}, {"stf_1_05", up, {}}}),
+              HasSubstr("stands twice"));
 }
 
 }  // namespace

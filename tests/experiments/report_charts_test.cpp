@@ -27,7 +27,8 @@ TEST(SensitivityCharts, AreThoseThatTheDesignAllows) {
   EXPECT_TRUE(sensitivity_charts({}, colours, "d").empty());
   EXPECT_TRUE(sensitivity_charts({of("kf")}, colours, "d").empty());
   auto kf = of("kf");
-  kf.indices = {{"phi", {0.2, 0.1, 0.3}, {0.4, 0.3, 0.5}}, {"noise", {0.05, 0.0, 0.1}, {0.6, 0.5, 0.7}}};
+  kf.indices = {{"phi", {0.2, 0.1, 0.3}, {0.4, 0.3, 0.5}},
+                {"noise", {0.05, 0.0, 0.1}, {0.6, 0.5, 0.7}}};
   const auto charts = sensitivity_charts({kf}, colours, "d");
   ASSERT_EQ(charts.size(), 1U);
   EXPECT_EQ(charts[0].id, "d-sobol");
@@ -52,7 +53,8 @@ TEST(SensitivityCharts, ATornadoHasTheLargestOnTopAndOneMethodAtATime) {
 TEST(SensitivityCharts, AMorrisPlaneHasEachParameterWithItsIntervals) {
   const MethodColours colours(two_methods());
   auto kf = of("kf");
-  kf.elementary_effects = {{"phi", {1.0, 0.8, 1.2}, {0.5, 0.4, 0.6}}, {"delta1_dps", {2.0, 1.5, 2.5}, {NAN, NAN, NAN}}};
+  kf.elementary_effects = {{"phi", {1.0, 0.8, 1.2}, {0.5, 0.4, 0.6}},
+                           {"delta1_dps", {2.0, 1.5, 2.5}, {NAN, NAN, NAN}}};
   const auto chart = sensitivity_charts({kf}, colours, "d").at(0);
   const auto& dots = chart.marks.back();
   EXPECT_THAT(dots.x, testing::ElementsAre(1.0, 2.0));
@@ -64,8 +66,10 @@ TEST(SensitivityCharts, AMorrisPlaneHasEachParameterWithItsIntervals) {
 TEST(MethodColours, AreTheSameInEveryCellAndApartForEveryMethod) {
   Study study;
   study.cells.resize(2);
-  for (int m = 0; m < 16; ++m) study.cells[0].methods.push_back({fmt::format("m{}", m), "kf", ParameterSource::truth, {}, {}});
-  study.cells[1].methods = {study.cells[0].methods[9], {"o", "oracle", ParameterSource::truth, {}, {}}};
+  for (int m = 0; m < 16; ++m)
+    study.cells[0].methods.push_back({fmt::format("m{}", m), "kf", ParameterSource::truth, {}, {}});
+  study.cells[1].methods = {study.cells[0].methods[9],
+                            {"o", "oracle", ParameterSource::truth, {}, {}}};
   const MethodColours colours(study);
   std::set<std::pair<std::string, bool>> looks;
   for (const auto& method : study.cells[0].methods) {

@@ -34,7 +34,8 @@ std::map<std::string, json> charts_of(const std::string& page) {
 }
 
 /// A run of `text` in the folder and its page.
-std::string page_of(const TestFolder& folder, std::string_view text, std::vector<std::string> more = {}) {
+std::string page_of(const TestFolder& folder, std::string_view text,
+                    std::vector<std::string> more = {}) {
   folder.write("study.json", text);
   const auto run = run_program(folder, {"run", "study.json", "--out", "run"});
   EXPECT_THAT(run.exit_code, testing::AnyOf(0, 3)) << run.err;
@@ -55,15 +56,19 @@ TEST(Report, ItsNumbersAreThoseOfTheTables) {
   const TestFolder folder;
   const auto charts = charts_of(page_of(folder, study));
   for (const auto& table : json::parse(folder.read("run/tables.json"))) {
-    if (table["title"] != "small: bias estimation error (estimate - drift - random error), RMSE over time") continue;
+    if (table["title"] !=
+        "small: bias estimation error (estimate - drift - random error), RMSE over time")
+      continue;
     for (const auto& row : table["rows"]) {
       const auto box = mark_of(charts.at("cell-0-boxes"), "boxes", row[0]);
       EXPECT_NEAR(box["x"][0].get<double>(), row[4].get<double>(), 1e-5 * row[4].get<double>());
       const auto line = mark_of(charts.at("cell-0-convergence"), "line", row[0]);
-      EXPECT_NEAR(line["y"].back().get<double>(), row[1].get<double>(), 1e-5 * row[1].get<double>());
+      EXPECT_NEAR(line["y"].back().get<double>(), row[1].get<double>(),
+                  1e-5 * row[1].get<double>());
       const auto ecdf = mark_of(charts.at("cell-0-ecdf"), "line", row[0]);
       EXPECT_EQ(ecdf["x"].size(), 12U);
-      EXPECT_NEAR(ecdf["x"].back().get<double>(), row[6].get<double>(), 1e-5 * row[6].get<double>());
+      EXPECT_NEAR(ecdf["x"].back().get<double>(), row[6].get<double>(),
+                  1e-5 * row[6].get<double>());
       EXPECT_EQ(ecdf["y"].back(), 1.0);
     }
     return;
@@ -74,7 +79,8 @@ TEST(Report, ItsNumbersAreThoseOfTheTables) {
 TEST(Report, TheSameFolderGivesTheSameBytesForAnyNumberOfThreads) {
   const TestFolder folder;
   const auto first = page_of(folder, study, {"--threads", "1"});
-  ASSERT_EQ(run_program(folder, {"report", "run", "--out", "again.html", "--threads", "3"}).exit_code, 0);
+  ASSERT_EQ(
+      run_program(folder, {"report", "run", "--out", "again.html", "--threads", "3"}).exit_code, 0);
   EXPECT_EQ(folder.read("again.html"), first);
 }
 
@@ -88,8 +94,13 @@ TEST(Report, IsOneFileThatNamesNoHost) {
 TEST(Report, FailuresStandInItWithTheirAddresses) {
   const TestFolder folder;
   auto breaking = json::parse(study);  // phi is hardly observed: the risk update ceases to exist
-  breaking["cells"][0]["scenario"] = {{"duration_s", 5}, {"rate_hz", 100},
-      {"random_error", {{"phi", 0.5}, {"delta1_dps", 1e-5}, {"delta2_dps", 0.0}, {"measurement_noise_std_dps", 0.05}}}};
+  breaking["cells"][0]["scenario"] = {{"duration_s", 5},
+                                      {"rate_hz", 100},
+                                      {"random_error",
+                                       {{"phi", 0.5},
+                                        {"delta1_dps", 1e-5},
+                                        {"delta2_dps", 0.0},
+                                        {"measurement_noise_std_dps", 0.05}}}};
   const auto page = page_of(folder, breaking.dump());
   const auto failures = run_program(folder, {"status", "run", "--failures", "--format", "json"});
   const auto rows = json::parse(failures.out)[0]["rows"];
@@ -100,9 +111,12 @@ TEST(Report, FailuresStandInItWithTheirAddresses) {
 TEST(Report, OneTrialIsEnoughForAPage) {
   const TestFolder folder;
   folder.write("study.json", study);
-  ASSERT_EQ(run_program(folder, {"run", "study.json", "--out", "run", "--trials", "1"}).exit_code, 0);
+  ASSERT_EQ(run_program(folder, {"run", "study.json", "--out", "run", "--trials", "1"}).exit_code,
+            0);
   ASSERT_EQ(run_program(folder, {"report", "run"}).exit_code, 0);
-  EXPECT_EQ(mark_of(charts_of(folder.read("run/report.html")).at("cell-0-ecdf"), "line", "kf")["x"].size(), 1U);
+  EXPECT_EQ(mark_of(charts_of(folder.read("run/report.html")).at("cell-0-ecdf"), "line", "kf")["x"]
+                .size(),
+            1U);
 }
 
 TEST(Report, OfPiecesOfARecordingShowsInnovations) {
@@ -119,7 +133,8 @@ TEST(Report, OfPiecesOfARecordingShowsInnovations) {
 
 TEST(Report, AThermalCellHasAPage) {
   const TestFolder folder;
-  const auto charts = charts_of(page_of(folder, R"({"title": "ramp", "cells": [{"name": "ramp", "trials": 5,
+  const auto charts =
+      charts_of(page_of(folder, R"({"title": "ramp", "cells": [{"name": "ramp", "trials": 5,
       "scenario": {"duration_s": 300, "rate_hz": 2, "thermal_drift": {"a_dps_per_C": 0.002, "b_dps_s_per_C": 0.1, "c_dps": -0.05},
         "random_error": {"measurement_noise_std_dps": 0.02}, "temperature": {"profile": "ramp_and_cooling", "peak_C": 57},
         "compass": {"noise_std_deg": 0.05}},
@@ -139,7 +154,8 @@ TEST(Report, WithoutReplayHasNoPicturesOverTime) {
 TEST(Report, OverTwoParametersHasMapsAndTheWinnerIsTheLeastMean) {
   const TestFolder folder;
   auto grid = json::parse(study);
-  grid["cells"][0]["grid"] = {{"scenario.random_error.phi", {0.1, 0.9}}, {"scenario.random_error.delta1_dps", {0.001, 0.01, 0.1}}};
+  grid["cells"][0]["grid"] = {{"scenario.random_error.phi", {0.1, 0.9}},
+                              {"scenario.random_error.delta1_dps", {0.001, 0.01, 0.1}}};
   const auto page = page_of(folder, grid.dump());
   const auto charts = charts_of(page);
   std::size_t winners = 0;
@@ -150,7 +166,8 @@ TEST(Report, OverTwoParametersHasMapsAndTheWinnerIsTheLeastMean) {
         if (other["name"] == "oracle") continue;
         const auto value = [&](const json& m) {
           for (std::size_t k = 0; k < m["x"].size(); ++k)
-            if (m["x"][k] == mark["x"][i] && m["y"][k] == mark["y"][i]) return std::stod(m["labels"][k].get<std::string>());
+            if (m["x"][k] == mark["x"][i] && m["y"][k] == mark["y"][i])
+              return std::stod(m["labels"][k].get<std::string>());
           return no_value;
         };
         const auto heat = mark_of(charts.at("sweep-0-heat"), "cells", mark["name"]);
@@ -178,8 +195,10 @@ TEST(Report, ABadFolderOrCellIsOneLine) {
 
 TEST(RunTimes, AreTheLastOfTheLogAndPassOverBrokenLines) {
   const TestFolder folder;
-  folder.write("log.jsonl", "{\"cell\": \"a\", \"ns_per_step\": {\"kf\": 30.0}}\nnot json\n[1]\n"
-                            "{\"cell\": \"a\", \"ns_per_step\": {\"kf\": 20.5}}\n{\"cell\": \"b\"}\n{\"cell\": \"a\", \"ns_per_step\": {");
+  folder.write("log.jsonl",
+               "{\"cell\": \"a\", \"ns_per_step\": {\"kf\": 30.0}}\nnot json\n[1]\n"
+               "{\"cell\": \"a\", \"ns_per_step\": {\"kf\": 20.5}}\n{\"cell\": \"b\"}\n{\"cell\": "
+               "\"a\", \"ns_per_step\": {");
   const auto times = run_times(folder.path() / "log.jsonl");
   ASSERT_EQ(times.size(), 1U);
   EXPECT_EQ(times.at("a").at("kf"), 20.5);
@@ -188,7 +207,8 @@ TEST(RunTimes, AreTheLastOfTheLogAndPassOverBrokenLines) {
 
 TEST(Sweep, IsReadFromTheNamesOfCells) {
   Study grid;
-  for (const char* name : {"plain", "g[a=10,b=x,c=1]", "g[a=9,b=x,c=1]", "g[a=10,b=y,c=1]", "odd[3]"}) {
+  for (const char* name :
+       {"plain", "g[a=10,b=x,c=1]", "g[a=9,b=x,c=1]", "g[a=10,b=y,c=1]", "odd[3]"}) {
     grid.cells.emplace_back();
     grid.cells.back().name = name;
   }

@@ -133,7 +133,9 @@ TEST(Runner, AStoppedRunHoldsWholeTrialsOfTheUninterruptedOne) {
     options.threads = threads;
     options.lanes = 2;
     options.stop = &stop;
-    options.progress = [&](std::size_t finished) { if (finished >= 5) stop = true; };
+    options.progress = [&](std::size_t finished) {
+      if (finished >= 5) stop = true;
+    };
     const auto part = run_cell(cell, 42, options);
     EXPECT_GE(part.finished(), 5U);
     EXPECT_LE(part.finished(), 5U + options.lanes * static_cast<std::size_t>(threads));
@@ -187,10 +189,8 @@ class RandomErrorCell : public testing::Test {
     Cell cell;
     cell.trials = trials;
     cell.scenario.sampling = {.duration_s = samples / 100.0, .rate_hz = 100.0};
-    cell.scenario.random_error = {.phi = 0.9,
-                                  .delta1_dps = 0.002,
-                                  .delta2_dps = 0.0005,
-                                  .measurement_noise_std_dps = 0.02};
+    cell.scenario.random_error = {
+        .phi = 0.9, .delta1_dps = 0.002, .delta2_dps = 0.0005, .measurement_noise_std_dps = 0.02};
     return cell;
   }
 
@@ -202,10 +202,10 @@ class RandomErrorCell : public testing::Test {
   }
 };
 
-// No other method's mean bias_rmse lies below the oracle's, in the paired differences of the trials.
-// Below -5 standard errors Student's t with 299 degrees falls at 5e-7, so that all 22 comparisons
-// together fail falsely at 1e-5 at most. The mean square, which the oracle minimises, is held to the
-// same.
+// No other method's mean bias_rmse lies below the oracle's, in the paired differences of the
+// trials. Below -5 standard errors Student's t with 299 degrees falls at 5e-7, so that all 22
+// comparisons together fail falsely at 1e-5 at most. The mean square, which the oracle minimises,
+// is held to the same.
 TEST_F(RandomErrorCell, TheOracleIsNeverBeaten) {
   for (const auto source : {ParameterSource::calibration, ParameterSource::truth}) {
     auto cell = RandomErrorCell::cell();
@@ -226,15 +226,16 @@ TEST_F(RandomErrorCell, TheOracleIsNeverBeaten) {
           squares += difference * difference;
         }
         const double mean = sum / trials;
-        const double error = std::sqrt(std::max(0.0, squares / trials - mean * mean) / (trials - 1));
+        const double error =
+            std::sqrt(std::max(0.0, squares / trials - mean * mean) / (trials - 1));
         EXPECT_GE(mean, -5.0 * error) << cell.methods[m].id << ", power " << power;
       }
   }
 }
 
 // Innovations of the optimal filter are white, so the mean of nu^2 / S over n of them is 1 with
-// standard error sqrt(2 / n); at 5 of them each check fails falsely at 6e-7. NEES is correlated over
-// time: its standard error is that of the trials' means.
+// standard error sqrt(2 / n); at 5 of them each check fails falsely at 6e-7. NEES is correlated
+// over time: its standard error is that of the trials' means.
 TEST_F(RandomErrorCell, TheOracleIsConsistent) {
   auto cell = RandomErrorCell::cell();
   Method oracle;

@@ -77,7 +77,8 @@ TEST(StopRule, ThreadsAndLanesChangeNoByte) {
 TEST(StopRule, MoreTrialsInTheStoreChangeNoByte) {
   const TestFolder folder;
   folder.write("s.json", study);
-  ASSERT_EQ(run_program(folder, {"run", "s.json", "--stop", "none", "--trials", "900"}).exit_code, 0);
+  ASSERT_EQ(run_program(folder, {"run", "s.json", "--stop", "none", "--trials", "900"}).exit_code,
+            0);
   EXPECT_NE(results_of(folder), undisturbed());
   ASSERT_EQ(run_program(folder, {"run", "s.json"}).exit_code, 0);
   EXPECT_EQ(results_of(folder), undisturbed());
@@ -105,7 +106,8 @@ TEST(StopRule, MergedShardsStopWhereTheSingleRunDoes) {
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("its stop rule is for the merged run"));
   }
-  run_program(folder, {"merge", "runs/s", "runs/s/shard_1_of_3", "runs/s/shard_2_of_3", "runs/s/shard_3_of_3"});
+  run_program(folder, {"merge", "runs/s", "runs/s/shard_1_of_3", "runs/s/shard_2_of_3",
+                       "runs/s/shard_3_of_3"});
   const auto ended = run_program(folder, {"run", "s.json"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_EQ(results_of(folder), undisturbed());
@@ -175,9 +177,9 @@ class MadeUp : public testing::Test {
   std::vector<std::pair<double, double>> errors;
 };
 
-/// Twelve looks at methods that do not differ, whose errors are skewed: a rule of plain 95 % intervals
-/// would call them different in every fourth study. Of 400 studies no more than 5 % may be, but for three
-/// standard errors of 1.1 %: false failure below one in a thousand.
+/// Twelve looks at methods that do not differ, whose errors are skewed: a rule of plain 95 %
+/// intervals would call them different in every fourth study. Of 400 studies no more than 5 % may
+/// be, but for three standard errors of 1.1 %: false failure below one in a thousand.
 TEST_F(MadeUp, MethodsThatAreAlikeAreSeldomToldApartHoweverOftenOneLooks) {
   std::mt19937_64 random(11);
   std::exponential_distribution<double> draw;
@@ -191,8 +193,8 @@ TEST_F(MadeUp, MethodsThatAreAlikeAreSeldomToldApartHoweverOftenOneLooks) {
   EXPECT_LE(separated, (0.05 + 3.0 * 0.011) * studies);
 }
 
-/// Where the rule stops on the width of a skewed mean's interval, that interval holds the mean in 93 to
-/// 97 % of 2000 studies, whose standard error is 0.5 %.
+/// Where the rule stops on the width of a skewed mean's interval, that interval holds the mean in
+/// 93 to 97 % of 2000 studies, whose standard error is 0.5 %.
 TEST_F(MadeUp, TheIntervalThatAWidthStoppedHoldsTheMean) {
   cell.stop->half_width_below = 0.1;  // some 400 trials of a standard deviation of 1
   cell.stop->methods = {0};
@@ -218,7 +220,8 @@ TEST_F(MadeUp, TheIntervalThatAWidthStoppedHoldsTheMean) {
 TEST_F(MadeUp, AMarginMakesMethodsEqual) {
   std::mt19937_64 random(13);
   std::normal_distribution<double> draw;
-  for (int t = 0; t < 2000; ++t) errors.emplace_back(1.0 + 0.1 * draw(random), 1.0 + 0.1 * draw(random));
+  for (int t = 0; t < 2000; ++t)
+    errors.emplace_back(1.0 + 0.1 * draw(random), 1.0 + 0.1 * draw(random));
   cell.stop->margin = 0.05;
   const auto n = stop(2000);
   ASSERT_GT(n, 0U);

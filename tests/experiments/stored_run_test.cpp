@@ -1,5 +1,7 @@
-// What an overnight run must survive, seen from outside: the program on a small study, killed, starved,
-// split and resumed. Its canonical export is always that of a run that nobody disturbed.
+// What an overnight run must survive, seen from outside: the program on a small study, killed,
+// starved, split and resumed. Its canonical export is always that of a run that nobody disturbed.
+
+#include "experiments/stored_run.hpp"
 
 #include <chrono>
 #include <functional>
@@ -14,7 +16,6 @@
 #include "experiments/digest.hpp"
 #include "experiments/runner.hpp"
 #include "experiments/shard.hpp"
-#include "experiments/stored_run.hpp"
 #include "experiments/study_store.hpp"
 #include "experiments/time_of_day.hpp"
 #include "tests/experiments/program.hpp"
@@ -61,7 +62,8 @@ void expect_resumed(const TestFolder& folder, const std::vector<std::string>& mo
 
 std::size_t finished_in(const TestFolder& folder) {
   std::size_t sum = 0;
-  for (const auto& cell : Store::open(folder.path() / "runs/s").manifest().cells) sum += cell.finished;
+  for (const auto& cell : Store::open(folder.path() / "runs/s").manifest().cells)
+    sum += cell.finished;
   return sum;
 }
 
@@ -148,11 +150,14 @@ TEST(Store, AFullDiskIsAnErrorAndTheRunGoesOnLater) {
   with_study(folder);
   const auto disk = folder.path() / "runs";
   fs::create_directory(disk);
-  if (std::system(fmt::format("mount -t tmpfs -o size=300k gyrostat_test {} 2> /dev/null", disk.string()).c_str()) != 0)
+  if (std::system(
+          fmt::format("mount -t tmpfs -o size=300k gyrostat_test {} 2> /dev/null", disk.string())
+              .c_str()) != 0)
     GTEST_SKIP() << "a small disk cannot be mounted here";
   const auto ended = run_program(folder, {"run", "s.json"});
   EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_THAT(ended.err, AllOf(HasSubstr("the disk is full"), HasSubstr("finished trials are kept")));
+  EXPECT_THAT(ended.err,
+              AllOf(HasSubstr("the disk is full"), HasSubstr("finished trials are kept")));
   EXPECT_EQ(std::system(fmt::format("mount -o remount,size=64m {}", disk.string()).c_str()), 0);
   expect_resumed(folder);
   EXPECT_EQ(std::system(("umount " + disk.string()).c_str()), 0);
@@ -162,8 +167,11 @@ TEST(Store, AFolderThatCannotBeWrittenToIsRefusedBeforeAnyWork) {
   TestFolder folder;
   kill_half_way(with_study(folder));
   const auto runs = (folder.path() / "runs").string();
-  if (std::system(fmt::format("mount --bind {0} {0} 2> /dev/null && mount -o remount,ro,bind {0} 2> /dev/null",
-                              runs).c_str()) != 0)
+  if (std::system(
+          fmt::format(
+              "mount --bind {0} {0} 2> /dev/null && mount -o remount,ro,bind {0} 2> /dev/null",
+              runs)
+              .c_str()) != 0)
     GTEST_SKIP() << "a folder cannot be made read-only for this user";
   const auto ended = run_program(folder, {"run", "s.json"});
   EXPECT_NE(ended.exit_code, 0);
@@ -195,10 +203,13 @@ TEST(Store, MoreTrialsAreAddedToThoseThatAreThere) {
   EXPECT_EQ(Store::open(folder.path() / "runs/s").sessions().size(), 2U);
 }
 
-// Tuning signals have addresses of their own, so tuned values do not move with the number of trials.
+// Tuning signals have addresses of their own, so tuned values do not move with the number of
+// trials.
 TEST(Store, MoreTrialsOfATunedStudyLeaveTheFirstAsTheyWere) {
   const TestFolder folder;
-  folder.write("t.json", R"({"cells": [{"name": "t", "trials": 6, "scenario": {"duration_s": 5, "rate_hz": 50},
+  folder.write(
+      "t.json",
+      R"({"cells": [{"name": "t", "trials": 6, "scenario": {"duration_s": 5, "rate_hz": 50},
       "parameters_from": "truth", "tuning": {"trials": 2, "evaluations": 8},
       "filters": ["none", {"filter": "kf", "tune": {"phi": [0.1, 0.9]}}]}]})");
   run_program(folder, {"run", "t.json", "--trials", "3"});
@@ -234,7 +245,8 @@ TEST(Store, OutcomesOfAnotherBuildAreRefusedUnlessToldSo) {
   {
     auto store = Store::open_or_create(out, manifest_of(read));
     store.set_cells(manifest_of(read).cells);
-    store.begin_session({read.digest, {"0.0.9 abc", "cc", "-O0"}, "there", 1, "2026-01-01T00:00:00Z", "", 0});
+    store.begin_session(
+        {read.digest, {"0.0.9 abc", "cc", "-O0"}, "there", 1, "2026-01-01T00:00:00Z", "", 0});
     Workspace workspace;
     store.write(std::vector{row_of(1, 0, run_trial(read.cells[1], {}, read.seed, 0, workspace))});
   }
@@ -252,10 +264,14 @@ std::string digest_of(const std::string& json) { return study_digest(Json::parse
 TEST(Digest, IsThatOfAllThatDecidesAnOutcome) {
   const auto base = digest_of(R"({"cells": [{"name": "a", "scenario": {"rate_hz": 50}}]})");
   EXPECT_EQ(digest_of(R"({"title": "t", "failure_budget": 0.1, "seed": 1,
-                          "cells": [{"trials": 7, "scenario": {"rate_hz": 50}, "name": "a"}]})"), base);
-  EXPECT_NE(digest_of(R"({"seed": 2, "cells": [{"name": "a", "scenario": {"rate_hz": 50}}]})"), base);
+                          "cells": [{"trials": 7, "scenario": {"rate_hz": 50}, "name": "a"}]})"),
+            base);
+  EXPECT_NE(digest_of(R"({"seed": 2, "cells": [{"name": "a", "scenario": {"rate_hz": 50}}]})"),
+            base);
   EXPECT_NE(digest_of(R"({"cells": [{"name": "a", "scenario": {"rate_hz": 51}}]})"), base);
-  EXPECT_NE(digest_of(R"({"cells": [{"name": "a", "filters": ["kf"], "scenario": {"rate_hz": 50}}]})"), base);
+  EXPECT_NE(
+      digest_of(R"({"cells": [{"name": "a", "filters": ["kf"], "scenario": {"rate_hz": 50}}]})"),
+      base);
 }
 
 TEST(Digest, IsThatOfARecordingsContentsNotOfItsName) {
@@ -310,7 +326,8 @@ TEST(Shard, MergedShardsEqualTheSingleRunByteForByte) {
   with_study(folder);
   for (const char* shard : {"1/3", "2/3", "3/3"})
     EXPECT_EQ(run_program(folder, {"run", "s.json", "--shard", shard}).exit_code, 0);
-  const std::vector<std::string> merge = {"merge", "runs/s", "runs/s/shard_3_of_3", "runs/s/shard_1_of_3"};
+  const std::vector<std::string> merge = {"merge", "runs/s", "runs/s/shard_3_of_3",
+                                          "runs/s/shard_1_of_3"};
   EXPECT_EQ(run_program(folder, merge).exit_code, 4) << "a shard is missing";
   auto all = merge;
   all.push_back("runs/s/shard_2_of_3");
@@ -350,8 +367,9 @@ TEST(Quarantine, ATrialThatBreaksDownHasAnAddressThatReplaysIt) {
   EXPECT_THAT(address, AllOf(testing::StartsWith("s:a:b, c:"), testing::EndsWith(":bold")));
   const auto replayed = run_program(folder, {"replay", address});
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
-  EXPECT_THAT(replayed.out, AllOf(HasSubstr("in quarantine: " + listed[0]["rows"][0][1].get<std::string>()),
-                                  HasSubstr("the same outcome, to the bit")));
+  EXPECT_THAT(replayed.out,
+              AllOf(HasSubstr("in quarantine: " + listed[0]["rows"][0][1].get<std::string>()),
+                    HasSubstr("the same outcome, to the bit")));
   const auto steps = run_program(folder, {"replay", address, "--study", "s.json", "--steps"}).out;
   EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 1 + 1000);
   EXPECT_THAT(steps, HasSubstr(",risk_breakdown\n"));
@@ -369,7 +387,8 @@ TEST(Quarantine, WhatAMethodThrowsHarmsNeitherTheOthersNorTheRun) {
   run_missing(store, {cell, {}, {}}, 0, broken.seed, state, {}, [](const CellProgress&) {});
   std::vector<std::string> addresses;
   store.for_each_failure([&](const Failure& failure) {
-    addresses.push_back(address_text("q", cell.name, failure.trial, cell.methods[failure.method].id));
+    addresses.push_back(
+        address_text("q", cell.name, failure.trial, cell.methods[failure.method].id));
     EXPECT_THAT(failure.reason, HasSubstr("threw: gone: unknown filter"));
   });
   EXPECT_THAT(addresses, testing::ElementsAre("q:q:0:gone", "q:q:1:gone", "q:q:2:gone"));
@@ -380,10 +399,13 @@ TEST(Quarantine, WhatAMethodThrowsHarmsNeitherTheOthersNorTheRun) {
 TEST(Quarantine, MoreFailuresThanTheBudgetEndTheRunWithThree) {
   TestFolder folder;
   with_study(folder);
-  const auto over = run_program(folder, {"run", "s.json", "--trials", "20", "--failure-budget", "0.01"});
+  const auto over =
+      run_program(folder, {"run", "s.json", "--trials", "20", "--failure-budget", "0.01"});
   EXPECT_EQ(over.exit_code, 3);
   EXPECT_THAT(over.err, HasSubstr("failures over the budget"));
-  EXPECT_EQ(run_program(folder, {"run", "s.json", "--trials", "20", "--failure-budget", "1"}).exit_code, 0);
+  EXPECT_EQ(
+      run_program(folder, {"run", "s.json", "--trials", "20", "--failure-budget", "1"}).exit_code,
+      0);
 }
 
 TEST(Address, NamesWhatTheStudyHasNot) {
@@ -412,11 +434,13 @@ TEST(Address, NamesWhatTheStudyHasNot) {
 TEST(Watching, StatusReadsARunThatIsUnderWayAndTheLogIsJsonLines) {
   TestFolder folder;
   kill_half_way(with_study(folder));
-  const auto status = Json::parse(run_program(folder, {"status", "runs/s", "--format", "json"}).out);
+  const auto status =
+      Json::parse(run_program(folder, {"status", "runs/s", "--format", "json"}).out);
   EXPECT_EQ(status[0]["rows"][0][0], "short");
   EXPECT_GT(status[0]["rows"][0][1].get<int>(), 200);
-  EXPECT_THAT(status[1]["rows"][0][3].get<std::string>(),
-              AllOf(HasSubstr("short: "), HasSubstr("trials/s"), HasSubstr("s left"), HasSubstr("widest")));
+  EXPECT_THAT(
+      status[1]["rows"][0][3].get<std::string>(),
+      AllOf(HasSubstr("short: "), HasSubstr("trials/s"), HasSubstr("s left"), HasSubstr("widest")));
   expect_resumed(folder);
   std::istringstream log(folder.read("runs/s/log.jsonl"));
   std::vector<std::string> events;
@@ -443,8 +467,8 @@ TEST(Plan, CountsTrialsFiltersStepsTimeAndDiskAndWritesNothing) {
   TestFolder folder;
   with_study(folder);
   const auto before = folder.contents();
-  const auto ended = run_program(folder, {"plan", "s.json", "--pilot", "0.05", "--trials", "1000000",
-                                          "--format", "json"});
+  const auto ended = run_program(
+      folder, {"plan", "s.json", "--pilot", "0.05", "--trials", "1000000", "--format", "json"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   const auto rows = Json::parse(ended.out)[0]["rows"];
   ASSERT_EQ(rows.size(), 3);

@@ -49,11 +49,13 @@ void expect_only_harmonic(const std::vector<double>& errors, int only) {
 }
 
 TEST(HardIron, IsTheFirstHarmonicOfTheHeadingAndNoOther) {
-  expect_only_harmonic(error(effects::HardIron{.amplitude_deg = 3.0, .phase_deg = 30.0}, full_turn()), 1);
+  expect_only_harmonic(
+      error(effects::HardIron{.amplitude_deg = 3.0, .phase_deg = 30.0}, full_turn()), 1);
 }
 
 TEST(SoftIron, IsTheSecondHarmonicOfTheHeadingAndNoOther) {
-  expect_only_harmonic(error(effects::SoftIron{.amplitude_deg = 3.0, .phase_deg = 30.0}, full_turn()), 2);
+  expect_only_harmonic(
+      error(effects::SoftIron{.amplitude_deg = 3.0, .phase_deg = 30.0}, full_turn()), 2);
 }
 
 /// A step is a rise over one interval d: behind it (1 - e^{-d/tau}) tau / d of the step at its end.
@@ -94,7 +96,8 @@ TEST(CompassLag, TrailsTheHeadingAndNotItsNoise) {
 TEST(CompassEffects, LeaveTheHeadingWrapped) {
   Scenario scenario;
   scenario.motion = motion::RateTable{.rate_dps = 60.0};
-  scenario.effects = {effects::HardIron{.amplitude_deg = 40.0}, effects::SoftIron{.amplitude_deg = 40.0},
+  scenario.effects = {effects::HardIron{.amplitude_deg = 40.0},
+                      effects::SoftIron{.amplitude_deg = 40.0},
                       effects::CompassLag{.time_constant_s = 2.0},
                       effects::MagneticBursts{.bursts_per_hour = 500.0, .std_deg = 300.0}};
   Series series;
@@ -111,7 +114,8 @@ constexpr std::uint32_t trials = 4000;
 // rates of beginning and ending; the mean square is that times std^2, with E x^4 = 3 std^4. At 5
 // standard errors: 6e-7 each.
 TEST(MagneticBursts, StandForTheirShareOfTheTimeWithTheirStandardDeviation) {
-  const effects::MagneticBursts bursts{.bursts_per_hour = 900.0, .mean_duration_s = 2.0, .std_deg = 4.0};
+  const effects::MagneticBursts bursts{
+      .bursts_per_hour = 900.0, .mean_duration_s = 2.0, .std_deg = 4.0};
   const std::vector<double> north(301, 0.0);
   std::array<double, 3> share{}, square{};
   constexpr std::array<std::size_t, 3> at = {5, 20, 300};

@@ -1,10 +1,10 @@
-#include "generators/effects/list.hpp"
-
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "generators/effects/list.hpp"
 
 namespace gyrostat {
 namespace {
@@ -88,7 +88,8 @@ TEST(ThermalHysteresis, DependsOnTheOrderOfTemperaturesAndNotOnTime) {
 
 TEST(ThermalEffects, OfZeroStrengthAddExactlyNothing) {
   const auto T = moves({20.0, 40.0, 20.0});
-  for (const double v : drift(ThermalCurvature{.curvature_dps_per_C2 = 0.0, .reference_C = 30.0}, T))
+  for (const double v :
+       drift(ThermalCurvature{.curvature_dps_per_C2 = 0.0, .reference_C = 30.0}, T))
     EXPECT_EQ(v, 0.0);
   for (const double v : drift(ThermalHysteresis{.amplitude_dps = 0.0, .width_C = 3.0}, T))
     EXPECT_EQ(v, 0.0);

@@ -122,8 +122,10 @@ TEST(Level, IsGravityOnTheZAxis) {
 }
 
 TEST(Tilting, TurnsGravityAndKeepsItsSize) {
-  const acceleration::Tilting tilting{.roll_amplitude_deg = 90.0, .roll_period_s = 40.0,
-                                      .pitch_amplitude_deg = 30.0, .pitch_period_s = 80.0};
+  const acceleration::Tilting tilting{.roll_amplitude_deg = 90.0,
+                                      .roll_period_s = 40.0,
+                                      .pitch_amplitude_deg = 30.0,
+                                      .pitch_period_s = 80.0};
   const auto level = tilting(0.0);
   EXPECT_NEAR(level[2], 9.80665, 1e-12);
   for (const double t : {3.0, 10.0, 17.0, 55.0}) {
@@ -141,7 +143,8 @@ TEST(Tilting, TurnsGravityAndKeepsItsSize) {
 TEST(Stationary, DoesNotTurn) { EXPECT_EQ(turn(motion::Stationary{}, 1000, 100.0), 0.0); }
 
 /// A compass at 10 Hz beside a gyro that turns at `rate_dps`.
-Series observed(const Compass& compass, double rate_dps, std::size_t samples, std::uint32_t trial = 0) {
+Series observed(const Compass& compass, double rate_dps, std::size_t samples,
+                std::uint32_t trial = 0) {
   Series series;
   for (std::size_t i = 0; i < samples; ++i) {
     series.t_s.push_back(0.1 * static_cast<double>(i));
@@ -152,12 +155,13 @@ Series observed(const Compass& compass, double rate_dps, std::size_t samples, st
 }
 
 TEST(Compass, WithoutNoiseIsTheWrappedIntegralOfTheRate) {
-  const auto series = observed({.noise_std_deg = 0.0, .initial_heading_deg = 170.0, .disturbances = {}}, 25.0, 1000);
+  const auto series = observed(
+      {.noise_std_deg = 0.0, .initial_heading_deg = 170.0, .disturbances = {}}, 25.0, 1000);
   for (std::size_t i = 0; i < series.size(); ++i) {
     EXPECT_GE(series.heading_deg[i], -180.0);
     EXPECT_LT(series.heading_deg[i], 180.0);
-    EXPECT_NEAR(std::remainder(series.heading_deg[i] - 170.0 - 2.5 * static_cast<double>(i), 360.0), 0.0,
-                1e-9);
+    EXPECT_NEAR(std::remainder(series.heading_deg[i] - 170.0 - 2.5 * static_cast<double>(i), 360.0),
+                0.0, 1e-9);
   }
 }
 
@@ -179,7 +183,8 @@ TEST(Compass, NoiseIsWhiteWithItsStandardDeviation) {
 TEST(Compass, ADisturbanceOffsetsExactlyItsHalfOpenPeriodAndFlagsIt) {
   Compass compass;
   const auto before = observed(compass, 3.0, 1000);
-  compass.disturbances = {{.start_s = 20.0, .duration_s = 30.0, .offset_deg = 15.0, .noise_std_deg = 0.0}};
+  compass.disturbances = {
+      {.start_s = 20.0, .duration_s = 30.0, .offset_deg = 15.0, .noise_std_deg = 0.0}};
   const auto after = observed(compass, 3.0, 1000);
   for (std::size_t i = 0; i < after.size(); ++i) {
     const bool inside = after.t_s[i] >= 20.0 && after.t_s[i] < 50.0;
@@ -207,11 +212,13 @@ TEST(Compass, ADisturbanceAddsItsOwnNoise) {
       {.start_s = 0.0, .duration_s = 1e9, .offset_deg = 0.0, .noise_std_deg = 2.0}};
   const auto series = observed(compass, 0.0, n);
   const double square = std::inner_product(series.heading_deg.begin(), series.heading_deg.end(),
-                                           series.heading_deg.begin(), 0.0) / n;
+                                           series.heading_deg.begin(), 0.0) /
+                        n;
   EXPECT_NEAR(square / 4.0, 1.0, 5.0 * std::sqrt(2.0 / n));
 }
 
-// Of two disturbances at once the noises are independent: variances add. At 5 standard errors: 6e-7.
+// Of two disturbances at once the noises are independent: variances add. At 5 standard errors:
+// 6e-7.
 TEST(Compass, OverlappingDisturbancesHaveNoisesOfTheirOwn) {
   constexpr std::size_t n = 50000;
   Compass compass;
@@ -221,7 +228,8 @@ TEST(Compass, OverlappingDisturbancesHaveNoisesOfTheirOwn) {
   compass.disturbances = {disturbance, disturbance};
   const auto series = observed(compass, 0.0, n);
   const double square = std::inner_product(series.heading_deg.begin(), series.heading_deg.end(),
-                                           series.heading_deg.begin(), 0.0) / n;
+                                           series.heading_deg.begin(), 0.0) /
+                        n;
   EXPECT_NEAR(square / 8.0, 1.0, 5.0 * std::sqrt(2.0 / n));
 }
 

@@ -39,7 +39,8 @@ TEST(SensorBandwidth, ApproachesAStepExponentially) {
   const auto z = sensed(effects::SensorBandwidth{.cutoff_hz = 2.0}, step);
   EXPECT_EQ(z[0], 0.0);
   for (std::size_t k = 1; k < step.size(); ++k)
-    EXPECT_NEAR(z[k], 10.0 * (1.0 - std::exp(-4.0 * std::numbers::pi * 0.01 * static_cast<double>(k))),
+    EXPECT_NEAR(z[k],
+                10.0 * (1.0 - std::exp(-4.0 * std::numbers::pi * 0.01 * static_cast<double>(k))),
                 1e-9);
 }
 
@@ -56,7 +57,8 @@ TEST(SensorBandwidth, OverUnevenIntervalsIsTheSameResponse) {
   series.rate_ref_dps = series.gyro_dps = {0.0, 5.0, 5.0, 5.0};
   effects::SensorBandwidth{.cutoff_hz = 1.0}.apply(series, {1, 0});
   for (std::size_t i = 0; i < 4; ++i)
-    EXPECT_NEAR(series.gyro_dps[i], 5.0 * (1.0 - std::exp(-2.0 * std::numbers::pi * series.t_s[i])), 1e-12);
+    EXPECT_NEAR(series.gyro_dps[i], 5.0 * (1.0 - std::exp(-2.0 * std::numbers::pi * series.t_s[i])),
+                1e-12);
 }
 
 TEST(Saturation, ClipsAtBothLimitsAndPassesWhatLiesBetweenAndGaps) {
@@ -73,8 +75,9 @@ TEST(DeadZone, HidesRatesUpToItsHalfWidth) {
 }
 
 TEST(DeadZone, MayTakeItsHalfWidthFromLargerRates) {
-  EXPECT_EQ(sensed(effects::DeadZone{.half_width_dps = 0.5, .lost_beyond = 1.0}, {0.5, -0.5, 0.75, -8.0}),
-            (std::vector{0.0, 0.0, 0.25, -7.5}));
+  EXPECT_EQ(
+      sensed(effects::DeadZone{.half_width_dps = 0.5, .lost_beyond = 1.0}, {0.5, -0.5, 0.75, -8.0}),
+      (std::vector{0.0, 0.0, 0.25, -7.5}));
 }
 
 TEST(DeadZone, LeavesBiasAndNoiseWhereTheyWere) {
@@ -90,13 +93,14 @@ TEST(GSensitivity, AddsEachAxisByItsCoefficient) {
   series.acc_x_mps2 = {1.0, 0.0};
   series.acc_y_mps2 = {2.0, 0.0};
   series.acc_z_mps2 = {9.0, -9.0};
-  effects::GSensitivity{.x_dps_per_mps2 = 1.0, .y_dps_per_mps2 = 10.0, .z_dps_per_mps2 = 100.0}.apply(
-      series, {1, 0});
+  effects::GSensitivity{.x_dps_per_mps2 = 1.0, .y_dps_per_mps2 = 10.0, .z_dps_per_mps2 = 100.0}
+      .apply(series, {1, 0});
   EXPECT_EQ(series.gyro_dps, (std::vector<double>{921.0, -900.0}));
 }
 
 /// What the effect adds to the drift at these temperatures, 1 s apart.
-std::vector<double> lag(const effects::ThermalLag& effect, const std::vector<double>& temperature_C) {
+std::vector<double> lag(const effects::ThermalLag& effect,
+                        const std::vector<double>& temperature_C) {
   auto series = silent(even_times(temperature_C.size(), 1.0));
   series.temperature_C = temperature_C;
   effect.apply(series, {1, 0});

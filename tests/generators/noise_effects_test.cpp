@@ -11,7 +11,8 @@
 namespace gyrostat {
 namespace {
 
-// Every statistical tolerance here is 5 standard errors of a normal estimate: 6e-7 false failures each.
+// Every statistical tolerance here is 5 standard errors of a normal estimate: 6e-7 false failures
+// each.
 
 /// White noise of standard deviation 0.2 on a gyro that turns, drifts and wanders.
 Series noisy(std::size_t samples, double rate_hz) {
@@ -45,7 +46,8 @@ TEST(Quantization, EveryValueIsTheNearestMultipleOfTheLsb) {
   }
 }
 
-// The residual e is uniform: the variance of e^2 is lsb^4 / 180, that of a lag product (lsb^2 / 12)^2.
+// The residual e is uniform: the variance of e^2 is lsb^4 / 180, that of a lag product (lsb^2 /
+// 12)^2.
 TEST(Quantization, LeavesAWhiteResidualOfTheVarianceLsbSquaredOverTwelve) {
   constexpr std::size_t n = 200000;
   constexpr double lsb = 0.04;
@@ -58,7 +60,8 @@ TEST(Quantization, LeavesAWhiteResidualOfTheVarianceLsbSquaredOverTwelve) {
   EXPECT_NEAR(autocovariance(residual, 1), 0.0, 5.0 * lsb * lsb / 12.0 / std::sqrt(n));
 }
 
-// Bartlett: a sample autocovariance c_h over n samples has variance sum (c_k^2 + c_{k+h} c_{k-h}) / n.
+// Bartlett: a sample autocovariance c_h over n samples has variance sum (c_k^2 + c_{k+h} c_{k-h}) /
+// n.
 TEST(NoiseBandwidth, MakesOfWhiteNoiseAFirstOrderAutoregression) {
   constexpr std::size_t n = 200000;
   auto series = noisy(n, 100.0);
@@ -75,8 +78,8 @@ TEST(NoiseBandwidth, MakesOfWhiteNoiseAFirstOrderAutoregression) {
   }
 }
 
-// The density at f relative to rest is (1 + (2 sin(pi f / rate) sqrt(a) / (1 - a))^2)^-poles, a exact
-// pole; the noise left over is its mean over all frequencies. 4 standard errors.
+// The density at f relative to rest is (1 + (2 sin(pi f / rate) sqrt(a) / (1 - a))^2)^-poles, a
+// exact pole; the noise left over is its mean over all frequencies. 4 standard errors.
 TEST(NoiseBandwidth, PolesFollowOneAnother) {
   constexpr std::size_t n = 200000;
   const double pi = std::acos(-1.0), pole = std::exp(-2.0 * pi * 5.0 / 100.0);
@@ -86,12 +89,15 @@ TEST(NoiseBandwidth, PolesFollowOneAnother) {
     double power = 0.0, power_of_power = 0.0;
     constexpr int steps = 20000;
     for (int k = 0; k < steps; ++k) {
-      const double x = 2.0 * std::sin(0.5 * pi * (k + 0.5) / steps) * std::sqrt(pole) / (1.0 - pole);
+      const double x =
+          2.0 * std::sin(0.5 * pi * (k + 0.5) / steps) * std::sqrt(pole) / (1.0 - pole);
       const double density = std::pow(1.0 + x * x, -poles);
       power += 0.04 * density / steps;
       power_of_power += 0.04 * 0.04 * density * density / steps;
     }
-    EXPECT_NEAR(autocovariance(white_part(series), 0), power, 4.0 * std::sqrt(2.0 * power_of_power / n)) << poles;
+    EXPECT_NEAR(autocovariance(white_part(series), 0), power,
+                4.0 * std::sqrt(2.0 * power_of_power / n))
+        << poles;
   }
 }
 
@@ -107,7 +113,8 @@ TEST(NoiseBandwidth, IsStationaryFromTheFirstSample) {
     return series.gyro_dps;
   };
   for (const std::size_t i : {0, 1, 3})
-    EXPECT_NEAR(mean_product(draw, trials, i, i) / variance, 1.0, 5.0 * std::sqrt(2.0 / trials)) << i;
+    EXPECT_NEAR(mean_product(draw, trials, i, i) / variance, 1.0, 5.0 * std::sqrt(2.0 / trials))
+        << i;
 }
 
 TEST(NoiseBandwidth, HasUnitGainAtRestAndLeavesRateAndDriftAlone) {

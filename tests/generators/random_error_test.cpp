@@ -8,8 +8,8 @@
 namespace gyrostat {
 namespace {
 
-/// Autocovariance of the first difference, an ARMA(1,1) process, at lags 0 and 1 (Brockwell and Davis
-/// 1991, sec. 3.3, with the innovation scaled to delta1).
+/// Autocovariance of the first difference, an ARMA(1,1) process, at lags 0 and 1 (Brockwell and
+/// Davis 1991, sec. 3.3, with the innovation scaled to delta1).
 struct Difference {
   double phi, variance, lag1;
 
@@ -39,8 +39,8 @@ std::vector<double> random_error(const Arima111<double>& model, const Noise& noi
   return x;
 }
 
-// Over n independent trials the relative error of a variance has standard deviation sqrt(2 / n), that
-// of a covariance sqrt((v^2 + c^2) / n). At 5 of them each check fails falsely at 6e-7.
+// Over n independent trials the relative error of a variance has standard deviation sqrt(2 / n),
+// that of a covariance sqrt((v^2 + c^2) / n). At 5 of them each check fails falsely at 6e-7.
 TEST(RandomError, TheFirstDifferenceIsStationaryFromTheFirstSampleOn) {
   constexpr int n = 20000;
   for (const auto& model : models) {
@@ -78,8 +78,10 @@ TEST(RandomError, OverTimeTheFirstDifferenceHasTheAutocovarianceOfArma11) {
       double variance = 0.0;
       for (int k = -400; k <= 400; ++k)
         variance += (d.lag(std::abs(k)) * d.lag(std::abs(k)) +
-                     d.lag(std::abs(k + h)) * d.lag(std::abs(k - h))) / n;
-      EXPECT_NEAR(sample, d.lag(h), 5.0 * std::sqrt(variance)) << "phi " << model.phi << ", lag " << h;
+                     d.lag(std::abs(k + h)) * d.lag(std::abs(k - h))) /
+                    n;
+      EXPECT_NEAR(sample, d.lag(h), 5.0 * std::sqrt(variance))
+          << "phi " << model.phi << ", lag " << h;
     }
   }
 }
@@ -107,8 +109,9 @@ TEST(RandomError, IsAddedToWhatIsThere) {
 TEST(RandomError, AShorterSignalIsAPrefixOfALonger) {
   const auto whole = random_error(models[1], {1, 0}, 1000);
   for (const std::size_t samples : {1, 2, 255, 256, 257, 999})
-    EXPECT_EQ(random_error(models[1], {1, 0}, samples),
-              std::vector<double>(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(samples)));
+    EXPECT_EQ(
+        random_error(models[1], {1, 0}, samples),
+        std::vector<double>(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(samples)));
 }
 
 TEST(RandomError, ScalesWithItsDeltas) {
@@ -125,8 +128,8 @@ TEST(RandomError, WhereTheMovingAverageCancelsTheAutoregressionItIsARandomWalk) 
   for (std::size_t k = 0; k < x.size(); ++k) EXPECT_NEAR(x[k], walk += 0.01 * a.normal(k), 1e-14);
 }
 
-// The mean square of n normals has relative standard error sqrt(2 / n), a lag product 1 / sqrt(n); at
-// 5 of them each fails falsely at 6e-7.
+// The mean square of n normals has relative standard error sqrt(2 / n), a lag product 1 / sqrt(n);
+// at 5 of them each fails falsely at 6e-7.
 TEST(WhiteNoise, HasItsStandardDeviationAndNoMemory) {
   constexpr std::size_t n = 200000;
   std::vector<double> v(n, 0.0);

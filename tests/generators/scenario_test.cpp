@@ -70,9 +70,9 @@ TEST(Synthesise, TheGyroIsTheSumOfItsParts) {
 
 TEST(Synthesise, EveryChannelOfASimulationIsAsLongAsTheSignal) {
   const auto series = synthesised(busy());
-  for (const auto* channel :
-       {&series.t_s, &series.gyro_dps, &series.temperature_C, &series.heading_deg, &series.mag_valid,
-        &series.rate_ref_dps, &series.thermal_bias_dps, &series.random_error_dps})
+  for (const auto* channel : {&series.t_s, &series.gyro_dps, &series.temperature_C,
+                              &series.heading_deg, &series.mag_valid, &series.rate_ref_dps,
+                              &series.thermal_bias_dps, &series.random_error_dps})
     EXPECT_EQ(channel->size(), 2400U);
 }
 
@@ -153,7 +153,8 @@ TEST(Synthesise, HasNoAccelerometerUnlessAsked) {
   EXPECT_EQ(bits_of(series.gyro_dps), bits_of(synthesised(scenario).gyro_dps));
 }
 
-Series synthesised_under(const Scenario& scenario, const Series& conditions, const Noise& noise = {1, 0}) {
+Series synthesised_under(const Scenario& scenario, const Series& conditions,
+                         const Noise& noise = {1, 0}) {
   Series series;
   synthesise_under(scenario, conditions, noise, series);
   return series;
@@ -175,12 +176,14 @@ TEST(SynthesiseUnder, AnothersSamplingAndProfilesPlayNoPart) {
   other.motion = motion::Stationary{};
   other.acceleration = acceleration::Level{};
   other.compass.disturbances.clear();
-  EXPECT_TRUE(same_bits(synthesised_under(other, conditions), synthesised_under(busy(), conditions)));
+  EXPECT_TRUE(
+      same_bits(synthesised_under(other, conditions), synthesised_under(busy(), conditions)));
 }
 
 TEST(SynthesiseUnder, UnevenTimesSlopeAndHeadingGoByTheIntervals) {
   Scenario scenario;
-  scenario.random_error = {.phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.0};
+  scenario.random_error = {
+      .phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.0};
   scenario.thermal_drift = {.a_dps_per_C = 0.5, .b_dps_s_per_C = 2.0, .c_dps = 1.0};
   scenario.compass = {.noise_std_deg = 0.0, .initial_heading_deg = 90.0, .disturbances = {}};
   Series conditions;
@@ -226,7 +229,8 @@ TEST(SynthesiseUnder, IgnoresTheScenariosDisturbances) {
   const auto conditions = synthesised(busy());
   auto quiet = busy();
   quiet.compass.disturbances.clear();
-  EXPECT_TRUE(same_bits(synthesised_under(busy(), conditions), synthesised_under(quiet, conditions)));
+  EXPECT_TRUE(
+      same_bits(synthesised_under(busy(), conditions), synthesised_under(quiet, conditions)));
 }
 
 }  // namespace

@@ -11,16 +11,16 @@
 namespace gyrostat {
 namespace {
 
-// Every statistical tolerance here is 5 standard errors of an estimate that is normal by the number of
-// independent trials: 6e-7 false failures each, unless a test says otherwise.
+// Every statistical tolerance here is 5 standard errors of an estimate that is normal by the number
+// of independent trials: 6e-7 false failures each, unless a test says otherwise.
 
 /// Uneven times, close together and far apart.
 const std::vector<double> uneven = {0.0, 0.3, 5.0, 5.1, 9.0, 40.0};
 
 constexpr std::uint32_t trials = 4000;
 
-/// The covariance of every pair of samples over trials against `covariance(interval)`. The product of
-/// two normals has variance c(0)^2 + c(interval)^2.
+/// The covariance of every pair of samples over trials against `covariance(interval)`. The product
+/// of two normals has variance c(0)^2 + c(interval)^2.
 template <class Effect, class Covariance>
 void expect_stationary_normal(const Effect& effect, const Covariance& covariance) {
   std::array<std::array<double, 6>, 6> sum{};
@@ -32,7 +32,8 @@ void expect_stationary_normal(const Effect& effect, const Covariance& covariance
   for (std::size_t i = 0; i < uneven.size(); ++i)
     for (std::size_t j = 0; j <= i; ++j) {
       const double expected = covariance(uneven[i] - uneven[j]);
-      EXPECT_NEAR(sum[i][j], expected, 5.0 * std::hypot(covariance(0.0), expected) / std::sqrt(trials))
+      EXPECT_NEAR(sum[i][j], expected,
+                  5.0 * std::hypot(covariance(0.0), expected) / std::sqrt(trials))
           << uneven[i] << " s and " << uneven[j] << " s";
     }
 }
@@ -44,7 +45,9 @@ TEST(GaussMarkov, HasItsVarianceAndExponentialCorrelationAtUnevenTimes) {
 
 TEST(GaussMarkov, ForgetsNothingOverManyShortIntervals) {
   const effects::GaussMarkov effect{.std_dps = 1.0, .correlation_time_s = 2.0};
-  const auto draw = [&](std::uint32_t trial) { return added(effect, even_times(201, 100.0), trial); };
+  const auto draw = [&](std::uint32_t trial) {
+    return added(effect, even_times(201, 100.0), trial);
+  };
   const double rho = std::exp(-1.0);
   EXPECT_NEAR(mean_product(draw, trials, 0, 200), rho, 5.0 * std::sqrt((1.0 + rho * rho) / trials));
   EXPECT_NEAR(mean_product(draw, trials, 200, 200), 1.0, 5.0 * std::sqrt(2.0 / trials));
@@ -58,15 +61,16 @@ TEST(Vibration, HasItsVarianceCentreAndBandwidthAtUnevenTimes) {
       });
 }
 
-// The variance at one tau is a mean over independent trials and its error their own spread: 5 of them
-// with 39 degrees of freedom fail falsely at 1e-5. Beside it 3 % for the ends of the sum.
+// The variance at one tau is a mean over independent trials and its error their own spread: 5 of
+// them with 39 degrees of freedom fail falsely at 1e-5. Beside it 3 % for the ends of the sum.
 TEST(BiasInstability, HasItsAllanFloorOverTwoDecades) {
   constexpr double B = 0.02, floor = 2.0 * std::numbers::ln2 / std::numbers::pi * B * B;
   constexpr std::uint32_t few = 40;
   const std::vector<std::size_t> clusters = {30, 100, 300, 1000, 3000};
   std::vector<double> sum(clusters.size()), square(clusters.size());
   for (std::uint32_t trial = 0; trial < few; ++trial) {
-    const auto v = added(effects::BiasInstability{.coefficient_dps = B}, even_times(60000, 10.0), trial);
+    const auto v =
+        added(effects::BiasInstability{.coefficient_dps = B}, even_times(60000, 10.0), trial);
     const auto points = overlapping_allan_deviation(v, 10.0, clusters);
     for (std::size_t k = 0; k < clusters.size(); ++k) {
       const double variance = points[k].deviation * points[k].deviation / floor;
@@ -88,8 +92,9 @@ TEST(RateRamp, GrowsEvenlyFromTheFirstSample) {
 }
 
 TEST(SinusoidalEffect, IsTheSineOfItsAmplitudeFrequencyAndPhase) {
-  const auto v = added(effects::Sinusoidal{.amplitude_dps = 0.3, .frequency_hz = 0.25, .phase_deg = 90.0},
-                       {100.0, 101.0, 102.0, 106.0});
+  const auto v =
+      added(effects::Sinusoidal{.amplitude_dps = 0.3, .frequency_hz = 0.25, .phase_deg = 90.0},
+            {100.0, 101.0, 102.0, 106.0});
   EXPECT_NEAR(v[0], 0.3, 1e-15);
   EXPECT_NEAR(v[1], 0.0, 1e-15);
   EXPECT_NEAR(v[2], -0.3, 1e-15);
@@ -110,13 +115,15 @@ TEST(BiasSteps, VarianceGrowsByThatOfAJumpAtEachExpectedJump) {
   EXPECT_EQ(square[0], 0.0);
   for (std::size_t i = 1; i < t_s.size(); ++i) {
     const double m = 8.0 * t_s[i] / 3600.0;
-    EXPECT_NEAR(square[i], 0.25 * m, 5.0 * 0.25 * std::sqrt((2.0 * m * m + 3.0 * m) / trials)) << t_s[i];
+    EXPECT_NEAR(square[i], 0.25 * m, 5.0 * 0.25 * std::sqrt((2.0 * m * m + 3.0 * m) / trials))
+        << t_s[i];
   }
   EXPECT_NEAR(disjoint, 0.0, 5.0 * 0.25 * 2.0 / std::sqrt(trials));
 }
 
 TEST(BiasSteps, BetweenJumpsIsConstant) {
-  const auto v = added(effects::BiasSteps{.steps_per_hour = 60.0, .std_dps = 0.5}, even_times(36000, 10.0));
+  const auto v =
+      added(effects::BiasSteps{.steps_per_hour = 60.0, .std_dps = 0.5}, even_times(36000, 10.0));
   double jumps = 0.0;
   for (std::size_t i = 1; i < v.size(); ++i) jumps += v[i] != v[i - 1];
   EXPECT_NEAR(jumps, 60.0, 5.0 * std::sqrt(60.0));
@@ -146,7 +153,8 @@ TEST(Telegraph, HasTheVarianceAndCorrelationOfATwoLevelProcess) {
 // (1 - exp(-2 interval / dwell)) / 2, independent of the rest.
 TEST(Telegraph, DwellsForItsMeanTime) {
   constexpr std::size_t n = 400000;
-  const auto v = added(effects::Telegraph{.amplitude_dps = 1.0, .mean_dwell_s = 5.0}, even_times(n, 10.0));
+  const auto v =
+      added(effects::Telegraph{.amplitude_dps = 1.0, .mean_dwell_s = 5.0}, even_times(n, 10.0));
   double changes = 0.0;
   for (std::size_t i = 1; i < n; ++i) changes += v[i] != v[i - 1];
   const double p = 0.5 * (1.0 - std::exp(-0.04));

@@ -30,11 +30,16 @@ Mark mark(Mark::Kind kind) {
 }
 
 Chart chart(Mark::Kind kind) {
-  return {.id = "c", .title = "a < b", .note = "n", .x = {"x", "dps", false, {}}, .y = {"", "", false, {"one", "two"}},
+  return {.id = "c",
+          .title = "a < b",
+          .note = "n",
+          .x = {"x", "dps", false, {}},
+          .y = {"", "", false, {"one", "two"}},
           .marks = {mark(kind)}};
 }
 
-constexpr Mark::Kind kinds[] = {Mark::Kind::line, Mark::Kind::points, Mark::Kind::bars, Mark::Kind::boxes, Mark::Kind::cells};
+constexpr Mark::Kind kinds[] = {Mark::Kind::line, Mark::Kind::points, Mark::Kind::bars,
+                                Mark::Kind::boxes, Mark::Kind::cells};
 
 TEST(Chart, EqualNumbersGiveEqualBytes) {
   for (const auto kind : kinds) EXPECT_EQ(html(chart(kind)), html(chart(kind)));
@@ -82,15 +87,20 @@ TEST(Chart, WhatIsNotShownIsNotDrawn) {
 }
 
 TEST(Chart, TheRampIsAColourForEveryShareAndGreyForNone) {
-  for (const double share : {-1.0, 0.0, 0.3, 1.0, 2.0}) EXPECT_EQ(ramp(share).size(), share < 0.0 ? 4U : 7U);
+  for (const double share : {-1.0, 0.0, 0.3, 1.0, 2.0})
+    EXPECT_EQ(ramp(share).size(), share < 0.0 ? 4U : 7U);
   EXPECT_EQ(ramp(NAN), "line");
   EXPECT_NE(ramp(0.0), ramp(1.0));
 }
 
 TEST(Html, ATableKeepsItsNumbersUnitsAndNotes) {
-  const Table table{.title = "T<", .columns = {{"method", ""}, {"mean", "dps"}}, .rows = {{"kf", 0.25}, {"a&b", {}}}, .notes = {"n>"}};
+  const Table table{.title = "T<",
+                    .columns = {{"method", ""}, {"mean", "dps"}},
+                    .rows = {{"kf", 0.25}, {"a&b", {}}},
+                    .notes = {"n>"}};
   const auto text = html(table);
-  for (const char* part : {"T&lt;", "mean [dps]", ">kf<", ">0.25<", "a&amp;b", ">–<", "n&gt;"}) EXPECT_THAT(text, HasSubstr(part));
+  for (const char* part : {"T&lt;", "mean [dps]", ">kf<", ">0.25<", "a&amp;b", ">–<", "n&gt;"})
+    EXPECT_THAT(text, HasSubstr(part));
 }
 
 TEST(Html, APageAsksNobodyForAnything) {

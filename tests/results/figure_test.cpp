@@ -14,11 +14,13 @@ using testing::HasSubstr;
 using testing::Not;
 
 LineChart chart() {
-  return {.title = "a < b & c",
-          .x_label = "t [s]",
-          .y_label = "y",
-          .lines = {{.name = "one", .x = {1, 2, 3}, .y = {1, NAN, 4}, .low = {}, .high = {}},
-                    {.name = "two", .x = {1, 2, 3}, .y = {0, 1, 2}, .low = {-1, 0, 1}, .high = {1, 2, 3}}}};
+  return {
+      .title = "a < b & c",
+      .x_label = "t [s]",
+      .y_label = "y",
+      .lines = {
+          {.name = "one", .x = {1, 2, 3}, .y = {1, NAN, 4}, .low = {}, .high = {}},
+          {.name = "two", .x = {1, 2, 3}, .y = {0, 1, 2}, .low = {-1, 0, 1}, .high = {1, 2, 3}}}};
 }
 
 std::size_t count(const std::string& text, const std::string& part) {
@@ -54,8 +56,11 @@ TEST(LineChart, GivesEachLineAPanel) {
 }
 
 TEST(HeatMap, MarksTheLeastOfEachRowAmongTheRanked) {
-  const HeatMap map{.title = "m", .rows = {"r"}, .columns = {"a", "b", "best"},
-                    .values = {{2.0, 20.0, 1.0}}, .ranked = {true, true, false}};
+  const HeatMap map{.title = "m",
+                    .rows = {"r"},
+                    .columns = {"a", "b", "best"},
+                    .values = {{2.0, 20.0, 1.0}},
+                    .ranked = {true, true, false}};
   const auto text = svg(map);
   EXPECT_EQ(count(text, "font-weight=\"bold\""), 1);
   EXPECT_THAT(text, HasSubstr("font-weight=\"bold\">2<"));
@@ -64,10 +69,11 @@ TEST(HeatMap, MarksTheLeastOfEachRowAmongTheRanked) {
 }
 
 TEST(ParseTables, GivesBackWhatWasRendered) {
-  const std::vector<Table> tables = {
-      {.title = "t", .columns = {{"a", ""}, {"b", "dps"}}, .rows = {{std::string("x|y"), 0.1}, {std::int64_t{3}, {}}},
-       .notes = {"n"}},
-      {.title = "empty", .columns = {}, .rows = {}, .notes = {}}};
+  const std::vector<Table> tables = {{.title = "t",
+                                      .columns = {{"a", ""}, {"b", "dps"}},
+                                      .rows = {{std::string("x|y"), 0.1}, {std::int64_t{3}, {}}},
+                                      .notes = {"n"}},
+                                     {.title = "empty", .columns = {}, .rows = {}, .notes = {}}};
   const auto back = parse_tables(render(tables, Format::json), "here");
   for (const auto format : {Format::json, Format::csv, Format::markdown})
     EXPECT_EQ(render(back, format), render(tables, format));
@@ -80,7 +86,8 @@ TEST(ParseTables, NamesThePlaceOfAnythingElse) {
 
 /// Ranks 1, 1.5 and 3: a bar joins the first two alone.
 TEST(RankDiagram, JoinsWhatTheCriticalDifferenceSpans) {
-  const RankDiagram diagram{.title = "t", .methods = {{"c", 3.0}, {"a", 1.0}, {"b", 1.5}, {"x", NAN}},
+  const RankDiagram diagram{.title = "t",
+                            .methods = {{"c", 3.0}, {"a", 1.0}, {"b", 1.5}, {"x", NAN}},
                             .critical_difference = 0.6};
   const auto text = svg(diagram);
   EXPECT_EQ(text, svg(diagram));

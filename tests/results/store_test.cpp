@@ -18,7 +18,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const Manifest manifest{"d1", "study", 7, "{}", "/", {"x", "y"}, {{"a", {"kf", "stf"}, 1000, 0}, {"b", {"kf"}, 5, 0}}};
+const Manifest manifest{
+    "d1", "study", 7, "{}", "/", {"x", "y"}, {{"a", {"kf", "stf"}, 1000, 0}, {"b", {"kf"}, 5, 0}}};
 
 Store store_in(const TestFolder& folder) {
   auto store = Store::open_or_create(folder.path(), manifest);
@@ -52,7 +53,8 @@ TEST(Store, ReadsBackTheBitsThatWereWrittenInOrderOfTrials) {
   store.for_each_trial(0, 3, [&](const auto& trial) {
     const auto expected = row(0, 2).outcomes;
     ASSERT_EQ(trial.outcomes.size(), expected.size());
-    EXPECT_EQ(std::memcmp(trial.outcomes.data(), expected.data(), sizeof(double) * expected.size()), 0);
+    EXPECT_EQ(std::memcmp(trial.outcomes.data(), expected.data(), sizeof(double) * expected.size()),
+              0);
   });
   EXPECT_EQ(store.manifest().cells[0].finished, 3U);
   EXPECT_EQ(store.manifest().cells[1].finished, 1U);
@@ -78,8 +80,11 @@ TEST(Store, TheSameTrialMayComeAgainButNotWithAnotherOutcome) {
   store.write(std::vector{row(0, 3)});
   store.write(std::vector{row(0, 3)});
   EXPECT_EQ(store.manifest().cells[0].finished, 1U);
-  EXPECT_THAT([&] { store.write(std::vector{row(0, 4), row(0, 3, 0.5)}); },
-              ThrowsMessage<StoreError>(HasSubstr("another outcome")));
+  EXPECT_THAT(
+      [&] {
+        store.write(std::vector{row(0, 4), row(0, 3, 0.5)});
+      },
+      ThrowsMessage<StoreError>(HasSubstr("another outcome")));
   EXPECT_THAT(trials_of(store, 0), ElementsAre(3)) << "a batch is there whole or not at all";
 }
 
@@ -87,7 +92,8 @@ TEST(Store, OneProcessWritesWhileOthersRead) {
   const TestFolder folder;
   auto store = store_in(folder);
   store.write(std::vector{row(0, 1)});
-  EXPECT_THAT([&] { store_in(folder); }, ThrowsMessage<StoreError>(HasSubstr("another run is writing")));
+  EXPECT_THAT([&] { store_in(folder); },
+              ThrowsMessage<StoreError>(HasSubstr("another run is writing")));
   const auto reader = Store::open(folder.path());
   EXPECT_THAT(trials_of(reader, 0), ElementsAre(1));
   store.write(std::vector{row(0, 2)});
@@ -114,7 +120,8 @@ TEST(Store, MergingIsIdempotentAndInAnyOrderGivesTheSame) {
 }
 
 /// A store of a hundred trials whose file has been tampered with.
-TestFolder& damaged(TestFolder& folder, const std::function<void(std::fstream&, std::size_t)>& harm) {
+TestFolder& damaged(TestFolder& folder,
+                    const std::function<void(std::fstream&, std::size_t)>& harm) {
   {
     auto store = store_in(folder);
     std::vector<TrialRow> rows;
@@ -130,8 +137,10 @@ TestFolder& damaged(TestFolder& folder, const std::function<void(std::fstream&, 
 TEST(Store, ADamagedFileIsSaidInOneLineWithWhatToDo) {
   const std::map<std::string, std::function<void(std::fstream&, std::size_t)>> harms = {
       {"the head", [](auto& file, auto) { file.seekp(0).write("nonsense nonsense", 17); }},
-      {"a page", [](auto& file, auto size) {
-         file.seekp(static_cast<std::streamoff>(size - 16384)).write(std::string(16384, '\x55').data(), 16384);
+      {"a page",
+       [](auto& file, auto size) {
+         file.seekp(static_cast<std::streamoff>(size - 16384))
+             .write(std::string(16384, '\x55').data(), 16384);
        }},
   };
   for (const auto& [what, harm] : harms) {
@@ -139,9 +148,10 @@ TEST(Store, ADamagedFileIsSaidInOneLineWithWhatToDo) {
     TestFolder folder;
     damaged(folder, harm);
     const auto before = folder.contents();
-    EXPECT_THAT([&] { trials_of(store_in(folder), 0); },
-                ThrowsMessage<StoreError>(testing::AllOf(HasSubstr("is damaged"), HasSubstr("--set-aside"),
-                                                         testing::Not(HasSubstr("\n")))));
+    EXPECT_THAT(
+        [&] { trials_of(store_in(folder), 0); },
+        ThrowsMessage<StoreError>(testing::AllOf(HasSubstr("is damaged"), HasSubstr("--set-aside"),
+                                                 testing::Not(HasSubstr("\n")))));
     EXPECT_EQ(folder.contents().at("store.db"), before.at("store.db"));
   }
 }

@@ -20,7 +20,8 @@ struct BiasOverTemperature : Lens {
     const auto& warming = seen.slow_warming_C_per_s();
     std::vector<double> branch(T.size());
     for (const bool rising : {true, false}) {
-      for (std::size_t i = 0; i < T.size(); ++i) branch[i] = (warming[i] > 0.0) == rising ? T[i] : no_value;
+      for (std::size_t i = 0; i < T.size(); ++i)
+        branch[i] = (warming[i] > 0.0) == rising ? T[i] : no_value;
       auto& bins = rising ? rising_ : falling_;
       bins = Bins(branch, slow_spans(), edges, 3);
       at.insert(at.end(), bins.at().begin(), bins.at().end());

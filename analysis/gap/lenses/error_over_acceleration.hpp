@@ -4,7 +4,8 @@
 
 namespace gyrostat::gap::lenses {
 
-/// Regression coefficients, dps/(m/s²), of the slow rate error on the acceleration along x, y and z.
+/// Regression coefficients, dps/(m/s²), of the slow rate error on the acceleration along x, y and
+/// z.
 struct ErrorOverAcceleration : Lens {
   static constexpr std::string_view title = "rate error against acceleration";
   static constexpr std::string_view channel = "gyro_dps";

@@ -27,13 +27,15 @@ struct Exceedances : Lens {
       for (std::size_t i = span.first + 1; i < span.last; ++i)
         steps.push_back(std::abs(scene.rate_error_dps[i] - scene.rate_error_dps[i - 1]));
     std::vector<double> sample;  // every seventh step is enough for a median
-    for (std::size_t i = 0; i < steps.size(); i += 1 + steps.size() / 20000) sample.push_back(steps[i]);
+    for (std::size_t i = 0; i < steps.size(); i += 1 + steps.size() / 20000)
+      sample.push_back(steps[i]);
     const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
     std::nth_element(sample.begin(), middle, sample.end());
     const double deviation = *middle / 0.6744897501960817;
     std::array<double, beyond.size()> counts{};
     for (const double step : steps)
-      for (std::size_t k = 0; k < beyond.size() && step > beyond[k] * deviation; ++k) counts[k] += 1.0;
+      for (std::size_t k = 0; k < beyond.size() && step > beyond[k] * deviation; ++k)
+        counts[k] += 1.0;
     for (std::size_t k = 0; k < beyond.size(); ++k)
       out[k] = std::log((counts[k] + 2.0) / static_cast<double>(steps.size()));
   }

@@ -30,7 +30,8 @@ struct HeadingOverLag : Lens {
       double product = 0.0;
       for (const auto& span : spans())
         for (std::size_t i = span.first + lag; i < span.last; ++i)
-          if (!is_missing(scene.heading_error_deg[i])) product += rate[i - lag] * scene.heading_error_deg[i];
+          if (!is_missing(scene.heading_error_deg[i]))
+            product += rate[i - lag] * scene.heading_error_deg[i];
       *out++ = product / energy_;
     }
   }

@@ -4,8 +4,8 @@
 
 namespace gyrostat::gap::lenses {
 
-/// Logarithm of the kurtosis of the steps between neighbouring means: 0.41 fewer than ln 3 for two levels,
-/// above it where changes are rare and large.
+/// Logarithm of the kurtosis of the steps between neighbouring means: 0.41 fewer than ln 3 for two
+/// levels, above it where changes are rare and large.
 struct IncrementTails : OctaveLens {
   static constexpr std::string_view title = "tails of the increments over averaging time";
   static constexpr std::string_view channel = "gyro_dps";

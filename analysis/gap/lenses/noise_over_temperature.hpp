@@ -22,10 +22,12 @@ struct NoiseOverTemperature : Lens {
 
   void read(const Scene& scene, double* out) const {
     const auto& e = scene.rate_error_dps;
-    bins_.means([&](std::size_t i) {
-      const double step = e[i] - e[i - 1];
-      return step * step;
-    }, out);
+    bins_.means(
+        [&](std::size_t i) {
+          const double step = e[i] - e[i - 1];
+          return step * step;
+        },
+        out);
     double mean = 0.0;
     for (std::size_t b = 0; b < at.size(); ++b) mean += out[b] / static_cast<double>(at.size());
     for (std::size_t b = 0; b < at.size(); ++b) out[b] = level(out[b]) - level(mean);

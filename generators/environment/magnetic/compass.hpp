@@ -41,8 +41,8 @@ struct Compass {
     return std::array{
         Field{"noise_std_deg", &P::noise_std_deg, "deg", ranges::non_negative,
               "standard deviation of the white heading noise, per sample"},
-        Field{"initial_heading_deg", &P::initial_heading_deg, "deg",
-              Range{.from = -180, .to = 180}, "true heading at the first sample"},
+        Field{"initial_heading_deg", &P::initial_heading_deg, "deg", Range{.from = -180, .to = 180},
+              "true heading at the first sample"},
     };
   }
 

@@ -6,7 +6,8 @@
 
 namespace gyrostat::motion {
 
-/// A rate table stepping through +rate, rest, -rate, rest, so that it ends each cycle where it began.
+/// A rate table stepping through +rate, rest, -rate, rest, so that it ends each cycle where it
+/// began.
 struct RateTable {
   double rate_dps = 10.0;
   double period_s = 40.0;

@@ -21,8 +21,10 @@ struct RampAndCooling {
     using P = RampAndCooling;
     return std::array{
         Field{"start_C", &P::start_C, "°C", ranges::temperature_C, "temperature at the start"},
-        Field{"peak_C", &P::peak_C, "°C", ranges::temperature_C, "temperature at the end of the ramp"},
-        Field{"room_C", &P::room_C, "°C", ranges::temperature_C, "temperature that cooling tends to"},
+        Field{"peak_C", &P::peak_C, "°C", ranges::temperature_C,
+              "temperature at the end of the ramp"},
+        Field{"room_C", &P::room_C, "°C", ranges::temperature_C,
+              "temperature that cooling tends to"},
         Field{"delay_s", &P::delay_s, "s", ranges::non_negative, "time before the ramp"},
         Field{"ramp_s", &P::ramp_s, "s", ranges::positive, "duration of the ramp"},
         Field{"cooling_time_constant_s", &P::cooling_time_constant_s, "s", ranges::positive,

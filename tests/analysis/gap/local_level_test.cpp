@@ -22,7 +22,8 @@ std::vector<std::size_t> points_with_hole(std::size_t count) {
   return points;
 }
 
-Eigen::VectorXd walk_in_noise(const std::vector<std::size_t>& points, double ratio, std::uint32_t trial) {
+Eigen::VectorXd walk_in_noise(const std::vector<std::size_t>& points, double ratio,
+                              std::uint32_t trial) {
   std::vector<double> steps(points.back() + 1), white(points.size());
   NormalStream(3, trial, "walk").fill(0, steps);
   NormalStream(3, trial, "white").fill(0, white);
@@ -33,7 +34,8 @@ Eigen::VectorXd walk_in_noise(const std::vector<std::size_t>& points, double rat
   return values;
 }
 
-/// -2 log of the restricted likelihood (Harville, Biometrika 61, 1974), white noise concentrated out.
+/// -2 log of the restricted likelihood (Harville, Biometrika 61, 1974), white noise concentrated
+/// out.
 double dense_deviance(const std::vector<std::size_t>& points, const Eigen::MatrixXd& regressors,
                       const Eigen::VectorXd& y, double ratio) {
   const Eigen::Index n = y.size();
@@ -41,7 +43,8 @@ double dense_deviance(const std::vector<std::size_t>& points, const Eigen::Matri
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
       V(i, j) += ratio * static_cast<double>(std::min(points[static_cast<std::size_t>(i)],
-                                                      points[static_cast<std::size_t>(j)]) - points[0]);
+                                                      points[static_cast<std::size_t>(j)]) -
+                                             points[0]);
   Eigen::MatrixXd X(n, regressors.cols() + 1);
   X << Eigen::VectorXd::Ones(n), regressors;
   const Eigen::MatrixXd W = V.inverse();
@@ -60,7 +63,8 @@ TEST(LocalLevel, ItsLikelihoodIsThatOfDenseMatrices) {
   const RatioLikelihood likelihood(points, regressors, y);
   // At ratios of its own grid, where nothing is interpolated.
   const auto at = [](int k) { return 1e-9 * std::exp(0.5 * k); };
-  const double between = dense_deviance(points, regressors, y, at(30)) - dense_deviance(points, regressors, y, at(44));
+  const double between =
+      dense_deviance(points, regressors, y, at(30)) - dense_deviance(points, regressors, y, at(44));
   EXPECT_NEAR(likelihood.deviance(at(30)) - likelihood.deviance(at(44)), between, 1e-6);
   EXPECT_DOUBLE_EQ(likelihood.deviance(likelihood.most_likely()), 0.0);
 }
@@ -71,7 +75,9 @@ TEST(LocalLevel, FindsTheRatioOfARandomWalk) {
   const auto points = points_with_hole(300);
   double sum = 0.0;
   for (std::uint32_t trial = 0; trial < 400; ++trial)
-    sum += std::log(RatioLikelihood(points, Eigen::MatrixXd(300, 0), walk_in_noise(points, 0.1, trial)).most_likely());
+    sum +=
+        std::log(RatioLikelihood(points, Eigen::MatrixXd(300, 0), walk_in_noise(points, 0.1, trial))
+                     .most_likely());
   EXPECT_NEAR(sum / 400.0, std::log(0.1), 0.1);
 }
 

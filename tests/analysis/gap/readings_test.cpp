@@ -1,4 +1,5 @@
-// What the lenses are built on: spectra, octaves, the split of a recording, and the lenses' contract.
+// What the lenses are built on: spectra, octaves, the split of a recording, and the lenses'
+// contract.
 
 #include <cmath>
 #include <numbers>
@@ -130,7 +131,8 @@ TEST(Conditions, NeverMixThePartsInAMeanOrABridge) {
     for (std::size_t i = edge - 1; i < edge + 2; ++i) s.gyro_dps[i] = no_value;
     const Conditions conditions(s);
     for (const auto& span : conditions.slow_spans(Part::train))
-      for (std::size_t i = span.first * conditions.cluster(); i < span.last * conditions.cluster(); ++i)
+      for (std::size_t i = span.first * conditions.cluster(); i < span.last * conditions.cluster();
+           ++i)
         ASSERT_EQ(conditions.part_of(i), Part::train) << samples << " " << i;
     auto values = s.gyro_dps;
     conditions.bridge(values);
@@ -227,7 +229,8 @@ TYPED_TEST(LensContract, IsAbsentWhereItsChannelIs) {
   const Conditions conditions(bare);
   const typename TypeParam::type lens(conditions, Part::train);
   const std::string_view coordinate = TypeParam::type::coordinate;
-  if (TypeParam::type::channel == "heading_deg" || coordinate == "temperature_C" || coordinate == "rate_dps") {
+  if (TypeParam::type::channel == "heading_deg" || coordinate == "temperature_C" ||
+      coordinate == "rate_dps") {
     EXPECT_TRUE(lens.at.empty());
   }
 }

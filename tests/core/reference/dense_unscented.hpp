@@ -139,7 +139,8 @@ class DenseUnscented {
     return innovation;
   }
 
-  /// The noise states back to zero mean and unit covariance, their correlation with the rest dropped.
+  /// The noise states back to zero mean and unit covariance, their correlation with the rest
+  /// dropped.
   void reset_noise() {
     mean_.template tail<2>().setZero();
     root_.template bottomRows<2>().setZero();
@@ -156,9 +157,7 @@ class DenseUnscented {
 
   T estimate() const { return mean_(0); }
   T variance() const { return root_(0, 0) * root_(0, 0); }
-  LearnedParameters learned() const
-    requires std::same_as<T, double>
-  {
+  LearnedParameters learned() const requires std::same_as<T, double> {
     return {mean_(2), root_.row(2).norm(), mean_(3), mean_(4)};
   }
   const State& mean() const { return mean_; }
@@ -212,6 +211,5 @@ Step<T> dense_cycle(DenseUnscented<T>& filter, const std::optional<Vector<T, 7>>
   }
   return step;
 }
-
 
 }  // namespace gyrostat::reference
