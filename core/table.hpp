@@ -19,8 +19,8 @@ struct TableColumn {
 struct Table {
   std::string title;
   std::vector<TableColumn> columns;
-  std::vector<std::vector<TableCell>> rows;
-  std::vector<std::string> notes;
+  std::vector<std::vector<TableCell>> rows{};
+  std::vector<std::string> notes{};
 };
 
 /// A table under the name that pages and files call it by.

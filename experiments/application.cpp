@@ -48,9 +48,7 @@ Table statistics_table(const Series& judged, const std::vector<Track>& tracks,
                           {"heading range", "deg"},
                           {"NIS", "1"},
                           {"log score", "nat"},
-                          {"breakdown steps", ""}},
-              .rows = {},
-              .notes = {}};
+                          {"breakdown steps", ""}}};
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const TrackErrors errors = track_errors(judged, tracks[m]);
     const auto counts = tracks[m].status_counts();
@@ -74,9 +72,7 @@ Table statistics_table(const Series& judged, const std::vector<Track>& tracks,
 Table allan_table(const Series& judged, const std::vector<Track>& tracks,
                   const std::vector<Method>& methods, const std::string& title) {
   Table table{.title = title + ": overlapping Allan deviation, raw (none) against compensated",
-              .columns = {{"method", ""}},
-              .rows = {},
-              .notes = {}};
+              .columns = {{"method", ""}}};
   const auto clusters = decade_clusters(judged);
   for (const std::size_t cluster : clusters)
     table.columns.push_back(

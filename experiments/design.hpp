@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,9 @@ namespace gyrostat {
 struct Cell;
 
 enum class DesignKind { grid, list, latin_hypercube, sobol, one_at_a_time, morris, saltelli };
+inline constexpr std::array all_design_kinds = {
+    DesignKind::grid,          DesignKind::list,   DesignKind::latin_hypercube, DesignKind::sobol,
+    DesignKind::one_at_a_time, DesignKind::morris, DesignKind::saltelli};
 
 /// A parameter that a design varies.
 struct DesignParameter {

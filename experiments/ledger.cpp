@@ -215,14 +215,10 @@ std::vector<Finding> judge(const Ledger& ledger,
 }
 
 std::vector<Table> ledger_tables(const Ledger& ledger, const std::vector<Finding>& findings) {
-  Table claims{.title = ledger.title,
-               .columns = {{"claim", ""},
-                           {"source", ""},
-                           {"measured", ""},
-                           {"difference", ""},
-                           {"verdict", ""}},
-               .rows = {},
-               .notes = {}};
+  Table claims{
+      .title = ledger.title,
+      .columns = {
+          {"claim", ""}, {"source", ""}, {"measured", ""}, {"difference", ""}, {"verdict", ""}}};
   Table detail{.title = ledger.title + ": findings",
                .columns = {{"claim", ""},
                            {"cell", ""},
@@ -232,9 +228,7 @@ std::vector<Table> ledger_tables(const Ledger& ledger, const std::vector<Finding
                            {"± 95 % simultaneous", ""},
                            {"trials", ""},
                            {"verdict", ""},
-                           {"trials to tell", ""}},
-               .rows = {},
-               .notes = {}};
+                           {"trials to tell", ""}}};
   for (std::size_t c = 0; c < ledger.claims.size(); ++c) {
     std::vector<const Finding*> own;
     for (const auto& f : findings) {

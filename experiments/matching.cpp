@@ -157,9 +157,7 @@ MatchResult run_match(const Match& match, std::ostream& log, const std::atomic<b
 
 std::vector<Table> match_tables(const Match& match, const MatchResult& result) {
   Table found{.title = match.title + ": scenario found",
-              .columns = {{"parameter", ""}, {"value", ""}, {"searched from", ""}, {"to", ""}},
-              .rows = {},
-              .notes = {}};
+              .columns = {{"parameter", ""}, {"value", ""}, {"searched from", ""}, {"to", ""}}};
   for (std::size_t i = 0; i < match.free.size(); ++i)
     found.rows.push_back({match.free[i].first, result.values[i], match.free[i].second.low,
                           match.free[i].second.high});
@@ -172,9 +170,7 @@ std::vector<Table> match_tables(const Match& match, const MatchResult& result) {
                             {"± 95 %", ""},
                             {"spread of one run", ""},
                             {"deviation", "tolerances"},
-                            {"met", ""}},
-                .rows = {},
-                .notes = {}};
+                            {"met", ""}}};
   const auto metrics = Metrics::ids();
   int met = 0;
   for (std::size_t t = 0; t < match.targets.size(); ++t) {

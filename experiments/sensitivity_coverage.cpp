@@ -211,9 +211,7 @@ Table groups_of(const Table& intervals) {
                           {"how many", ""},
                           {"smallest", "%"},
                           {"mean", "%"},
-                          {"largest", "%"}},
-              .rows = {},
-              .notes = {}};
+                          {"largest", "%"}}};
   for (const auto& [kind, noise, of] : groups) {
     const auto [low, high] = std::minmax_element(of.begin(), of.end());
     const auto count = static_cast<double>(of.size());
@@ -242,9 +240,7 @@ std::vector<NamedTable> sensitivity_coverage(std::uint32_t repeats, std::uint64_
                           {"standard error", "%"},
                           {"truth below", "%"},
                           {"mean width", ""},
-                          {"no interval", "repeats"}},
-              .rows = {},
-              .notes = {}};
+                          {"no interval", "repeats"}}};
   const std::vector<double> a = {0.0, 1.0, 4.5, 9.0};
   const Function g = [a](std::span<const double> u) { return sobol_g(u, a); };
   const std::vector<TrialNoise> noises = {{"none", 0.0, 0.0, 0.0},

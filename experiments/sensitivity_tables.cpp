@@ -23,9 +23,7 @@ void append(std::vector<TableCell>& row, const Estimate& e) {
 /// The head of a table of estimates.
 Table begun(const Sensitivity& s, const std::string& what) {
   return {.title = fmt::format("{}: {} of {}", s.design, what, s.metric),
-          .columns = {{"method", ""}, {"parameter", ""}, {"from, to", ""}},
-          .rows = {},
-          .notes = {}};
+          .columns = {{"method", ""}, {"parameter", ""}, {"from, to", ""}}};
 }
 
 void add_columns(Table& table, const std::string& name, const std::string& unit) {
@@ -181,9 +179,7 @@ std::vector<Table> point_tables(const std::vector<Sensitivity>& all, const Study
     if (methods.empty()) continue;
     Table table{
         .title = fmt::format("{}: mean {} at each point", design.name, methods.front()->metric),
-        .columns = {{"point", ""}},
-        .rows = {},
-        .notes = {}};
+        .columns = {{"point", ""}}};
     for (const auto& p : design.parameters) table.columns.push_back({p.name, shown(p.unit)});
     for (const auto* s : methods)
       table.columns.insert(

@@ -47,9 +47,6 @@ struct Lens {
 /// A power on a scale where its sampling error is even.
 inline double level(double power) { return std::log(std::max(power, 1e-30)); }
 
-/// How many different numbers there are; in time proportional to their count.
-std::size_t distinct_values(const std::vector<double>& values);
-
 /// Bins of some coordinate, and which bin every chosen index falls in.
 class Bins {
  public:

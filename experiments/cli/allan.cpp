@@ -24,9 +24,7 @@ int run(const AllanArguments& arguments, Console& console) {
                           {"deviation", "dps"},
                           {"lower 95 %", "dps"},
                           {"upper 95 %", "dps"},
-                          {"degrees of freedom", "1"}},
-              .rows = {},
-              .notes = {}};
+                          {"degrees of freedom", "1"}}};
   if (series.size() < 4)
     throw InputError(arguments.recording.file,
                      fmt::format("{} samples; at least 4 are needed", series.size()));

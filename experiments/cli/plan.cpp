@@ -91,9 +91,7 @@ Table plan_table(const Study& study, const std::vector<PlannedPart>& parts,
                           {"time", "s"},
                           {"disk", "MB"},
                           {"pilot trials", ""},
-                          {"cells", ""}},
-              .rows = {},
-              .notes = {}};
+                          {"cells", ""}}};
   double seconds = 0.0, bytes = 0.0, steps = 0.0;
   for (const auto& part : parts) {
     const auto& [cell, plan] = std::tie(*part.first, part.plan);

@@ -59,8 +59,7 @@ void print_steps(const Series& series, const Track& track, std::ostream& out) {
 }
 
 Table outcome_table(const std::string& address, const Outcome& outcome) {
-  Table table{
-      .title = address, .columns = {{"metric", ""}, {"value", ""}}, .rows = {}, .notes = {}};
+  Table table{.title = address, .columns = {{"metric", ""}, {"value", ""}}};
   const auto ids = Metrics::ids();
   for (std::size_t m = 0; m < metric_count; ++m)
     table.rows.push_back({ids[m], gyrostat::cell(outcome.metrics[m])});

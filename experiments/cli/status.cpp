@@ -35,9 +35,7 @@ std::uint32_t together(const Manifest& manifest, std::uint32_t first) {
 Table cells_table(const Store& store, const Manifest& manifest) {
   Table table{
       .title = fmt::format("{}: seed {}, digest {}", manifest.name, manifest.seed, manifest.digest),
-      .columns = {{"cell", ""}, {"finished", ""}, {"trials", ""}, {"failed", ""}},
-      .rows = {},
-      .notes = {}};
+      .columns = {{"cell", ""}, {"finished", ""}, {"trials", ""}, {"failed", ""}}};
   for (std::uint32_t c = 0; c < manifest.cells.size();) {
     const std::uint32_t count = together(manifest, c);
     const auto name =
@@ -59,10 +57,7 @@ Table cells_table(const Store& store, const Manifest& manifest) {
 
 /// Why cells have stopped before all of their trials, where rules have been asked.
 Table stops_table(const Store& store) {
-  Table table{.title = "stop rules",
-              .columns = {{"cell", ""}, {"trials", ""}, {"stopped", ""}},
-              .rows = {},
-              .notes = {}};
+  Table table{.title = "stop rules", .columns = {{"cell", ""}, {"trials", ""}, {"stopped", ""}}};
   const auto study = stored_study(store);
   for (std::uint32_t c = 0; c < study.cells.size(); ++c) {
     const auto& cell = study.cells[c];
@@ -105,9 +100,7 @@ Table sessions_table(const Store& store) {
                           {"build", ""},
                           {"compiler", ""},
                           {"flags", ""},
-                          {"machine", ""}},
-              .rows = {},
-              .notes = {}};
+                          {"machine", ""}}};
   for (const auto& session : store.sessions())
     table.rows.push_back({session.started, session.process, session.trials, last_words(session),
                           session.build.version, session.build.compiler, session.build.flags,
@@ -116,8 +109,7 @@ Table sessions_table(const Store& store) {
 }
 
 Table failures_table(const Store& store, const Manifest& manifest) {
-  Table table{
-      .title = "failures", .columns = {{"address", ""}, {"reason", ""}}, .rows = {}, .notes = {}};
+  Table table{.title = "failures", .columns = {{"address", ""}, {"reason", ""}}};
   store.for_each_failure([&](const Failure& failure) {
     const auto& cell = manifest.cells.at(failure.cell);
     table.rows.push_back(

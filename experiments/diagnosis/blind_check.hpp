@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/json_object.hpp"
 #include "generators/scenario.hpp"
 
 namespace gyrostat::gap {
@@ -25,6 +26,7 @@ struct BlindCheck {
   std::uint32_t none_recordings = 40;
   bool left_out = true;  ///< each strong effect is diagnosed without itself, too
   std::vector<BlindCase> cases;
+  Json file;  ///< as it was read
 };
 
 /// Reads and checks a blind check's file; InputError with the JSON path.
@@ -32,7 +34,7 @@ BlindCheck read_blind_check(const std::string& path);
 
 /// Writes the recordings to `folder`/recordings under numbers in an order that tells nothing, with
 /// the channels that a recorder has, and their labels to `folder`/sealed_labels.json. What is there
-/// already stays.
+/// already stays; InputError where it is another check's.
 void make_recordings(const BlindCheck& check, const std::filesystem::path& folder);
 
 /// Runs `program` diagnose on every recording of `folder` in a process of its own, which is given

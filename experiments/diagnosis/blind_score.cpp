@@ -183,7 +183,6 @@ Table Score::aims() const {
                           {"members", ""},
                           {"median closed", "1"},
                           {"abstained without it", ""}},
-              .rows = {},
               .notes = {"shares with 95 % Wilson intervals, in %; for \"none\", named first is the "
                         "share without a false alarm"}};
   for (const auto& [name, t] : totals)
@@ -204,9 +203,7 @@ Table Score::effects() const {
                           {"median closed", "1"},
                           {"unknown", ""},
                           {"none", ""},
-                          {"taken for", ""}},
-              .rows = {},
-              .notes = {}};
+                          {"taken for", ""}}};
   for (const auto& [key, t] : tallies_)
     table.rows.push_back({key.second, key.first, t.first.text(), t.covered.text(), t.mean_members(),
                           t.median_closed(), t.unknown, t.none, in_words(t.named, key.second)});
@@ -215,9 +212,7 @@ Table Score::effects() const {
 
 Table Score::left_out() const {
   Table table{.title = title_ + ": with the effect left out of the catalogue",
-              .columns = {{"effect", ""}, {"abstained", ""}, {"verdicts", ""}},
-              .rows = {},
-              .notes = {}};
+              .columns = {{"effect", ""}, {"abstained", ""}, {"verdicts", ""}}};
   for (const auto& [key, t] : tallies_)
     if (t.abstained.count > 0)
       table.rows.push_back({key.second, t.abstained.text(), in_words(t.named_without)});
@@ -226,9 +221,7 @@ Table Score::left_out() const {
 
 Table Score::calibration() const {
   Table table{.title = title_ + ": are the probabilities right?",
-              .columns = {{"stated", ""}, {"causes", ""}, {"mean stated", "1"}, {"right", ""}},
-              .rows = {},
-              .notes = {}};
+              .columns = {{"stated", ""}, {"causes", ""}, {"mean stated", "1"}, {"right", ""}}};
   for (std::size_t k = 0; k < calibration_.size(); ++k) {
     const auto& c = calibration_[k];
     const double from = 0.2 * static_cast<double>(k);
@@ -241,9 +234,7 @@ Table Score::calibration() const {
 
 Table Score::power() const {
   Table table{.title = title_ + ": named first, by effect and length",
-              .columns = {{"effect", ""}, {"strength", ""}},
-              .rows = {},
-              .notes = {}};
+              .columns = {{"effect", ""}, {"strength", ""}}};
   for (const double duration_s : durations_s_)
     table.columns.push_back({fmt::format("{:g} s", duration_s), ""});
   std::set<std::pair<std::string, std::string>> rows;
@@ -261,7 +252,6 @@ Table Score::power() const {
 Table Score::lengths() const {
   Table table{.title = title_ + ": named first, over all effects",
               .columns = {{"length", "s"}},
-              .rows = {},
               .notes = {"95 % Wilson intervals; for no effect, the share without a false alarm"}};
   const auto heading = [](const std::string& strength) {
     return strength.empty() ? std::string("no effect") : strength;

@@ -62,6 +62,8 @@ class Work {
   /// A cause whose score is counted from `from`.
   void keep(const Contender& c, double log_score, double from, double probability);
   void judge_claim();
+  /// What the recording still shows that the simulator, enriched, does not.
+  void see_what_is_left();
   void measure_shrinkage();
   void keep_bands();
   void look_ahead();
@@ -130,7 +132,7 @@ void Work::localise() {
       evidence_, *scoring_, observed_[0], baseline_replicas_, options_,
       [this](const std::string& what, double share) { tell(what, share); },
       [this](const std::string& part) { took(part); });
-  result_.p_before = train_->p_value(observed_[0]);
+  result_.p_before = result_.p_after = train_->p_value(observed_[0]);
   result_.where = departures_of(*train_);
   took("localisation");
 }
@@ -178,18 +180,17 @@ void Work::attribute() {
       gains.push_back(c.gain() - c.score.penalty(c.parameters - last.parameters));
     if (gains.front() < std::max(needed_gain, 0.12 * (last.score.expected - last.score.value)))
       break;
-    const auto shares = probabilities(gains, 0.0);
+    const auto likely = probabilities(gains, 0.0);
     for (std::size_t k = 0; k < next.size(); ++k)
-      if (k == 0 || shares[k] >= member_probability)
-        keep(next[k], gains[k], next[k].before, shares[k]);
+      if (k == 0 || likely[k] >= member_probability)
+        keep(next[k], gains[k], next[k].before, likely[k]);
     contest_->add(next.front());
   }
   const auto& final = contest_->added().back();
   result_.enriched = final.scenario;
   const double share = recovered(final, final.baseline);
-  const Ensemble enriched(simulator_.instrument(Part::train), final.replicas[0], {});
-  const bool misses =
-      final.score.deficit() > 4.0 || enriched.p_value(observed_[0]) < 0.1 * options_.significance;
+  see_what_is_left();
+  const bool misses = final.score.deficit() > 4.0 || result_.p_after < 0.1 * options_.significance;
   const bool unexplained = share < needed_recovery && misses;
   result_.verdict = unexplained ? "unknown" : result_.causes.front().effect;
   if (unexplained)
@@ -219,6 +220,14 @@ void Work::judge_claim() {
   result_.enriched = scenario;
   result_.verdict = contest_->added().front().effect;
   result_.claimed = true;
+  see_what_is_left();
+}
+
+void Work::see_what_is_left() {
+  const Ensemble enriched(simulator_.instrument(Part::train), contest_->added().back().replicas[0],
+                          {});
+  result_.p_after = enriched.p_value(observed_[0]);
+  result_.where_after = departures_of(enriched);
 }
 
 void Work::measure_shrinkage() {
@@ -227,7 +236,6 @@ void Work::measure_shrinkage() {
   const auto before = held_out_scoring_->of(baseline_replicas_[1]);
   const auto truth = added.empty() ? before : held_out_scoring_->of(added.back().replicas[1]);
   result_.gap_before = result_.gap_after = gap_of(before, truth);
-  result_.p_after = result_.p_before;
   result_.steps.push_back({"", result_.gap_before});
   const auto closed = [&](double to) {
     return result_.gap_before > 0.0 ? 1.0 - to / result_.gap_before : 0.0;
@@ -241,9 +249,6 @@ void Work::measure_shrinkage() {
     result_.steps.push_back({c.effect, gap_of(held_out_scoring_->of(c.replicas[1]), truth)});
   result_.gap_after = result_.steps.back().gap;
   result_.closed = closed(result_.gap_after);
-  const Ensemble enriched(simulator_.instrument(Part::train), added.back().replicas[0], {});
-  result_.p_after = enriched.p_value(observed_[0]);
-  result_.where_after = departures_of(enriched);
   const auto interval = bootstrap_closed(instrument, before, truth, truth, options_.seed);
   result_.closed_low = interval[0];
   result_.closed_high = interval[1];

@@ -74,9 +74,7 @@ std::vector<Table> diagnosis_tables(const Diagnosis& d, const std::string& name)
                           {"observed", ""},
                           {"simulated", ""},
                           {"unit", ""},
-                          {"p, family-wise", "1"}},
-              .rows = {},
-              .notes = {}};
+                          {"p, family-wise", "1"}}};
   for (const auto& w : d.where)
     where.rows.push_back(
         {w.lens, w.coordinate, w.from, w.to, w.observed, w.simulated, w.unit, w.p_adjusted});
@@ -88,16 +86,12 @@ std::vector<Table> diagnosis_tables(const Diagnosis& d, const std::string& name)
                            {"recovered", "1"},
                            {"gap after", "spreads"},
                            {"closed", "1"},
-                           {"parameters", ""}},
-               .rows = {},
-               .notes = {}};
+                           {"parameters", ""}}};
   for (const auto& c : d.causes)
     causes.rows.push_back({c.effect, c.probability, c.log_score, c.recovered, c.gap_after, c.closed,
                            parameters_in_words(c.scenario.effects.back())});
   Table steps{.title = name + ": the gap on the held-out part, step by step",
-              .columns = {{"added", ""}, {"gap", "spreads"}},
-              .rows = {},
-              .notes = {}};
+              .columns = {{"added", ""}, {"gap", "spreads"}}};
   for (const auto& s : d.steps)
     steps.rows.push_back({s.added.empty() ? "(baseline)" : s.added, s.gap});
   Table promises{.title = name + ": what the study promises, and what the recording shows",
@@ -106,16 +100,11 @@ std::vector<Table> diagnosis_tables(const Diagnosis& d, const std::string& name)
                              {"unit", ""},
                              {"recording", ""},
                              {"simulated before", ""},
-                             {"simulated after", ""}},
-                 .rows = {},
-                 .notes = {}};
+                             {"simulated after", ""}}};
   for (const auto& t : d.transfer)
     promises.rows.push_back(
         {t.filter, t.metric, t.unit, cell(t.real), cell(t.before), cell(t.after)});
-  Table missing{.title = name + ": not assessable",
-                .columns = {{"effect", ""}, {"why", ""}},
-                .rows = {},
-                .notes = {}};
+  Table missing{.title = name + ": not assessable", .columns = {{"effect", ""}, {"why", ""}}};
   for (const auto& n : d.not_assessable) missing.rows.push_back({n.effect, n.why});
   return {where, causes, steps, promises, missing};
 }

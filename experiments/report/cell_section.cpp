@@ -24,9 +24,7 @@ Table ranking_table(const CellView& v, const CellRanking& ranking) {
                           {"mean rank", ""},
                           {"diverged", ""},
                           {"broke down", ""},
-                          {"threw", ""}},
-              .rows = {},
-              .notes = {}};
+                          {"threw", ""}}};
   for (const auto& ranked : ranking.methods) {
     std::size_t m = 0;
     while (m + 1 < v.cell.methods.size() && v.cell.methods[m].id != ranked.method) ++m;

@@ -25,8 +25,7 @@ int main() {
     estimate = filter.update(z).estimate_dps;
   }
 
-  Table table{
-      .title = "outside", .columns = {{"tau", "s"}, {"deviation", "dps"}}, .rows = {}, .notes = {}};
+  Table table{.title = "outside", .columns = {{"tau", "s"}, {"deviation", "dps"}}};
   for (const auto& point : overlapping_allan_deviation(series.gyro_dps, series.rate_hz()))
     table.rows.push_back({point.tau_s, point.deviation});
   std::printf("%s%zu filters, last estimate %g dps\n", render({&table, 1}, Format::text).c_str(),

@@ -27,14 +27,14 @@ std::string rendered(const Table& table, Format format) { return render({&table,
 
 /// A table of one text column with these cells.
 Table texts(const std::vector<std::string>& cells) {
-  Table table{.title = "title", .columns = {{"text", ""}}, .rows = {}, .notes = {}};
+  Table table{.title = "title", .columns = {{"text", ""}}};
   for (const auto& text : cells) table.rows.push_back({text});
   return table;
 }
 
 /// A table of one row of numbers in dps.
 Table numbers(const std::vector<TableCell>& cells) {
-  Table table{.title = "title", .columns = {}, .rows = {cells}, .notes = {}};
+  Table table{.title = "title", .columns = {}, .rows = {cells}};
   for (std::size_t i = 0; i < cells.size(); ++i)
     table.columns.push_back({"column " + std::to_string(i), "dps"});
   return table;
@@ -177,7 +177,7 @@ TEST(Render, LatexHasACommandForEverySignOfTheTables) {
 }
 
 TEST(Render, TextAlignsByCharactersAndNotByBytes) {
-  Table table{.title = "title", .columns = {{"Größe", ""}, {"σ", "°C"}}, .rows = {}, .notes = {}};
+  Table table{.title = "title", .columns = {{"Größe", ""}, {"σ", "°C"}}};
   table.rows = {{"ä", 1.5}, {"longer than its head", 1234.5}, {"±±±", TableCell{}}};
   auto lines = lines_of(rendered(table, Format::text));
   lines.erase(lines.begin());
@@ -187,7 +187,7 @@ TEST(Render, TextAlignsByCharactersAndNotByBytes) {
 }
 
 TEST(Render, TextHasNoBlanksAtTheEndOfALine) {
-  Table table{.title = "title", .columns = {{"a", ""}, {"b", ""}}, .rows = {}, .notes = {"a note"}};
+  Table table{.title = "title", .columns = {{"a", ""}, {"b", ""}}, .notes = {"a note"}};
   table.rows = {{"x", "long text"}, {"y", "z"}};
   for (const auto& line : lines_of(rendered(table, Format::text)))
     EXPECT_FALSE(line.ends_with(' ')) << '\'' << line << '\'';
@@ -202,7 +202,7 @@ TEST(Render, NotesAreInEveryFormatForReadersAndInJson) {
 }
 
 TEST(Render, ATableWithoutRowsStillHasItsHead) {
-  const Table table{.title = "title", .columns = {{"a", "dps"}}, .rows = {}, .notes = {}};
+  const Table table{.title = "title", .columns = {{"a", "dps"}}};
   for (const auto format : {Format::text, Format::markdown, Format::csv, Format::latex})
     EXPECT_THAT(rendered(table, format), HasSubstr("a [dps]"));
   EXPECT_THAT(nlohmann::json::parse(rendered(table, Format::json))[0]["rows"], SizeIs(0));

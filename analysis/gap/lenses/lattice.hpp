@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/gap/distinct_values.hpp"
 #include "analysis/gap/lens.hpp"
 
 namespace gyrostat::gap::lenses {

@@ -49,6 +49,20 @@ TEST(BlindCheck, MakesEveryCaseAtEveryLengthUnderNumbersThatTellNothing) {
   EXPECT_FALSE(std::is_sorted(lengths.begin(), lengths.end()));
 }
 
+TEST(BlindCheck, KeepsToTheFolderOfItsOwnRecordings) {
+  TestFolder folder;
+  folder.write("check.json", check_json);
+  auto check = read_blind_check((folder.path() / "check.json").string());
+  const auto out = folder.path() / "out";
+  make_recordings(check, out);
+  make_recordings(check, out);  // the same again goes on
+  check.recordings = 3;
+  EXPECT_THROW(make_recordings(check, out), InputError);
+  check.recordings = 2;
+  check.file["seed"] = 4;
+  EXPECT_THROW(make_recordings(check, out), InputError);
+}
+
 class Scored : public testing::Test {
  protected:
   void diagnosed(BlindLabel label, const std::string& verdict,
