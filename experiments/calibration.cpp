@@ -17,7 +17,17 @@ double drift_at(const ThermalDrift<double>& drift, double temperature_C, double 
   return drift.a_dps_per_C * temperature_C + drift.b_dps_s_per_C * slope_C_per_s + drift.c_dps;
 }
 
-/// The rate error without its fitted drift, NaN where the gyro value is missing.
+double finite_or(double value, double fallback) { return std::isfinite(value) ? value : fallback; }
+
+}  // namespace
+
+FitMethod fit_method_named(const std::string& name, const std::string& place) {
+  static const std::vector<std::string> names = {"likelihood", "moments"};
+  if (name == names[0]) return FitMethod::likelihood;
+  if (name == names[1]) return FitMethod::moments;
+  throw InputError(place, unknown_name("fit method", name, names));
+}
+
 std::vector<double> without_drift(const Series& series, const std::optional<ThermalFit>& thermal) {
   std::vector<double> rest(series.size());
   const auto& T = series.temperature_C;
@@ -31,17 +41,6 @@ std::vector<double> without_drift(const Series& series, const std::optional<Ther
     rest[i] -= drift_at(thermal->parameters, T[i], slope);
   }
   return rest;
-}
-
-double finite_or(double value, double fallback) { return std::isfinite(value) ? value : fallback; }
-
-}  // namespace
-
-FitMethod fit_method_named(const std::string& name, const std::string& place) {
-  static const std::vector<std::string> names = {"likelihood", "moments"};
-  if (name == names[0]) return FitMethod::likelihood;
-  if (name == names[1]) return FitMethod::moments;
-  throw InputError(place, unknown_name("fit method", name, names));
 }
 
 Calibration calibrate(const Series& series, FitMethod method) {

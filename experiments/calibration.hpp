@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "analysis/fits/arima_fit.hpp"
 #include "analysis/fits/thermal_regression.hpp"
@@ -28,6 +29,10 @@ struct Calibration {
 };
 
 Calibration calibrate(const Series& series, FitMethod method);
+
+/// What the random error is fitted to: the rate error in dps without its fitted drift, NaN where
+/// the gyro value is missing.
+std::vector<double> without_drift(const Series& series, const std::optional<ThermalFit>& thermal);
 
 /// The calibration as parameters of filters. The first state is predicted from the drift at
 /// `start_temperature_C`, with a spread that allows for the sensor's level.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
+#include "analysis/statistics/all_pairs.hpp"
 #include "analysis/statistics/streamed.hpp"
 #include "experiments/trial.hpp"
 
@@ -89,7 +91,8 @@ CellSummary summarise_cell(const Cell& cell, const TrialSource& trials) {
       streams.push_back({m, metric_named(std::string(metric), "tables"), {}});
 
   const std::size_t judging = metric_named(std::string(judging_metric(cell)), "tables");
-  std::vector<StreamedDifference> differences;
+  std::optional<AllPairs> pairs;
+  std::vector<double> judged(methods);
   const auto outcome = [](std::span<const double> outcomes, std::size_t method) {
     return outcomes.subspan(method * column_count, column_count);
   };
@@ -109,9 +112,8 @@ CellSummary summarise_cell(const Cell& cell, const TrialSource& trials) {
       for (auto& stream : streams)
         if (stream.open) stream.summary.add(outcome(outcomes, stream.method)[stream.metric]);
       if (pass != 1 && pass != 2) return;
-      const double reference = outcome(outcomes, summary.best)[judging];
-      for (std::size_t m = 0; m < methods; ++m)
-        differences[m].add(outcome(outcomes, m)[judging], reference);
+      for (std::size_t m = 0; m < methods; ++m) judged[m] = outcome(outcomes, m)[judging];
+      pairs->add(judged);
     });
     more = false;
     for (auto& stream : streams) {
@@ -121,15 +123,13 @@ CellSummary summarise_cell(const Cell& cell, const TrialSource& trials) {
     }
     if (pass == 0) {
       summary.best = best_of(cell, summary);
-      summary.comparisons =
-          comparisons_after_looks(cell, methods * (methods - 1) / 2, summary.finished);
-      differences.assign(methods, StreamedDifference(summary.comparisons));
+      summary.looks = comparisons_of_looks(cell, summary.finished);
+      pairs.emplace(methods, summary.looks);
     }
-    if (pass == 1 || pass == 2)
-      for (auto& difference : differences) difference.another_pass();
+    if (pass == 1 || pass == 2) pairs->another_pass();
   }
   for (std::size_t m = 0; m < methods; ++m)
-    summary.methods[m].difference = differences[m].difference();
+    if (m != summary.best) summary.methods[m].difference = pairs->difference(m, summary.best);
   return summary;
 }
 

@@ -24,8 +24,7 @@ struct CellSummary {
   std::size_t finished = 0;
   std::size_t unconverged = 0;  ///< trials whose own calibration did not converge
   std::size_t best = 0;         ///< of all but the oracle, the smallest mean of the judging metric
-  std::size_t comparisons =
-      0;  ///< that intervals of differences allow for: pairs, and looks of a stop rule
+  double looks = 1.0;           ///< by which a stop rule's looking widens intervals of differences
   std::vector<MethodSummary> methods;
 
   const Summary& of(std::size_t method, std::string_view metric) const;
@@ -44,7 +43,7 @@ using TrialSource = std::function<void(
     const std::function<void(bool calibrated, std::span<const double> outcomes)>& visit)>;
 
 /// Three passes over the trials, or a few more for millions of them; memory does not grow with
-/// their number. The statistics are those of `summarise` and `paired_difference`, to the bit.
+/// their number. The statistics are those of `summarise`, to the bit, and of `AllPairs`.
 CellSummary summarise_cell(const Cell& cell, const TrialSource& trials);
 
 }  // namespace gyrostat

@@ -125,9 +125,7 @@ Table consistency_table(const Cell& cell, const CellSummary& summary) {
                           {"inside ±3σ", "%"},
                           {"diverged", ""},
                           {"broke down", ""},
-                          {"breakdown steps", ""}},
-              .rows = {},
-              .notes = {}};
+                          {"breakdown steps", ""}}};
   const auto tests = consistency_tests(cell, summary);
   const auto out_of = [&](std::size_t count) -> TableCell {
     return fmt::format("{}/{}", count, summary.finished);
@@ -168,9 +166,7 @@ std::vector<Table> consistency_details(const Cell& cell, const CellSummary& summ
                            {"high", "1"},
                            {"verdict", ""},
                            {"diverged", ""},
-                           {"broke down", ""}},
-               .rows = {},
-               .notes = {}};
+                           {"broke down", ""}}};
   const auto tests = consistency_tests(cell, summary);
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const auto& [method, test, value, expected, low, high, verdict] = tests[t];
@@ -184,9 +180,7 @@ std::vector<Table> consistency_details(const Cell& cell, const CellSummary& summ
       .title = cell.name +
                ": share of innovations in each tenth of what the filter foretold (0.1 each if "
                "it is consistent)",
-      .columns = {{"method", ""}},
-      .rows = {},
-      .notes = {}};
+      .columns = {{"method", ""}}};
   for (int b = 0; b < 10; ++b)
     pit.columns.push_back({fmt::format("{}–{} %", 10 * b, 10 * b + 10), "1"});
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {

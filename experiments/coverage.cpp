@@ -125,9 +125,7 @@ Table coverage_table(const CoverageStudy& study, const std::vector<Coverage>& co
                           {"highest", "%"},
                           {"standard error", "%"},
                           {"no interval", "%"},
-                          {"verdict", ""}},
-              .rows = {},
-              .notes = {}};
+                          {"verdict", ""}}};
   for (const auto& coverage : coverages) {
     std::vector<Coverage::Count> counts;
     double none = 0.0, draws = 0.0;

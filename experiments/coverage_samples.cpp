@@ -191,8 +191,8 @@ std::vector<Coverage> of_stopped_samples(const CoverageStudy& study, const Popul
     cell.stop = StopRule{.metric = metric_named(std::string(judging_metric(cell)), "coverage"),
                          .methods = {m, m + 1},
                          .at_least = first};
-    std::vector<std::size_t> families;
-    for (const auto n : counts) families.push_back(comparisons_after_looks(cell, 1, n));
+    std::vector<double> families;
+    for (const auto n : counts) families.push_back(comparisons_of_looks(cell, n));
     const double expected =
         of(truth, cell.methods[m].id).mean - of(truth, cell.methods[m + 1].id).mean;
     const auto name = cell.methods[m].id + " - " + cell.methods[m + 1].id;

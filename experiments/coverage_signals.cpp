@@ -1,5 +1,7 @@
 #include <cmath>
 
+#include "analysis/fits/arima_intervals.hpp"
+#include "analysis/fits/arima_likelihood.hpp"
 #include "analysis/spectra/allan.hpp"
 #include "experiments/coverage.hpp"
 #include "experiments/trial.hpp"
@@ -17,6 +19,17 @@ void add_parameters(Coverage& coverage, const P& fitted, const P& errors, const 
     const double reach = std::isfinite(error) && error > 0.0 ? normal_95 * error : no_value;
     coverage.add(std::string(field.name), estimate - reach, truth.*(field.member),
                  estimate + reach);
+  }
+}
+
+/// Whether a likelihood-ratio test rejects the truth, which is what the intervals are made of.
+void add_profiles(Coverage& coverage, const std::vector<double>& rate,
+                  const Arima111<double>& truth) {
+  const ArimaIntervals likelihood(fit_arima_likelihood(rate), rate);
+  int p = 0;
+  for (const auto& field : Arima111<double>::fields()) {
+    const auto parameter = static_cast<ArimaIntervals::Parameter>(p++);
+    coverage.add(std::string(field.name), likelihood.holds(parameter, truth.*(field.member)));
   }
 }
 
@@ -46,7 +59,7 @@ std::vector<Coverage> of_signals(const CoverageStudy& study, const Study& cells,
   const auto make = [&](const char* interval) {
     return Coverage{interval, cell.name, samples, {}};
   };
-  Coverage likelihood = make("fit by likelihood, ± 1.96 standard errors");
+  Coverage likelihood = make("fit by likelihood (profile)");
   Coverage moments = make("fit by moments, ± 1.96 standard errors");
   Coverage drift = make("fit of thermal drift, ± 1.96 standard errors");
   Coverage allan = make("Allan deviation");
@@ -54,17 +67,15 @@ std::vector<Coverage> of_signals(const CoverageStudy& study, const Study& cells,
   for (std::uint32_t s = 0; s < study.fits; ++s) {
     cell.make_trial(cells.seed, s, series);
     if (is_stationary_noise(cell)) series.temperature_C.clear();  // no drift to regress on it first
-    for (const auto method : {FitMethod::likelihood, FitMethod::moments}) {
-      if (samples < 512) continue;
-      const auto fit = calibrate(series, method);
-      auto& coverage = method == FitMethod::likelihood ? likelihood : moments;
-      if (fit.random_error.converged)
-        add_parameters(coverage, fit.random_error.parameters, fit.random_error.standard_errors,
-                       cell.scenario.random_error);
-      if (fit.thermal && !is_stationary_noise(cell) && method == FitMethod::likelihood)
-        add_parameters(drift, fit.thermal->parameters, fit.thermal->standard_errors,
-                       cell.scenario.thermal_drift);
-    }
+    if (samples < 512) continue;
+    const auto fit = calibrate(series, FitMethod::moments);
+    if (fit.random_error.converged)
+      add_parameters(moments, fit.random_error.parameters, fit.random_error.standard_errors,
+                     cell.scenario.random_error);
+    if (fit.thermal && !is_stationary_noise(cell))
+      add_parameters(drift, fit.thermal->parameters, fit.thermal->standard_errors,
+                     cell.scenario.thermal_drift);
+    add_profiles(likelihood, without_drift(series, fit.thermal), cell.scenario.random_error);
   }
   if (is_stationary_noise(cell)) {
     const auto variances = allan_variances(cells, cell, study.fits);

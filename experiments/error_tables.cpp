@@ -28,9 +28,7 @@ Table metric_table(const Cell& cell, const CellSummary& summary, std::string_vie
                           {"95 % of |·|", u},
                           {"worst |·|", u},
                           {"diverged", ""},
-                          {"broke down", ""}},
-              .rows = {},
-              .notes = {}};
+                          {"broke down", ""}}};
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
     const auto& s = summary.of(m, metric);
     const auto& method = summary.methods[m];
@@ -46,7 +44,7 @@ Table metric_table(const Cell& cell, const CellSummary& summary, std::string_vie
 Table comparison_table(const Cell& cell, const CellSummary& summary, std::string_view title,
                        const std::string& unit) {
   const std::size_t best = summary.best;
-  const std::size_t family = cell.methods.size() * (cell.methods.size() - 1) / 2;
+  const std::size_t pairs = cell.methods.size() * (cell.methods.size() - 1) / 2;
   Table table{.title = fmt::format("{}: {}, minus that of {}, paired by trial", cell.name, title,
                                    cell.methods[best].id),
               .columns = {{"method", ""},
@@ -55,9 +53,7 @@ Table comparison_table(const Cell& cell, const CellSummary& summary, std::string
                           {"p adjusted", "1"},
                           {"verdict", ""},
                           {"diverged", ""},
-                          {"broke down", ""}},
-              .rows = {},
-              .notes = {}};
+                          {"broke down", ""}}};
   constexpr double rounding = 1e-9;
   const double scale = summary.of(best, judging_metric(cell)).mean;
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
@@ -76,24 +72,20 @@ Table comparison_table(const Cell& cell, const CellSummary& summary, std::string
                           out_of(summary.methods[m].broken_down, summary.finished)});
   }
   table.notes.push_back(fmt::format(
-      "Bonferroni over all {} pairs of methods{}, so the pair may be picked after looking", family,
-      summary.comparisons > family ? " and over the looks of the stop rule" : ""));
+      "simultaneous over all {} pairs of methods{}, so the pair may be picked after looking", pairs,
+      summary.looks > 1.0 ? " and over the looks of the stop rule" : ""));
   return table;
 }
 
 }  // namespace
 
 Table calibration_table(const Cell& cell, const Calibration& fit, const CellSummary& summary) {
-  Table table{.title = fmt::format("{}: parameters fitted on {}", cell.name,
-                                   cell.recording ? "the recording before the trials"
-                                                  : "a calibration signal of the same scenario"),
-              .columns = {{"parameter", ""},
-                          {"unit", ""},
-                          {"fitted", ""},
-                          {"standard error", ""},
-                          {"true", ""}},
-              .rows = {},
-              .notes = {}};
+  Table table{
+      .title = fmt::format("{}: parameters fitted on {}", cell.name,
+                           cell.recording ? "the recording before the trials"
+                                          : "a calibration signal of the same scenario"),
+      .columns = {
+          {"parameter", ""}, {"unit", ""}, {"fitted", ""}, {"standard error", ""}, {"true", ""}}};
   const auto add = [&](const auto& fitted, const auto& errors, const auto& truth) {
     using P = std::remove_cvref_t<decltype(fitted)>;
     for (const auto& f : P::fields())
@@ -126,9 +118,7 @@ Table tuning_table(const Cell& cell, const std::vector<TunedMethod>& tuned) {
                           {metric + " before", unit},
                           {"broke down before", ""},
                           {metric + " after", unit},
-                          {"broke down after", ""}},
-              .rows = {},
-              .notes = {}};
+                          {"broke down after", ""}}};
   for (std::size_t m = 0; m < tuned.size(); ++m)
     for (const auto& [name, value] : tuned[m].values)
       table.rows.push_back({cell.methods[m].id, name, value, gyrostat::cell(tuned[m].before.mean),
@@ -178,9 +168,7 @@ std::vector<Table> error_tables(const Cell& cell, const CellSummary& summary) {
 
 Table timing_table(const Cell& cell, const std::vector<double>& nanoseconds_per_step) {
   Table table{.title = cell.name + ": time per step, metrics included (this run, this machine)",
-              .columns = {{"method", ""}, {"time", "ns"}},
-              .rows = {},
-              .notes = {}};
+              .columns = {{"method", ""}, {"time", "ns"}}};
   for (std::size_t m = 0; m < cell.methods.size(); ++m)
     table.rows.push_back({cell.methods[m].id, gyrostat::cell(nanoseconds_per_step[m])});
   return table;

@@ -34,14 +34,25 @@ Study pilot_of(const Study& study, std::size_t index) {
   return pilot;
 }
 
-double tuning_seconds(const Cell& cell, const std::vector<double>& nanoseconds_per_step,
-                      int threads) {
-  const double steps = static_cast<double>(cell.scenario.sampling.samples()) * cell.tuning.trials;
-  double seconds = 0.0;
-  for (std::size_t m = 0; m < cell.methods.size(); ++m)
-    if (!cell.methods[m].tune.empty())
-      seconds += 1e-9 * nanoseconds_per_step[m] * steps * (cell.tuning.evaluations + 1);
-  return seconds / threads;
+bool is_tuned(const Cell& cell) {
+  return std::any_of(cell.methods.begin(), cell.methods.end(),
+                     [](const Method& method) { return !method.tune.empty(); });
+}
+
+/// Of calibration and tuning: that of a few evaluations, and more in proportion.
+double preparation_seconds(const Cell& cell, std::uint64_t seed, int threads) {
+  const auto with_evaluations = [&](int evaluations) {
+    Cell brief = cell;
+    brief.tuning.evaluations = evaluations;
+    const Stopwatch watch;
+    (void)prepare_cell(brief, seed, threads);
+    return watch.seconds();
+  };
+  constexpr int few = 1, more = 5;
+  const double least = with_evaluations(few);
+  if (!is_tuned(cell)) return least;
+  const double each = (with_evaluations(more) - least) / (more - few);
+  return least + std::max(0.0, each) * (cell.tuning.evaluations - few);
 }
 
 /// What a trial takes in the store's pages of 16 KiB.
@@ -64,9 +75,8 @@ CellPlan plan_cell(const Study& study, std::size_t index, const fs::path& folder
   plan.steps = static_cast<double>(cell.scenario.sampling.samples()) *
                static_cast<double>(cell.methods.size()) * cell.trials;
 
-  const Stopwatch preparation;
+  plan.preparation_s = preparation_seconds(cell, study.seed, options.threads);
   const auto prepared = prepare_cell(pilot.cells[0], study.seed, options.threads);
-  plan.preparation_s = preparation.seconds();
 
   const auto place = folder / std::to_string(index);
   fs::create_directories(place);
@@ -82,8 +92,7 @@ CellPlan plan_cell(const Study& study, std::size_t index, const fs::path& folder
   run.progress = [&](std::size_t done) {
     if (done >= warm && trials.seconds() >= options.seconds) stop = true;
   };
-  const auto nanoseconds =
-      run_missing(store, prepared, 0, study.seed, state, run, [](const CellProgress&) {});
+  run_missing(store, prepared, 0, study.seed, state, run, [](const CellProgress&) {});
   plan.trials_s = trials.seconds();
 
   const Stopwatch results;
@@ -99,7 +108,6 @@ CellPlan plan_cell(const Study& study, std::size_t index, const fs::path& folder
   const double share = static_cast<double>(cell.trials) / plan.pilot_trials;
   plan.trials_s *= share;
   plan.results_s *= share;
-  plan.preparation_s += tuning_seconds(cell, nanoseconds, threads);
   plan.store_bytes = stored_bytes(cell) * cell.trials;
   plan.export_bytes = static_cast<double>(fs::file_size(place / "outcomes.csv.gz")) * share;
   return plan;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
+#include "analysis/statistics/all_pairs.hpp"
 #include "analysis/statistics/mean_ranks.hpp"
 #include "analysis/statistics/streamed.hpp"
 #include "analysis/statistics/tail_mean.hpp"
@@ -49,11 +51,7 @@ struct Streams {
   std::vector<StreamedTailMean> tails;
   std::vector<bool> summary_open, tail_open;
   RankStatistics ranks;
-  struct Pair {
-    std::size_t a, b;
-    StreamedDifference difference;
-  };
-  std::vector<Pair> pairs;
+  std::optional<AllPairs> pairs;
   std::vector<std::size_t> diverged, broken_down;
   std::size_t trials = 0;
 
@@ -93,7 +91,7 @@ Streams stream(const Cell& cell, const TrialSource& trials, const RankedMetric& 
         ++s.trials;
         s.ranks.add(values);
       } else if (pass <= 2) {
-        for (auto& pair : s.pairs) pair.difference.add(values[pair.a], values[pair.b]);
+        s.pairs->add(values);
       }
     });
     more = pass < 2;
@@ -102,20 +100,12 @@ Streams stream(const Cell& cell, const TrialSource& trials, const RankedMetric& 
       if (s.tail_open[m]) s.tail_open[m] = s.tails[m].another_pass();
       more = more || s.summary_open[m] || s.tail_open[m];
     }
-    if (pass == 0) {
-      const auto family = comparisons_after_looks(cell, methods * (methods - 1) / 2, s.trials);
-      for (std::size_t a = 0; a < methods; ++a)
-        for (std::size_t b = 0; b < a; ++b) s.pairs.push_back({a, b, StreamedDifference(family)});
-    } else if (pass <= 2) {
-      for (auto& pair : s.pairs) pair.difference.another_pass();
-    }
+    if (pass == 0)
+      s.pairs.emplace(methods, comparisons_of_looks(cell, s.trials));
+    else if (pass <= 2)
+      s.pairs->another_pass();
   }
   return s;
-}
-
-PairedDifference reversed(PairedDifference d) {
-  d.mean = -d.mean;
-  return d;
 }
 
 /// Maximal sets of methods of which no two are separable (Bron and Kerbosch, CACM 16, 1973).
@@ -172,27 +162,20 @@ CellRanking rank_cell(const Cell& cell, const TrialSource& trials, const std::st
     const double value = s.summaries[m].summary().mean;
     return std::isnan(value) ? HUGE_VAL : value;
   };
-  std::vector<std::size_t> order(cell.methods.size()), place(order.size());
+  std::vector<std::size_t> order(cell.methods.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return mean(a) < mean(b); });
   for (std::size_t i = 0; i < order.size(); ++i) {
     const auto m = order[i];
-    place[m] = i;
     const auto& summary = s.summaries[m].summary();
     const auto& tail = s.tails[m].tail();
     ranking.methods.push_back({cell.methods[m].id, summary.mean, summary.half_width_95,
                                s.ranks.mean_rank(m), tail.value, summary.worst, tail.low, tail.high,
                                s.diverged[m], s.broken_down[m], summary.missing});
   }
-  for (const auto& [a, b, stream] : s.pairs) {
-    const bool turned = place[a] < place[b];
-    ranking.pairs.push_back({turned ? place[a] : place[b], turned ? place[b] : place[a],
-                             turned ? reversed(stream.difference()) : stream.difference()});
-  }
-  std::sort(ranking.pairs.begin(), ranking.pairs.end(),
-            [](const RankedPair& a, const RankedPair& b) {
-              return std::pair(a.better, a.worse) < std::pair(b.better, b.worse);
-            });
+  for (std::size_t better = 0; better < order.size(); ++better)
+    for (std::size_t worse = better + 1; worse < order.size(); ++worse)
+      ranking.pairs.push_back({better, worse, s.pairs->difference(order[worse], order[better])});
   if (s.trials > 0) ranking.share_worse = 1.0 - std::pow(0.05, 1.0 / static_cast<double>(s.trials));
   ranking.critical_difference = s.ranks.critical_difference();
   ranking.friedman_p = s.ranks.friedman_p();
@@ -214,7 +197,6 @@ Table ranking_table(const CellRanking& ranking) {
                           {"worst", u},
                           {"diverged", ""},
                           {"broke down", ""}},
-              .rows = {},
               .notes = ranking.sentences};
   for (const auto& m : ranking.methods)
     table.rows.push_back({m.method, cell(m.mean), cell(m.half_width), cell(m.mean_rank),

@@ -148,12 +148,10 @@ std::optional<std::string> stop_reason(const Cell& cell, std::uint32_t count,
                                            : told_apart(cell, count, trials);
 }
 
-std::size_t comparisons_after_looks(const Cell& cell, std::size_t pairs, std::size_t trials) {
-  if (!cell.stop || cell.stop->half_width_below > 0.0 || pairs == 0 || trials == 0) return pairs;
+double comparisons_of_looks(const Cell& cell, std::size_t trials) {
+  if (!cell.stop || cell.stop->half_width_below > 0.0 || trials == 0) return 1.0;
   const auto counts = looks_up_to(*cell.stop, static_cast<std::uint32_t>(trials));
-  const double tail =
-      normal_tail(sequential_bounds(counts, 0.05 / static_cast<double>(pairs)).back());
-  return static_cast<std::size_t>(std::ceil(0.025 / tail - 1e-6));
+  return 0.025 / normal_tail(sequential_bounds(counts, 0.05).back());
 }
 
 }  // namespace gyrostat

@@ -41,9 +41,8 @@ using OutcomeSource =
 std::optional<std::string> stop_reason(const Cell& cell, std::uint32_t count,
                                        const OutcomeSource& trials);
 
-/// By how many comparisons an interval that may be read after looking at `pairs` pairs must be
-/// widened (Bonferroni) where a rule that tells methods apart has looked at the results up to
-/// `trials`.
-std::size_t comparisons_after_looks(const Cell& cell, std::size_t pairs, std::size_t trials);
+/// By how many comparisons an interval must be widened (Bonferroni) where a rule that tells methods
+/// apart has looked at the results up to `trials`; 1 where none has.
+double comparisons_of_looks(const Cell& cell, std::size_t trials);
 
 }  // namespace gyrostat

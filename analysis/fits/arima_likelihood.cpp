@@ -263,9 +263,13 @@ bool is_identified(const ArimaFit& fit) { return std::isfinite(fit.covariance(1,
 
 }  // namespace
 
-ArimaFit fit_arima_likelihood(std::span<const double> rate_dps) {
+ArimaFit fit_whole_arima_likelihood(std::span<const double> rate_dps) {
   check(rate_dps);
-  const ArimaFit whole = descend(rate_dps, full);
+  return descend(rate_dps, full);
+}
+
+ArimaFit fit_arima_likelihood(std::span<const double> rate_dps) {
+  const ArimaFit whole = fit_whole_arima_likelihood(rate_dps);
   if (is_identified(whole)) return whole;
   for (const auto& variant : simpler) {
     const ArimaFit fit = descend(rate_dps, variant);

@@ -19,6 +19,9 @@ namespace gyrostat {
 /// errors. Throws InputError for fewer than 50 samples or a signal that never changes.
 ArimaFit fit_arima_likelihood(std::span<const double> rate_dps);
 
+/// The same with all four parameters, whether the signal tells them or not.
+ArimaFit fit_whole_arima_likelihood(std::span<const double> rate_dps);
+
 /// Log-likelihood of the diffuse model, for the parameters as given.
 double arima_log_likelihood(const Arima111<double>& arima, std::span<const double> rate_dps);
 

@@ -13,6 +13,9 @@
 namespace gyrostat {
 namespace {
 
+/// For the rate to tell its own degrees of freedom, and what kind of noise it is.
+constexpr std::size_t enough_clusters = 32;
+
 void require(bool holds, const std::string& place, const std::string& problem) {
   if (!holds) throw InputError(place, problem);
 }
@@ -100,6 +103,26 @@ double equivalent_degrees_of_freedom(int alpha, std::size_t n, std::size_t m) {
   return static_cast<double>(count) / sum;
 }
 
+/// The same from the rate itself: the overlapping differences of clusters are a stationary series,
+/// and the variance of its mean square is that of a Gaussian one with its own autocovariance, which
+/// ends within two clusters for white noise and random walks, whatever their mixture. About eight
+/// lags a cluster add up to as much as all.
+double degrees_of_freedom_of(const std::vector<double>& differences, std::size_t m) {
+  const std::size_t count = differences.size(), step = std::max<std::size_t>(1, m / 8);
+  const auto covariance = [&](std::size_t lag) {
+    double sum = 0.0;
+    for (std::size_t i = lag; i < count; ++i) sum += differences[i] * differences[i - lag];
+    return sum / static_cast<double>(count);
+  };
+  const double variance = covariance(0);
+  double sum = 0.5 * variance * variance;
+  for (std::size_t lag = step; lag <= 2 * m; lag += step) {
+    const double share = 1.0 - static_cast<double>(lag) / static_cast<double>(count);
+    sum += share * covariance(lag) * covariance(lag);
+  }
+  return static_cast<double>(count) * variance * variance / (2.0 * static_cast<double>(step) * sum);
+}
+
 }  // namespace
 
 std::vector<std::size_t> allan_clusters(std::size_t samples) {
@@ -126,19 +149,24 @@ std::vector<AllanPoint> overlapping_allan_deviation(std::span<const double> rate
 
   std::vector<AllanPoint> points;
   for (const std::size_t m : clusters) {
-    const std::size_t count = n - 2 * m + 1;
+    std::vector<double> differences(n - 2 * m + 1);
+    for (std::size_t i = 0; i < differences.size(); ++i) differences[i] = haar(phase, i, m);
     double sum = 0.0;
-    for (std::size_t i = 0; i < count; ++i) sum += haar(phase, i, m) * haar(phase, i, m);
+    for (const double d : differences) sum += d * d;
     const auto length = static_cast<double>(m);
-    const double deviation = std::sqrt(sum / (2.0 * static_cast<double>(count))) / length;
-    const int alpha = power_law_exponent(phase, std::min(m, std::max<std::size_t>(1, n / 32)));
-    const double edf = equivalent_degrees_of_freedom(alpha, n, m);
+    const double deviation =
+        std::sqrt(sum / (2.0 * static_cast<double>(differences.size()))) / length;
+    const int alpha =
+        power_law_exponent(phase, std::min(m, std::max<std::size_t>(1, n / enough_clusters)));
+    const double power_law_edf = equivalent_degrees_of_freedom(alpha, n, m);
+    const bool is_told = n >= enough_clusters * m && deviation > 0.0;
+    const double edf = is_told ? degrees_of_freedom_of(differences, m) : power_law_edf;
     const boost::math::chi_squared chi_squared(edf);
     const auto bound = [&](double probability) {
       return deviation * std::sqrt(edf / quantile(chi_squared, probability));
     };
     points.push_back({length / rate_hz, deviation, bound(0.5 + confidence / 2.0),
-                      bound(0.5 - confidence / 2.0), edf, m});
+                      bound(0.5 - confidence / 2.0), edf, m, power_law_edf});
   }
   return points;
 }

@@ -10,9 +10,10 @@ namespace gyrostat {
 struct AllanPoint {
   double tau_s;
   double deviation;
-  double lower, upper;  ///< confidence interval of the deviation
-  double edf;           ///< equivalent degrees of freedom of its square
-  std::size_t cluster;  ///< samples averaged, tau times the rate of sampling
+  double lower, upper;   ///< confidence interval of the deviation
+  double edf;            ///< equivalent degrees of freedom of its square, as the interval has them
+  std::size_t cluster;   ///< samples averaged, tau times the rate of sampling
+  double power_law_edf;  ///< those of the nearest of white, flicker and random-walk rate noise
 };
 
 /// Cluster sizes from 1 to a quarter of `samples`, about eight a decade. A quarter leaves two to
@@ -21,9 +22,10 @@ std::vector<std::size_t> allan_clusters(std::size_t samples);
 
 /// Overlapping Allan deviation (IEEE Std 952-1997 annex C; NIST SP 1065 eq. 11) of a rate sampled
 /// at `rate_hz`, in O(n) a cluster. The interval is chi-square with the equivalent degrees of
-/// freedom of Greenhall & Riley (PTTI 2003) for white, flicker or random-walk rate noise, whichever
-/// the lag-1 autocorrelation identifies at that tau (Riley & Greenhall, EFTF 2004), or at n/32
-/// samples where fewer than 32 clusters remain.
+/// freedom that the rate's own autocovariance gives where there are 32 clusters or more. Where
+/// there are fewer, they are those of Greenhall & Riley (PTTI 2003) for white, flicker or
+/// random-walk rate noise, whichever the lag-1 autocorrelation identifies at that tau, or at n/32
+/// samples where it is longer (Riley & Greenhall, EFTF 2004).
 ///
 /// Throws InputError for a sample that is missing or not finite (how to bridge a gap is the
 /// caller's choice), for a cluster outside [1, n/2], a rate of sampling <= 0, and a confidence

@@ -180,7 +180,7 @@ class Fit {
   Squares start(unsigned allowed, const Eigen::VectorXd& given) const {
     const Eigen::VectorXd inverse = (-log_variance_).array().exp();
     Eigen::VectorXd weight(size());
-    for (Eigen::Index j = 0; j < size(); ++j) weight[j] = std::sqrt(points_[j].edf);
+    for (Eigen::Index j = 0; j < size(); ++j) weight[j] = std::sqrt(points_[j].power_law_edf);
     const Eigen::VectorXd rest = 1.0 - given.array() * inverse.array();
     return non_negative_least_squares(weight.cwiseProduct(inverse).asDiagonal() * shapes_,
                                       weight.cwiseProduct(rest), allowed, allowed);
@@ -231,7 +231,8 @@ class Fit {
     for (Eigen::Index j = 0; j < size(); ++j) {
       const Eigen::ArrayXd as_white =
           gains_.col(j).array() * (rest + 3.0 * squares[0] / points_[j].tau_s);
-      const double edf = points_[j].edf * measure.dot(as_white.square().matrix()) / product(j, j);
+      const double edf =
+          points_[j].power_law_edf * measure.dot(as_white.square().matrix()) / product(j, j);
       target_[j] = log_variance_[j] - boost::math::digamma(0.5 * edf) + std::log(0.5 * edf);
       scale[j] = std::sqrt(boost::math::trigamma(0.5 * edf) / product(j, j));
     }
@@ -294,7 +295,7 @@ std::vector<AllanPoint> an_octave_apart(std::span<const AllanPoint> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& p = points[i];
     const auto place = "points[" + std::to_string(i) + "]";
-    for (const double x : {p.tau_s, p.deviation, p.edf, static_cast<double>(p.cluster)})
+    for (const double x : {p.tau_s, p.deviation, p.power_law_edf, static_cast<double>(p.cluster)})
       if (!(x > 0.0 && std::isfinite(x)))
         throw InputError(place, "tau, deviation, edf and cluster are not all positive and finite");
     if (!(p.tau_s > last)) throw InputError(place, "tau does not rise");

@@ -1,8 +1,11 @@
 #include "analysis/statistics/consistency.hpp"
 
+#include <cmath>
+
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
+
+#include "analysis/statistics/skewed_mean.hpp"
 
 namespace gyrostat {
 
@@ -22,9 +25,10 @@ Acceptance chi_squared_bound(double degrees, double alpha) {
 
 Acceptance trial_mean_bounds(const Running& over_trials, double expected, double alpha) {
   if (!(over_trials.count > 1.0)) return {};
-  const boost::math::students_t t(over_trials.count - 1.0);
-  const double half_width = quantile(complement(t, alpha / 2.0)) * over_trials.error();
-  return {expected - half_width, expected + half_width};
+  const double std = over_trials.error() * std::sqrt(over_trials.count);
+  const auto [low, high] =
+      skewed_mean_interval(0.0, std, over_trials.skewness(), over_trials.count, 1.0 - alpha);
+  return {expected - high, expected - low};
 }
 
 Acceptance correlation_bounds(double count, double alpha) {

@@ -19,8 +19,8 @@ Acceptance mean_square_bounds(double degrees, double alpha);
 /// Of a chi-squared statistic that only too large a value counts against.
 Acceptance chi_squared_bound(double degrees, double alpha);
 
-/// Of a mean over trials whose expectation is `expected` (Student's t): where samples within a
-/// trial depend on each other, trials do not.
+/// Of a mean over trials whose expectation is `expected` (`skewed_mean_interval`): where samples
+/// within a trial depend on each other, trials do not.
 Acceptance trial_mean_bounds(const Running& over_trials, double expected, double alpha);
 
 /// Of the autocorrelation about zero of `count` white normal values (same, eq. 5.4.2-10).

@@ -23,11 +23,10 @@ PairedDifference paired_difference(std::span<const double> a, std::span<const do
     const double d = a[i] - b[i] - mean;
     if (!std::isnan(d)) squares += d * d;
   }
-  return paired_difference(count, mean, squares, family);
+  return paired_difference(count, mean, squares, static_cast<double>(family));
 }
 
-PairedDifference paired_difference(std::size_t count, double mean, double squares,
-                                   std::size_t family) {
+PairedDifference paired_difference(std::size_t count, double mean, double squares, double family) {
   PairedDifference result;
   result.count = count;
   if (count < 2) return result;
@@ -36,7 +35,7 @@ PairedDifference paired_difference(std::size_t count, double mean, double square
   const double std = std::sqrt(squares / (n - 1.0));
   const double error = std / std::sqrt(n);
 
-  const double comparisons = static_cast<double>(std::max<std::size_t>(family, 1));
+  const double comparisons = std::max(family, 1.0);
   const boost::math::students_t t(n - 1.0);
   const double tail = 0.025 / comparisons;
   result.half_width = boost::math::quantile(boost::math::complement(t, tail)) * error;

@@ -24,7 +24,6 @@ PairedDifference paired_difference(std::span<const double> a, std::span<const do
 
 /// The same from what the pairs add up to: the mean of a - b over `count` pairs and the sum of
 /// squares about it.
-PairedDifference paired_difference(std::size_t count, double mean, double squares,
-                                   std::size_t family);
+PairedDifference paired_difference(std::size_t count, double mean, double squares, double family);
 
 }  // namespace gyrostat

@@ -57,25 +57,4 @@ bool StreamedSummary::another_pass() {
   return passes_ < 2 || !median_known_ || !percentile_known_;
 }
 
-void StreamedDifference::add(double a, double b) {
-  if (passes_ == 0) {
-    const double d = a - b;
-    if (std::isnan(d)) return;
-    sum_ += d;
-    ++difference_.count;
-  } else {
-    const double d = a - b - difference_.mean;
-    if (!std::isnan(d)) squares_ += d * d;
-  }
-}
-
-bool StreamedDifference::another_pass() {
-  ++passes_;
-  if (passes_ == 1 && difference_.count > 0)
-    difference_.mean = sum_ / static_cast<double>(difference_.count);
-  if (passes_ == 2)
-    difference_ = paired_difference(difference_.count, difference_.mean, squares_, family_);
-  return passes_ < 2;
-}
-
 }  // namespace gyrostat

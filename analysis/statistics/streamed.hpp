@@ -3,7 +3,6 @@
 #include <span>
 
 #include "analysis/statistics/order_statistic.hpp"
-#include "analysis/statistics/paired.hpp"
 #include "analysis/statistics/summary.hpp"
 
 namespace gyrostat {
@@ -24,22 +23,6 @@ class StreamedSummary {
   bool median_known_ = false, percentile_known_ = false;
   OrderStatistic median_, percentile_;
   Summary summary_;
-};
-
-/// The paired difference of values that come by in pairs: two passes, the same bits as
-/// `paired_difference` gives for all of them at once.
-class StreamedDifference {
- public:
-  explicit StreamedDifference(std::size_t family) : family_(family) {}
-  void add(double a, double b);
-  bool another_pass();
-  const PairedDifference& difference() const { return difference_; }
-
- private:
-  std::size_t family_;
-  int passes_ = 0;
-  double sum_ = 0.0, squares_ = 0.0;
-  PairedDifference difference_;
 };
 
 }  // namespace gyrostat

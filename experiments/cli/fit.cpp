@@ -1,5 +1,8 @@
-#include <cmath>
+#include <array>
 
+#include <tbb/parallel_for.h>
+
+#include "analysis/fits/arima_intervals.hpp"
 #include "experiments/calibration.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/verbs.hpp"
@@ -19,11 +22,41 @@ struct FitArguments {
   SpanOption span;
 };
 
+using Intervals = std::vector<std::array<double, 2>>;
+
 template <class P>
-void add_rows(Table& table, const std::string& method, const P& fitted, const P& errors) {
-  for (const auto& field : P::fields())
+void add_rows(Table& table, const std::string& method, const P& fitted, const P& errors,
+              const Intervals& intervals) {
+  std::size_t i = 0;
+  for (const auto& field : P::fields()) {
+    const auto [from, to] = i < intervals.size() ? intervals[i++] : std::array{no_value, no_value};
     table.rows.push_back({method, std::string(field.name), std::string(field.unit),
-                          fitted.*(field.member), errors.*(field.member), std::string(field.doc)});
+                          fitted.*(field.member), cell(from), cell(to), errors.*(field.member),
+                          std::string(field.doc)});
+  }
+}
+
+Intervals likelihood_intervals(const Series& series, const Calibration& fit) {
+  const auto rate = without_drift(series, fit.thermal);
+  const ArimaIntervals likelihood(fit.random_error, rate);
+  Intervals intervals(4);
+  tbb::parallel_for(0, 4, [&](int p) {
+    intervals[static_cast<std::size_t>(p)] =
+        likelihood.interval(static_cast<ArimaIntervals::Parameter>(p));
+  });
+  return intervals;
+}
+
+template <class P>
+Intervals normal_intervals(const P& fitted, const P& errors) {
+  constexpr double reach = 1.959963984540054;
+  Intervals intervals;
+  for (const auto& field : P::fields()) {
+    const double error = errors.*(field.member);
+    intervals.push_back(
+        {fitted.*(field.member) - reach * error, fitted.*(field.member) + reach * error});
+  }
+  return intervals;
 }
 
 int run(const FitArguments& arguments, Console& console) {
@@ -40,23 +73,30 @@ int run(const FitArguments& arguments, Console& console) {
                           {"parameter", ""},
                           {"unit", ""},
                           {"value", ""},
+                          {"from", ""},
+                          {"to", ""},
                           {"standard error", ""},
-                          {"meaning", ""}},
-              .rows = {},
-              .notes = {}};
+                          {"meaning", ""}}};
   bool converged = true;
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const auto fit = about(arguments.recording.file, [&] { return calibrate(series, methods[m]); });
+    const bool by_likelihood = methods[m] == FitMethod::likelihood;
     add_rows(table, arguments.methods[m], fit.random_error.parameters,
-             fit.random_error.standard_errors);
+             fit.random_error.standard_errors,
+             by_likelihood ? likelihood_intervals(series, fit) : Intervals{});
     table.notes.push_back(arguments.methods[m] + ": " + fit.random_error.message);
     converged = converged && fit.random_error.converged;
     if (!fit.thermal || m > 0) continue;
-    add_rows(table, "least squares", fit.thermal->parameters, fit.thermal->standard_errors);
+    add_rows(table, "least squares", fit.thermal->parameters, fit.thermal->standard_errors,
+             normal_intervals(fit.thermal->parameters, fit.thermal->standard_errors));
     table.notes.push_back(fmt::format("thermal drift: {}, {} points over {:.3g} °C",
                                       fit.thermal->message, fit.thermal->points,
                                       fit.thermal->temperature_span_C));
   }
+  table.notes.push_back(
+      "from, to: 95 % interval, by profile likelihood of all four parameters or, of the drift, by "
+      "its "
+      "standard error");
   console.out << render(std::span(&table, 1), format);
   return converged ? complete : error;
 }
@@ -65,7 +105,7 @@ int run(const FitArguments& arguments, Console& console) {
 
 void add_fit(CLI::App& program, Console& console, int& exit_code) {
   auto* verb = program.add_subcommand(
-      "fit", "fit phi, delta1, delta2, R (and a, b, c) to a recording, with standard errors");
+      "fit", "fit phi, delta1, delta2, R (and a, b, c) to a recording, with 95 % intervals");
   auto arguments = std::make_shared<FitArguments>();
   arguments->recording.add_to(verb);
   verb->add_option("--method", arguments->methods, "likelihood, moments or both")->delimiter(',');

@@ -79,7 +79,7 @@ std::vector<AllanPoint> exact_points(const Truth& truth, std::size_t count, doub
   std::vector<AllanPoint> points;
   for (std::size_t j = 0; j < count; ++j) {
     const double tau = std::ldexp(0.01, static_cast<int>(j));
-    points.push_back({tau, allan_deviation(c, tau), 0.0, 0.0, edf, std::size_t{1} << j});
+    points.push_back({tau, allan_deviation(c, tau), 0.0, 0.0, edf, std::size_t{1} << j, edf});
   }
   return points;
 }
@@ -359,7 +359,7 @@ TEST(AllanCoefficients, RefuseWhatTheyCannotUse) {
   EXPECT_THAT(fit(std::vector<double>(1000, 0.5), rate_hz),
               ThrowsMessage<InputError>(HasSubstr("points[0]: tau, deviation")));
   auto points = exact_points({0, 1e-2, 0, 0, 0}, 6, 10.0);
-  points[3].edf = std::numeric_limits<double>::quiet_NaN();
+  points[3].power_law_edf = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(fit(points), ThrowsMessage<InputError>(HasSubstr("points[3]")));
   points[3] = points[2];
   EXPECT_THAT(fit(points), ThrowsMessage<InputError>(HasSubstr("points[3]: tau does not rise")));

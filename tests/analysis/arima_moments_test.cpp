@@ -148,7 +148,7 @@ TEST(ArimaHaar, VarianceOfWhiteNoiseEstimatesIsTheirDegreesOfFreedom) {
   const auto points =
       overlapping_allan_deviation(simulate({0.0, 0.0, 0.0, 1.0}, n, 0), 1.0, clusters);
   for (std::size_t j = 0; j < 12; ++j)
-    EXPECT_NEAR(covariance(j, j) * points[j].edf / 2.0, 1.0, 0.05) << j;
+    EXPECT_NEAR(covariance(j, j) * points[j].power_law_edf / 2.0, 1.0, 0.05) << j;
 }
 
 // Four parameters at 4.5 standard errors: 1 false failure in 30000 runs each.

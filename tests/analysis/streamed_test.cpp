@@ -80,25 +80,5 @@ TEST(StreamedSummary, CountsMissingValuesAndLeavesThemOut) {
   expect_same_bits(streamed(none), summarise(none));
 }
 
-TEST(StreamedDifference, HasTheBitsOfAPairedDifferenceOfAllPairsAtOnce) {
-  for (const std::size_t count : {0U, 1U, 2U, 1000U}) {
-    auto a = drawn(count, normal);
-    const auto b = drawn(count, [](auto& r) { return 0.1 + 2.0 * normal(r); });
-    if (count > 5) a[5] = no_value;
-    StreamedDifference stream(15);
-    do
-      for (std::size_t i = 0; i < count; ++i) stream.add(a[i], b[i]);
-    while (stream.another_pass());
-    const auto& d = stream.difference();
-    const auto expected = paired_difference(a, b, 15);
-    EXPECT_EQ(d.count, expected.count);
-    EXPECT_EQ(bits(d.mean), bits(expected.mean));
-    EXPECT_EQ(bits(d.half_width), bits(expected.half_width));
-    EXPECT_EQ(bits(d.p_adjusted), bits(expected.p_adjusted));
-    EXPECT_EQ(d.separable, expected.separable);
-    EXPECT_EQ(bits(d.trials_needed), bits(expected.trials_needed));
-  }
-}
-
 }  // namespace
 }  // namespace gyrostat

@@ -236,12 +236,12 @@ TEST_F(MadeUp, WhatIsTheSameInEveryTrialIsEqual) {
 }
 
 TEST_F(MadeUp, IntervalsAfterASeparationAllowForItsLooks) {
-  EXPECT_GT(comparisons_after_looks(cell, 1, 400), 1U);
-  EXPECT_GT(comparisons_after_looks(cell, 3, 400), 3U);
+  EXPECT_GT(comparisons_of_looks(cell, 400), 1.0);
+  EXPECT_GT(comparisons_of_looks(cell, 800), comparisons_of_looks(cell, 400));
   cell.stop->half_width_below = 1.0;
-  EXPECT_EQ(comparisons_after_looks(cell, 3, 400), 3U);
+  EXPECT_EQ(comparisons_of_looks(cell, 400), 1.0);
   cell.stop.reset();
-  EXPECT_EQ(comparisons_after_looks(cell, 3, 400), 3U);
+  EXPECT_EQ(comparisons_of_looks(cell, 400), 1.0);
 }
 
 }  // namespace

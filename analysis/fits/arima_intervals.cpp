@@ -1,0 +1,237 @@
+#include "analysis/fits/arima_intervals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <ceres/jet.h>
+
+#include "analysis/fits/arima_innovations.hpp"
+#include "analysis/fits/arima_likelihood.hpp"
+
+namespace gyrostat {
+namespace {
+
+using Parameter = ArimaIntervals::Parameter;
+/// What is free beside the held parameter, each over all real numbers.
+using Free = std::array<double, 3>;
+
+constexpr double smallest = 1e-9;     ///< of a standard deviation beside the largest of the model
+constexpr double wald_is_good = 0.1;  ///< of a signed root, so far from where it should be
+
+/// The model with one parameter held at `value`. |delta2| < delta1 throughout.
+template <class T>
+Arima111<T> model(Parameter held, double value, const T* u) {
+  using std::exp;
+  using std::sqrt;
+  using std::tanh;
+  const T v(value);
+  switch (held) {
+    case Parameter::phi: {
+      const T delta1 = exp(u[0]);
+      return {v, delta1, tanh(u[1]) * delta1, exp(u[2])};
+    }
+    case Parameter::delta1:
+      return {tanh(u[0]), v, tanh(u[1]) * v, exp(u[2])};
+    case Parameter::delta2:
+      return {tanh(u[0]), sqrt(v * v + exp(T(2.0) * u[1])), v, exp(u[2])};
+    default: {
+      const T delta1 = exp(u[1]);
+      return {tanh(u[0]), delta1, tanh(u[2]) * delta1, v};
+    }
+  }
+}
+
+/// Where `model` has these parameters, as nearly as it can.
+Free coordinates(Parameter held, const Arima111<double>& p) {
+  const double scale = std::hypot(p.delta1_dps, p.measurement_noise_std_dps);
+  const auto log_of = [&](double std) { return std::log(std::max(std, smallest * scale)); };
+  const auto inverse = [](double v) { return std::atanh(std::clamp(v, -0.9999, 0.9999)); };
+  const double theta = p.delta1_dps > 0.0 ? p.theta() : 0.0;
+  switch (held) {
+    case Parameter::phi:
+      return {log_of(p.delta1_dps), inverse(theta), log_of(p.measurement_noise_std_dps)};
+    case Parameter::delta1:
+      return {inverse(p.phi), inverse(theta), log_of(p.measurement_noise_std_dps)};
+    case Parameter::delta2:
+      return {inverse(p.phi), log_of(p.delta1_dps * std::sqrt(std::max(0.0, 1.0 - theta * theta))),
+              log_of(p.measurement_noise_std_dps)};
+    default:
+      return {inverse(p.phi), log_of(p.delta1_dps), inverse(theta)};
+  }
+}
+
+double value_of(Parameter parameter, const Arima111<double>& p) {
+  return std::array{p.phi, p.delta1_dps, p.delta2_dps, p.measurement_noise_std_dps}[parameter];
+}
+
+/// Half of the deviance, up to a constant, with its gradient and expected curvature (Durbin and
+/// Koopman 2012, sec. 7.3.5).
+struct Misfit {
+  double value = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+};
+
+double misfit_of(std::span<const double> z, const Arima111<double>& arima) {
+  double sum = 0.0;
+  arima_innovations(arima, z, [&](double nu, double s) { sum += std::log(s) + nu * nu / s; });
+  return std::isfinite(sum) ? 0.5 * sum : std::numeric_limits<double>::infinity();
+}
+
+Misfit misfit_about(std::span<const double> z, Parameter held, double value, const Free& u) {
+  using Jet = ceres::Jet<double, 3>;
+  const std::array<Jet, 3> jets = {Jet(u[0], 0), Jet(u[1], 1), Jet(u[2], 2)};
+  Misfit misfit{.value = 0.0};
+  arima_innovations(model(held, value, jets.data()), z, [&](const Jet& nu, const Jet& s) {
+    misfit.value += 0.5 * (std::log(s.a) + nu.a * nu.a / s.a);
+    misfit.gradient += nu.a / s.a * nu.v + (0.5 / s.a) * (1.0 - nu.a * nu.a / s.a) * s.v;
+    misfit.information.noalias() +=
+        nu.v * nu.v.transpose() / s.a + s.v * s.v.transpose() * (0.5 / (s.a * s.a));
+  });
+  if (!std::isfinite(misfit.value) || !misfit.gradient.allFinite() ||
+      !misfit.information.allFinite())
+    return {};
+  return misfit;
+}
+
+/// The least misfit that Fisher scoring reaches from `u`, damped as by Marquardt.
+double descend(std::span<const double> z, Parameter held, double value, Free u) {
+  constexpr int most_steps = 60;
+  constexpr double enough = 1e-4;  ///< of half a deviance
+  Misfit at = misfit_about(z, held, value, u);
+  double damping = 1e-2;
+  for (int i = 0; i < most_steps && std::isfinite(at.value) && damping < 1e8; ++i) {
+    Eigen::Matrix3d damped = at.information;
+    damped.diagonal() *= 1.0 + damping;
+    damped.diagonal().array() += 1e-12 * damped.trace() + 1e-300;
+    const Eigen::Vector3d step = damped.ldlt().solve(-at.gradient).cwiseMax(-2.0).cwiseMin(2.0);
+    if (!(-step.dot(at.gradient) > 2.0 * enough)) break;
+    const Free next = {u[0] + step[0], u[1] + step[1], u[2] + step[2]};
+    const Misfit there = misfit_about(z, held, value, next);
+    if (!(there.value < at.value)) {
+      damping *= 8.0;
+      continue;
+    }
+    const bool is_done = damping < 1.0 && at.value - there.value < enough;
+    at = there;
+    u = next;
+    damping *= 0.2;
+    if (is_done) break;
+  }
+  return at.value;
+}
+
+/// The least misfit with the parameter held there, from the most promising starting points.
+double least_misfit(std::span<const double> z, Parameter held, double value,
+                    std::span<const Arima111<double>> starts) {
+  constexpr std::size_t descents = 3;
+  std::vector<std::pair<double, Free>> from;
+  for (const auto& start : starts) {
+    const auto u = coordinates(held, start);
+    from.emplace_back(misfit_of(z, model(held, value, u.data())), u);
+  }
+  std::sort(from.begin(), from.end());
+  from.resize(std::min(from.size(), descents));
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [misfit, u] : from) least = std::min(least, descend(z, held, value, u));
+  return least;
+}
+
+/// The likeliest of models all over what is possible, each at the scale that suits the signal best.
+std::vector<Arima111<double>> likely_models(std::span<const double> z) {
+  constexpr std::size_t kept = 12;
+  std::vector<std::pair<double, std::array<double, 4>>> models;
+  for (const double phi : {-0.6, 0.0, 0.6, 0.9})
+    for (const double theta : {-0.9, -0.5, 0.0, 0.5, 0.9})
+      for (const double noise : {0.01, 0.3, 1.0, 3.0, 10.0, 100.0, 1000.0}) {
+        double squares = 0.0, logs = 0.0, count = 0.0;
+        arima_innovations(Arima111<double>{phi, 1.0, theta, noise}, z, [&](double nu, double s) {
+          squares += nu * nu / s;
+          logs += std::log(s);
+          count += 1.0;
+        });
+        const double scale = std::sqrt(squares / count);
+        models.push_back(
+            {logs + count * std::log(squares), {phi, scale, theta * scale, noise * scale}});
+      }
+  std::sort(models.begin(), models.end());
+  std::vector<Arima111<double>> likely;
+  for (std::size_t k = 0; k < kept; ++k) {
+    const auto& [phi, delta1, delta2, noise] = models[k].second;
+    likely.push_back({phi, delta1, delta2, noise});
+  }
+  return likely;
+}
+
+}  // namespace
+
+ArimaIntervals::ArimaIntervals(const ArimaFit& fit, std::span<const double> rate_dps)
+    : z_(rate_dps),
+      reported_(fit.parameters),
+      errors_(fit.standard_errors),
+      starts_(likely_models(rate_dps)) {
+  const auto whole = fit_whole_arima_likelihood(rate_dps).parameters;
+  starts_.push_back(whole);
+  least_ = misfit_of(z_, whole);
+  needed_ = 2.0 * (misfit_of(z_, reported_) - least_);
+}
+
+double ArimaIntervals::deviance(Parameter parameter, double value) const {
+  return std::max(0.0, 2.0 * (least_misfit(z_, parameter, value, starts_) - least_));
+}
+
+double ArimaIntervals::end(Parameter parameter, double limit, double reach) const {
+  const double estimate = value_of(parameter, reported_);
+  const double side = limit > estimate ? 1.0 : -1.0;
+  const auto excess = [&](double v) {
+    return v == estimate ? -reach : std::sqrt(deviance(parameter, v)) - reach;
+  };
+
+  // A parabola would have it here.
+  const double error = value_of(parameter, errors_);
+  const double typical = parameter == phi ? 0.2 : 0.5 * starts_.back().delta1_dps;
+  double step = std::isfinite(error) && error > 0.0 ? reach * error : typical;
+  const auto within = [&](double v) { return side * (limit - v) > 0.0; };
+  if (within(estimate + side * step))
+    if (const double miss = excess(estimate + side * step); std::abs(miss) < wald_is_good)
+      return estimate + side * step * reach / (reach + miss);
+
+  if (std::isfinite(limit) && !(excess(limit) > 0.0)) return limit;
+  double far = estimate + side * step;
+  for (int i = 0; i < 40 && within(far) && excess(far) < 0.0; ++i)
+    far = estimate + side * (step *= 2.0);
+  if (!within(far)) far = limit;
+  const double ends[] = {std::min(estimate, far), std::max(estimate, far)};
+  std::uintmax_t most = 20;
+  const auto close = [&](double a, double b) {
+    return std::abs(a - b) < 0.01 * std::abs(0.5 * (a + b) - estimate);
+  };
+  const auto found = boost::math::tools::toms748_solve(excess, ends[0], ends[1], close, most);
+  return 0.5 * (found.first + found.second);
+}
+
+double ArimaIntervals::reach(double confidence) const {
+  const double normal = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
+  return std::max(normal, 1.001 * std::sqrt(std::max(0.0, needed_)));
+}
+
+std::array<double, 2> ArimaIntervals::interval(Parameter parameter, double confidence) const {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  constexpr double most = 1.0 - 1e-5;  // of |phi|
+  std::array<double, 2> limits = {0.0, none};
+  if (parameter == phi) limits = {-most, most};
+  if (parameter == delta2) limits = {-none, none};
+  std::array<double, 2> ends{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    ends[i] = end(parameter, limits[i], reach(confidence));
+    if (parameter == phi && ends[i] == limits[i]) ends[i] = std::round(ends[i]);
+  }
+  return ends;
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "analysis/fits/arima_fit.hpp"
+
+namespace gyrostat {
+
+/// Confidence intervals of the parameters of ARIMA(1,1,1) + white noise by profile likelihood: the
+/// values that a likelihood-ratio test does not reject, all other parameters free (Venzon and
+/// Moolgavkar, Applied Statistics 37, 1988). Where a signal hardly tells phi from delta2 or delta1
+/// from R the likelihood is no parabola, and these hold where multiples of a standard error do not.
+class ArimaIntervals {
+ public:
+  enum Parameter { phi, delta1, delta2, measurement_noise_std };
+
+  /// `fit` by likelihood to `rate_dps`, which is looked at again for every value. Throws as the
+  /// fit.
+  ArimaIntervals(const ArimaFit& fit, std::span<const double> rate_dps);
+
+  /// Twice by what the log-likelihood falls short of its maximum where the parameter has `value`:
+  /// chi-squared with one degree of freedom at the truth.
+  double deviance(Parameter parameter, double value) const;
+
+  /// In the parameter's unit; an end is -1, 0 or 1 where that is the end of what the parameter may
+  /// be. Wide enough to hold the fit, which may be of a simpler model.
+  std::array<double, 2> interval(Parameter parameter, double confidence = 0.95) const;
+
+  /// Whether the interval holds `value`.
+  bool holds(Parameter parameter, double value, double confidence = 0.95) const {
+    return std::sqrt(deviance(parameter, value)) <= reach(confidence);
+  }
+
+ private:
+  /// The root of the deviance at the interval's ends.
+  double reach(double confidence) const;
+  /// The end of the interval on the side of `limit`, which may be infinite.
+  double end(Parameter parameter, double limit, double reach) const;
+
+  std::span<const double> z_;
+  Arima111<double> reported_, errors_;
+  std::vector<Arima111<double>> starts_;  ///< the last is the fit of all four parameters
+  double least_ = 0.0;                    ///< half of -2 log-likelihood there, up to a constant
+  double needed_ = 0.0;                   ///< deviance of the fit
+};
+
+}  // namespace gyrostat
