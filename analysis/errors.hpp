@@ -32,27 +32,39 @@ struct ErrorMoments {
   double rmse = no_value;
 };
 
+/// Moments of errors that come by twice, in the same order; NaN is left out.
+class MomentSums {
+ public:
+  void add(double error) {
+    if (std::isnan(error)) return;
+    sum_ += error;
+    squares_ += error * error;
+    ++count_;
+  }
+  /// Ends the first pass.
+  void centre() { mean_ = sum_ / static_cast<double>(count_); }
+  void add_centred(double error) {
+    if (!std::isnan(error)) spread_ += (error - mean_) * (error - mean_);
+  }
+  ErrorMoments moments() const {
+    if (count_ == 0) return {};
+    const double n = static_cast<double>(count_);
+    return {count_, mean_, std::sqrt(spread_ / n), std::sqrt(squares_ / n)};
+  }
+
+ private:
+  double sum_ = 0.0, squares_ = 0.0, mean_ = no_value, spread_ = 0.0;
+  std::size_t count_ = 0;
+};
+
 /// Moments over time of `error(i)`, i < samples; NaN samples are left out.
 template <class Error>
 ErrorMoments error_moments(std::size_t samples, const Error& error) {
-  double sum = 0.0, squares = 0.0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < samples; ++i) {
-    const double e = error(i);
-    if (std::isnan(e)) continue;
-    sum += e;
-    squares += e * e;
-    ++count;
-  }
-  if (count == 0) return {};
-  const double n = static_cast<double>(count);
-  const double mean = sum / n;
-  double spread = 0.0;
-  for (std::size_t i = 0; i < samples; ++i) {
-    const double e = error(i);
-    if (!std::isnan(e)) spread += (e - mean) * (e - mean);
-  }
-  return {count, mean, std::sqrt(spread / n), std::sqrt(squares / n)};
+  MomentSums sums;
+  for (std::size_t i = 0; i < samples; ++i) sums.add(error(i));
+  sums.centre();
+  for (std::size_t i = 0; i < samples; ++i) sums.add_centred(error(i));
+  return sums.moments();
 }
 
 struct HeadingExcursion {

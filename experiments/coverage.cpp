@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+
+#include <tbb/parallel_for.h>
 
 #include "experiments/study_store.hpp"
 
@@ -89,26 +92,36 @@ CoverageStudy read_coverage(const std::string& path) {
 
 std::vector<Coverage> measure_coverage(
     const CoverageStudy& wanted, const std::function<CellResult(const Study&, const Cell&)>& run) {
-  const Study study = read_study(wanted.study);
-  std::vector<Coverage> all;
-  const auto append = [&](std::vector<Coverage> more) {
-    for (auto& coverage : more)
-      if (!coverage.counts.empty()) all.push_back(std::move(coverage));
-  };
-  CoverageStudy shortened = wanted;
-  for (Cell cell : study.cells) {
+  const Study study = read_study(wanted.study), signals = read_study(wanted.signals);
+  std::vector<Cell> cells = study.cells;
+  std::vector<coverage_detail::Population> populations;
+  populations.reserve(cells.size());
+  CoverageStudy scaled = wanted;
+  std::vector<std::function<std::vector<Coverage>()>> measurements;
+  for (Cell& cell : cells) {
     cell.trials = wanted.population;
-    const auto population = population_of(cell, run(study, cell));
-    const auto scaled = in_proportion(wanted, population.trials.size());
+    const auto& population = populations.emplace_back(population_of(cell, run(study, cell)));
+    scaled = in_proportion(wanted, population.trials.size());
     for (const auto size : wanted.sizes)
-      append(coverage_detail::of_samples(scaled, population, size));
+      measurements.push_back([&population, scaled, size] {
+        return coverage_detail::of_samples(scaled, population, size);
+      });
     for (const auto first : wanted.first_looks)
-      append(coverage_detail::of_stopped_samples(scaled, population, first));
-    shortened = scaled;
+      measurements.push_back([&population, scaled, first] {
+        return coverage_detail::of_stopped_samples(scaled, population, first);
+      });
   }
-  const Study signals = read_study(wanted.signals);
   for (const auto& cell : signals.cells)
-    append(coverage_detail::of_signals(shortened, signals, cell));
+    measurements.push_back(
+        [&signals, &cell, scaled] { return coverage_detail::of_signals(scaled, signals, cell); });
+
+  std::vector<std::vector<Coverage>> found(measurements.size());
+  tbb::parallel_for(std::size_t{0}, measurements.size(),
+                    [&](std::size_t i) { found[i] = measurements[i](); });
+  std::vector<Coverage> all;
+  for (auto& some : found)
+    for (auto& coverage : some)
+      if (!coverage.counts.empty()) all.push_back(std::move(coverage));
   std::stable_sort(all.begin(), all.end(),
                    [](const Coverage& a, const Coverage& b) { return a.interval < b.interval; });
   return all;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fills the numbers of results/published/performance/page.md from benchmarks.json into README.md.
+"""Fills the numbers of results/published/performance/page.md from benchmarks.json and million.json into README.md.
 
     page.py FOLDER [--check]
 
@@ -16,13 +16,14 @@ from pathlib import Path
 OPERATIONS_PER_DEVIATE = 34.5
 
 
-
 def least(runs):
     times = {}
     for run in runs:
         if run.get("run_type") != "iteration":
             continue
         name = re.sub(r"/(repeats:\d+|real_time|process_time)", "", run["name"])
+        if name.startswith("diagnosis/") and run["real_time"] < times.get((name, "elapsed"), 1e9):
+            times.update({(name, part): value for part, value in run.items() if isinstance(value, float)})
         for counter in ("s_per_trial_step", "s_per_deviate", "s_per_trial", "operations_per_s", "operations_per_step"):
             if counter in run:
                 key = (name, counter)
@@ -85,13 +86,40 @@ def target_table(times):
     return "\n".join(lines)
 
 
-def fill(text, times):
+def diagnosis_table(times):
+    """Seconds of each part, one column a recording, the longest part first."""
+    names = sorted({n for n, _ in times if n.startswith("diagnosis/")})
+    own = {"real_time", "cpu_time", "elapsed", "processor", "peak_MiB"}
+    parts = sorted({c for n, c in times if n == names[0]} - own, key=lambda c: -times[names[0], c])
+    lines = ["| part | " + " | ".join(n.split("/")[1] + " [s]" for n in names) + " |", "| --- |" + " ---: |" * len(names)]
+    for part in parts:
+        lines.append(f"| {part} | " + " | ".join(f"{times.get((n, part), 0.0):.1f}" for n in names) + " |")
+    lines.append("| all | " + " | ".join(f"{times[n, 'elapsed']:.1f}" for n in names) + " |")
+    return "\n".join(lines)
+
+
+def million_text(run):
+    """A study of a million trials as `gyrostat plan` foretold it and as it then ran."""
+    share = run["elapsed_s"] / run["planned_s"] - 1.0
+    return (f"{run['filters']} filters over {run['samples']:,} samples, {run['trials']:,} trials: `gyrostat plan` foretold "
+            f"{run['planned_s']:.0f} s and {run['planned_GB']:.2f} GB, the run took {run['elapsed_s']:.0f} s "
+            f"({100 * share:+.0f} %) and {run['stored_GB']:.2f} GB, tables and outcomes.csv.gz included. Its largest memory was "
+            f"{run['peak_MB']:.0f} MB; a run of {run['fewer_trials']:,} trials took {run['fewer_peak_MB']:.0f} MB.")
+
+
+def fill(text, times, million):
     def value(match):
         what, *names = match.group(1).split()
         if what == "filters":
             return filter_table(times)
         if what == "targets":
             return target_table(times)
+        if what == "diagnosis":
+            return diagnosis_table(times)
+        if what == "million":
+            return million_text(million)
+        if what == "counter":
+            return f"{times[names[0], names[1]]:.0f}"
         if what == "ms":
             return three(1e3 * times[names[0], "processor"]) + " ms"
         if what == "elapsed":
@@ -119,12 +147,13 @@ def fill(text, times):
 def main():
     folder = Path(sys.argv[1])
     times = least(json.loads((folder / "benchmarks.json").read_text())["benchmarks"])
-    page = fill((folder / "page.md").read_text(), times)
+    million = json.loads((folder / "million.json").read_text())
+    page = fill((folder / "page.md").read_text(), times, million)
     readme = folder / "README.md"
     if "--check" not in sys.argv:
         readme.write_text(page)
     elif readme.read_text() != page:
-        raise SystemExit(f"{readme} is not what page.md and benchmarks.json make")
+        raise SystemExit(f"{readme} is not what page.md, benchmarks.json and million.json make")
 
 
 if __name__ == "__main__":

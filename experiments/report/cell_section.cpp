@@ -69,6 +69,16 @@ std::string tables(const CellView& v, const PreparedCell& prepared) {
   return out + "</details>\n";
 }
 
+/// A warning where trials simulated again do not come out as the store has them.
+std::string disagreement(const CellView& v, const Replayed& replayed) {
+  const auto [compared, different] = compare(replayed, v.values);
+  if (different == 0) return "";
+  return fmt::format(
+      "<p class=\"note\"><strong>Pictures over time are of trials simulated again, and {} of {} "
+      "did not come out as the store has them:</strong> its outcomes are of another build.</p>\n",
+      different, compared);
+}
+
 }  // namespace
 
 std::string cell_section(const CellView& v, const CellRanking& ranking,
@@ -80,7 +90,7 @@ std::string cell_section(const CellView& v, const CellRanking& ranking,
   out += fmt::format(
       "<p class=\"note\">{} of {} trials finished, all methods on the same signals</p>\n",
       v.summary.finished, v.cell.trials);
-  out += list(ranking.sentences) + html(ranking_table(v, ranking));
+  out += disagreement(v, replayed) + list(ranking.sentences) + html(ranking_table(v, ranking));
   std::vector<Chart> charts = {box_chart(v), rank_chart(v, ranking), ecdf_chart(v),
                                convergence_chart(v)};
   if (replayed.trials > 0)

@@ -11,9 +11,9 @@ namespace gyrostat {
 
 /// The judging metric in every finished trial of a cell; NaN where a method has no value.
 struct CellValues {
-  std::string metric, title, unit;
-  std::vector<std::uint32_t> trials;        ///< in order
-  std::vector<std::vector<double>> values;  ///< by method, by finished trial
+  std::string metric{}, title{}, unit{};
+  std::vector<std::uint32_t> trials{};        ///< in order
+  std::vector<std::vector<double>> values{};  ///< by method, by finished trial
 };
 
 CellValues cell_values(const Cell& cell, const Store& store, std::uint32_t index);

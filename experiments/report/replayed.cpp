@@ -9,6 +9,8 @@
 #include "analysis/error_series.hpp"
 #include "analysis/errors.hpp"
 #include "analysis/spectra/allan.hpp"
+#include "experiments/cell_summary.hpp"
+#include "experiments/trial.hpp"
 
 namespace gyrostat {
 namespace {
@@ -18,6 +20,7 @@ constexpr std::size_t most_points = 200;
 /// What one method made of one trial, at the times and taus of the picture; empty where it threw.
 struct Seen {
   std::vector<double> error, variance, heading, allan;
+  double judged = no_value;  ///< the judging metric
 };
 
 /// Places in a signal: all of a short one, so many evenly spaced of a long one.
@@ -94,6 +97,7 @@ Replayed replay_trials(const PreparedCell& prepared, std::uint64_t seed, std::ui
     for (const std::size_t cluster : allan_clusters(first.size()))
       replayed.tau_s.push_back(static_cast<double>(cluster) / first.rate_hz());
 
+  const std::size_t judging = metric_named(std::string(judging_metric(cell)), "report");
   std::vector<std::vector<Seen>> seen(trials, std::vector<Seen>(cell.methods.size()));
   tbb::parallel_for(std::uint32_t{0}, trials, [&](std::uint32_t trial) {
     Workspace w;
@@ -107,6 +111,7 @@ Replayed replay_trials(const PreparedCell& prepared, std::uint64_t seed, std::ui
         track_method(method, told_parameters(cell, method, calibration, w.series), w.series,
                      w.track);
         seen[trial][m] = look(w.series, judged, w.track, at);
+        seen[trial][m].judged = judge_track(w.series, judged, w.track).metrics[judging];
       } catch (const std::bad_alloc&) {
         throw;
       } catch (const std::exception&) {  // kept in quarantine by the run; here it is left out
@@ -116,8 +121,23 @@ Replayed replay_trials(const PreparedCell& prepared, std::uint64_t seed, std::ui
     std::vector<const Seen*> of_method;
     for (const auto& trial : seen) of_method.push_back(&trial[m]);
     replayed.methods.push_back(folded(of_method, at.size(), replayed.tau_s.size()));
+    for (const auto* trial : of_method) replayed.methods.back().judged.push_back(trial->judged);
   }
   return replayed;
+}
+
+Comparison compare(const Replayed& replayed, const CellValues& stored) {
+  Comparison comparison;
+  for (std::size_t i = 0; i < stored.trials.size(); ++i) {
+    const auto trial = stored.trials[i];
+    if (trial >= replayed.trials) continue;
+    for (std::size_t m = 0; m < replayed.methods.size(); ++m) {
+      const double before = stored.values[m][i], again = replayed.methods[m].judged[trial];
+      ++comparison.compared;
+      comparison.different += before != again && !(std::isnan(before) && std::isnan(again));
+    }
+  }
+  return comparison;
 }
 
 }  // namespace gyrostat

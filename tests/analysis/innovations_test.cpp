@@ -42,7 +42,9 @@ TEST(Innovations, AutocorrelationsAreThoseOfTheDefinition) {
     double products = 0.0;
     for (std::size_t i = lag; i < values.size(); ++i) products += values[i] * values[i - lag];
     const double r = products / squares;
-    if (lag == 1) EXPECT_NEAR(result.lag_1, r, 1e-12);
+    if (lag == 1) {
+      EXPECT_NEAR(result.lag_1, r, 1e-12);
+    }
     q += 200.0 * 202.0 * r * r / (200.0 - static_cast<double>(lag));
   }
   EXPECT_NEAR(result.ljung_box, q, 1e-10);

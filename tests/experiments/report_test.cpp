@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "experiments/report/replayed.hpp"
 #include "experiments/report/run_times.hpp"
 #include "experiments/report/sweep.hpp"
 #include "tests/experiments/program.hpp"
@@ -149,6 +150,24 @@ TEST(Report, WithoutReplayHasNoPicturesOverTime) {
   const auto charts = charts_of(page_of(folder, study, {"--replay", "0"}));
   EXPECT_FALSE(charts.contains("cell-0-allan"));
   EXPECT_TRUE(charts.contains("cell-0-boxes"));
+}
+
+TEST(Report, ComparesTrialsSimulatedAgainWithTheStores) {
+  Replayed again{.trials = 3};
+  again.methods.resize(2);
+  again.methods[0].judged = {1.0, 2.0, no_value};
+  again.methods[1].judged = {4.0, 5.0, 6.0};
+  CellValues stored{.trials = {0, 2, 3}, .values = {{1.0, no_value, 9.0}, {4.0, 6.0, 9.0}}};
+  EXPECT_EQ(compare(again, stored).compared, 4U);
+  EXPECT_EQ(compare(again, stored).different, 0U);
+  stored.values[1][1] = 6.5;
+  stored.values[0][0] = no_value;
+  EXPECT_EQ(compare(again, stored).different, 2U);
+}
+
+TEST(Report, WhatIsSimulatedAgainIsWhatIsStored) {
+  const TestFolder folder;
+  EXPECT_THAT(page_of(folder, study), Not(HasSubstr("of another build")));
 }
 
 TEST(Report, OverTwoParametersHasMapsAndTheWinnerIsTheLeastMean) {

@@ -67,13 +67,19 @@ std::size_t finished_in(const TestFolder& folder) {
   return sum;
 }
 
+/// Whether the run has noted how far it is, which follows the batch that it tells of.
+bool has_noted_progress(const TestFolder& folder) {
+  const auto sessions = Store::open(folder.path() / "runs/s").sessions();
+  return !sessions.empty() && sessions.back().progress.size() > 2;
+}
+
 /// Lets the program run until something is in the store, then kills it.
 void kill_half_way(const TestFolder& folder) {
   Program program(folder.path(), {"run", "s.json"});
   while (true) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     try {
-      if (finished_in(folder) > 200) break;
+      if (finished_in(folder) > 200 && has_noted_progress(folder)) break;
     } catch (const std::runtime_error&) {  // not there yet
     }
   }

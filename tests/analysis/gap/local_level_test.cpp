@@ -59,7 +59,7 @@ TEST(LocalLevel, ItsLikelihoodIsThatOfDenseMatrices) {
   const auto points = points_with_hole(40);
   const auto y = walk_in_noise(points, 0.05, 0);
   Eigen::MatrixXd regressors(40, 2);
-  for (Eigen::Index k = 0; k < 40; ++k) regressors.row(k) << std::sin(0.3 * k), 0.1 * k;
+  for (int k = 0; k < 40; ++k) regressors.row(k) << std::sin(0.3 * k), 0.1 * k;
   const RatioLikelihood likelihood(points, regressors, y);
   // At ratios of its own grid, where nothing is interpolated.
   const auto at = [](int k) { return 1e-9 * std::exp(0.5 * k); };
