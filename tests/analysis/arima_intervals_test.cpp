@@ -7,18 +7,14 @@
 
 #include "analysis/fits/arima_likelihood.hpp"
 #include "core/error.hpp"
-#include "generators/random_error.hpp"
+#include "tests/analysis/simulated_random_error.hpp"
 
 namespace gyrostat {
 namespace {
 
 std::vector<double> simulated(const Arima111<double>& model, std::size_t samples,
                               std::uint32_t trial) {
-  std::vector<double> z(samples);
-  const Noise noise{20250602, trial};
-  add_random_error(model, noise, z);
-  add_white_noise(model.measurement_noise_std_dps, noise.stream("white_noise"), z);
-  return z;
+  return simulated(model, samples, Noise{20250602, trial});
 }
 
 constexpr double reach = 1.959963984540054;

@@ -9,7 +9,7 @@
 #include "analysis/fits/arima_innovations.hpp"
 #include "core/error.hpp"
 #include "core/filters/kf_ma.hpp"
-#include "generators/random_error.hpp"
+#include "tests/analysis/simulated_random_error.hpp"
 
 namespace gyrostat {
 namespace {
@@ -18,11 +18,7 @@ using testing::HasSubstr;
 
 std::vector<double> simulated(const Arima111<double>& model, std::size_t samples,
                               std::uint32_t trial) {
-  std::vector<double> z(samples);
-  const Noise noise{20250601, trial};
-  add_random_error(model, noise, z);
-  add_white_noise(model.measurement_noise_std_dps, noise.stream("white_noise"), z);
-  return z;
+  return simulated(model, samples, Noise{20250601, trial});
 }
 
 std::array<double, 4> values(const Arima111<double>& p) {
