@@ -8,6 +8,7 @@
 #include "experiments/cell_summary.hpp"
 #include "experiments/outcome_file.hpp"
 #include "experiments/study_store.hpp"
+#include "experiments/temporary_folder.hpp"
 #include "results/store_writer.hpp"
 
 namespace gyrostat {
@@ -16,20 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t methods = 6;
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "gyrostat_bench_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~Folder() { fs::remove_all(path_); }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 Cell six_methods(std::uint32_t trials) {
   Cell cell;
@@ -73,7 +60,7 @@ void StoreWrite(benchmark::State& state) {
   const auto cell = six_methods(trials);
   for (auto _ : state) {
     state.PauseTiming();
-    const Folder folder;
+    const TemporaryFolder folder;
     state.ResumeTiming();
     auto store = store_in(folder.path(), cell);
     fill(store, trials);
@@ -86,7 +73,7 @@ BENCHMARK(StoreWrite)->Arg(100000)->Unit(benchmark::kMillisecond)->UseRealTime()
 void StoreSummary(benchmark::State& state) {
   const auto trials = static_cast<std::uint32_t>(state.range(0));
   const auto cell = six_methods(trials);
-  const Folder folder;
+  const TemporaryFolder folder;
   auto store = store_in(folder.path(), cell);
   fill(store, trials);
   for (auto _ : state)
@@ -101,7 +88,7 @@ BENCHMARK(StoreSummary)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond
 
 void StoreExport(benchmark::State& state) {
   const auto trials = static_cast<std::uint32_t>(state.range(0));
-  const Folder folder;
+  const TemporaryFolder folder;
   auto store = store_in(folder.path(), six_methods(trials));
   fill(store, trials);
   for (auto _ : state) write_outcomes(folder.path() / "outcomes.csv.gz", store);

@@ -8,6 +8,7 @@
 
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/verbs.hpp"
+#include "experiments/temporary_folder.hpp"
 
 namespace gyrostat::cli {
 namespace {
@@ -25,26 +26,6 @@ struct PlanArguments {
   PilotOptions pilot;
   std::uint32_t trials = 0;
   int shards = 1;
-};
-
-/// A folder that goes when the plan is made.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "gyrostat_plan_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error(name + ": cannot be created");
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
 };
 
 std::string duration(double seconds) {
@@ -130,7 +111,7 @@ int run(const PlanArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   Study study = read_study(arguments.study);
   if (arguments.trials > 0) set_trials(study, arguments.trials);
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto parts = plan_parts(study, scratch.path(), arguments.pilot, console.stop);
   const auto table = plan_table(study, parts, arguments);
   console.out << render({&table, 1}, format);
