@@ -6,7 +6,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* allan_examples = R"(Examples:
   gyrostat allan REC.csv
   gyrostat allan REC.mat --axis z --format csv
   gyrostat allan LOG.csv.gz --columns t=Time[ms],gyro=GyrZ --units gyro=rad/s)";
@@ -44,7 +44,7 @@ void add_allan(CLI::App& program, Console& console, int& exit_code) {
   auto arguments = std::make_shared<AllanArguments>();
   arguments->recording.add_to(verb);
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(allan_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

@@ -10,7 +10,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* apply_examples = R"(Examples:
   gyrostat apply REC.csv                               every method, fitted to the first quarter
   gyrostat apply REC.csv --calibration 0.5 --out COMP.csv
   gyrostat apply REC.csv --config C.json --out COMP.mat parameters from a file; series for MATLAB
@@ -74,7 +74,7 @@ void add_apply(CLI::App& program, Console& console, int& exit_code) {
       ->excludes(config)
       ->capture_default_str();
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(apply_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

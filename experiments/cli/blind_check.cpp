@@ -12,7 +12,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* blind_check_examples = R"(Examples:
   gyrostat blind-check CHECK.json
   gyrostat blind-check CHECK.json --recordings 2 --out runs/short
   gyrostat blind-check CHECK.json --tables PAGE && gyrostat publish PAGE)";
@@ -62,7 +62,7 @@ void add_blind_check(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--tables", arguments->tables,
                    "folder to write the tables to, tables.json and CSV, as a page reads them");
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(blind_check_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

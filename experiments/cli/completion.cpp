@@ -11,7 +11,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* completion_examples = R"(Examples:
   source <(gyrostat completion bash)                                    in ~/.bashrc
   source <(gyrostat completion zsh)                                     in ~/.zshrc, after compinit
   gyrostat completion fish > ~/.config/fish/completions/gyrostat.fish)";
@@ -134,7 +134,7 @@ void add_completion(CLI::App& program, Console& console, int& exit_code) {
       program.add_subcommand("completion", "completion of verbs, options and names for a shell");
   auto shell = std::make_shared<std::string>();
   verb->add_option("shell", *shell, "bash, zsh or fish")->required();
-  verb->footer(examples);
+  verb->footer(completion_examples);
   verb->callback([shell, &program, &console, &exit_code] {
     Words names;
     for (const auto& [name, script] : shells) names.push_back(name);

@@ -7,7 +7,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* consistency_examples = R"(Examples:
   gyrostat consistency runs/STUDY                 does each filter's covariance tell the truth: every test
   gyrostat consistency runs/STUDY --cell ramp)";
 
@@ -47,7 +47,7 @@ void add_consistency(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("folder", arguments->folder, "folder of a run, as runs/<study>")->required();
   verb->add_option("--cell", arguments->cell, "this cell alone");
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(consistency_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

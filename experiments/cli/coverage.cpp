@@ -7,7 +7,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* coverage_examples = R"(Examples:
   gyrostat coverage experiments/studies/coverage.json    how often each 95 % interval holds what it is for)";
 
 struct CoverageArguments {
@@ -38,7 +38,7 @@ void add_coverage(CLI::App& program, Console& console, int& exit_code) {
   auto arguments = std::make_shared<CoverageArguments>();
   verb->add_option("study", arguments->study, "coverage study (JSON)")->required();
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(coverage_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

@@ -10,7 +10,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* diagnose_examples = R"(Examples:
   gyrostat diagnose REC.csv
   gyrostat diagnose REC.csv --html GAP.html --json GAP.json
   gyrostat diagnose REC.csv --scenario STUDY.json    a study whose simulator has the effect
@@ -86,7 +86,7 @@ void add_diagnose(CLI::App& program, Console& console, int& exit_code) {
       "judge the effects of this study (as --scenario writes it) instead of looking for causes");
   verb->add_option("--seed", arguments->options.seed, "of all simulated noise")
       ->capture_default_str();
-  verb->footer(examples);
+  verb->footer(diagnose_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

@@ -6,7 +6,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* export_examples = R"(Examples:
   gyrostat export runs/STUDY > outcomes.csv
   gyrostat export runs/STUDY --out outcomes.csv.gz)";
 
@@ -39,7 +39,7 @@ void add_export(CLI::App& program, Console& console, int& exit_code) {
   auto arguments = std::make_shared<ExportArguments>();
   verb->add_option("folder", arguments->folder, "folder of a run, as runs/<study>")->required();
   verb->add_option("--out", arguments->out, "CSV or CSV.gz to write (default: to the terminal)");
-  verb->footer(examples);
+  verb->footer(export_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

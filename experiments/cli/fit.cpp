@@ -10,7 +10,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* fit_examples = R"(Examples:
   gyrostat fit REC.csv
   gyrostat fit REC.csv --axis z --from 60 --to 600 --method likelihood
   gyrostat fit LOG.csv --columns t=Time,gyro=GyrZ,temp=Temp --units t=us,gyro=mdps,temp=F)";
@@ -111,7 +111,7 @@ void add_fit(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--method", arguments->methods, "likelihood, moments or both")->delimiter(',');
   arguments->span.add_to(verb);
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(fit_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

@@ -8,7 +8,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* ledger_examples = R"(Examples:
   gyrostat ledger LEDGER.json
   gyrostat ledger LEDGER.json --trials 50 --format md)";
 
@@ -45,7 +45,7 @@ void add_ledger(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--trials", arguments->trials, "trials of every cell, instead of the study's")
       ->check(CLI::Range(2U, 4294967295U));
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(ledger_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

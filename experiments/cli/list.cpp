@@ -13,7 +13,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* list_examples = R"(Examples:
   gyrostat list filters
   gyrostat list effects --json)";
 
@@ -162,7 +162,7 @@ void add_list(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("kind", arguments->kind, "one of these kinds, or all")->capture_default_str();
   verb->add_option("--studies", arguments->studies, "folder of studies")->capture_default_str();
   verb->add_flag("--json", arguments->json, "as JSON, with every parameter's default and range");
-  verb->footer(examples);
+  verb->footer(list_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

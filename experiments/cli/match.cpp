@@ -6,7 +6,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* match_examples = R"(Examples:
   gyrostat match MATCH.json
   gyrostat match MATCH.json --study FOUND.json    and the study at the scenario found)";
 
@@ -35,7 +35,7 @@ void add_match(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("match", arguments->match, "match file (JSON)")->required();
   verb->add_option("--study", arguments->study_out, "write the study at the scenario found");
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(match_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

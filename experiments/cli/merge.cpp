@@ -8,7 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* merge_examples = R"(Examples:
   gyrostat merge runs/STUDY runs/STUDY/shard_*     the outcomes of all shards in one folder
   gyrostat run STUDY.json                          runs what is still missing, and makes the tables
 Merging again changes nothing.)";
@@ -55,7 +55,7 @@ void add_merge(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("folders", arguments->folders, "folders of runs of the same study")->required();
   verb->add_flag("--mix", arguments->mix,
                  "merge outcomes of other builds, or of a study since changed");
-  verb->footer(examples);
+  verb->footer(merge_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* plan_examples = R"(Examples:
   gyrostat plan STUDY.json                    how long a run will take here, and how much disk
   gyrostat plan STUDY.json --trials 1000000
   gyrostat plan STUDY.json --shards 100       how long each of 100 shards will take)";
@@ -136,7 +136,7 @@ void add_plan(CLI::App& program, Console& console, int& exit_code) {
       ->check(within(0.01, 3600.0))
       ->capture_default_str();
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(plan_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

@@ -11,7 +11,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* publish_examples = R"(Examples:
   gyrostat publish PAGE                  runs its studies and writes its tables and text
   gyrostat publish PAGE --text           fills in the text again, from tables.json
   gyrostat publish PAGE --check          exit 1 where text and tables disagree)";
@@ -112,7 +112,7 @@ void add_publish(CLI::App& program, Console& console, int& exit_code) {
   verb->add_flag("--text", arguments->text, "fill in the text from tables.json, running nothing");
   verb->add_flag("--check", arguments->check,
                  "write nothing; exit 1 where the page and tables.json disagree");
-  verb->footer(examples);
+  verb->footer(publish_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

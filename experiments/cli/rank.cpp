@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* rank_examples = R"(Examples:
   gyrostat rank runs/STUDY                           which filter wins each cell, and how sure that is
   gyrostat rank runs/STUDY --metric heading_worst    by another error
   gyrostat rank runs/STUDY --cell ramp --format latex
@@ -72,7 +72,7 @@ void add_rank(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--figures", arguments->figures,
                    "folder for critical-difference diagrams, an SVG a cell");
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(rank_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* replay_examples = R"(Examples:
   gyrostat status runs/STUDY --failures                    the addresses of what failed
   gyrostat replay STUDY:ramp:17:sr_ukf                     its outcome, from the study in runs/STUDY
   gyrostat replay STUDY:ramp:17:sr_ukf --steps > steps.csv every step of it
@@ -130,7 +130,7 @@ void add_replay(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--store", arguments->store, "folder of the run (default: runs/<study>)");
   verb->add_flag("--steps", arguments->steps, "print every step as CSV");
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(replay_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* report_examples = R"(Examples:
   gyrostat report runs/STUDY                    to runs/STUDY/report.html, to be opened in a browser
   gyrostat report runs/STUDY --cell ramp        that cell in full, whatever else the study has
   gyrostat report runs/STUDY --replay 0         without simulating any trial again)";
@@ -51,7 +51,7 @@ void add_report(CLI::App& program, Console& console, int& exit_code) {
       ->check(CLI::Range(0U, 100000U));
   verb->add_option("--threads", arguments->options.threads, "threads (default: all)")
       ->check(CLI::Range(1, 1024));
-  verb->footer(examples);
+  verb->footer(report_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

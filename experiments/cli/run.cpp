@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* run_examples = R"(Examples:
   gyrostat run STUDY.json                   to runs/STUDY; the same again goes on where it ended
   gyrostat run STUDY.json --trials 100000   adds trials to those that are there
   gyrostat run STUDY.json --until 07:00     stops in good order, and goes on the next evening
@@ -372,7 +372,7 @@ void add_run(CLI::App& program, Console& console, int& exit_code) {
                    "same results)")
       ->check(CLI::IsMember(possible_lanes));
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(run_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = Run(*arguments, console)(); });
 }
 

@@ -7,7 +7,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* sensitivity_examples = R"(Examples:
   gyrostat sensitivity runs/STUDY                         which parameter matters, for each method
   gyrostat sensitivity runs/STUDY --metric heading_end --method kf
   gyrostat sensitivity runs/STUDY --points --format csv   the mean at every point of the design)";
@@ -44,7 +44,7 @@ void add_sensitivity(CLI::App& program, Console& console, int& exit_code) {
                    "method, by its id (default: all but the oracle)");
   verb->add_flag("--points", arguments->points, "the points and their means instead");
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(sensitivity_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

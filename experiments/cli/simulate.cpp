@@ -6,7 +6,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* simulate_examples = R"(Examples:
   gyrostat simulate STUDY.json --out REC.csv             trial 0 of the first cell
   gyrostat simulate STUDY.json --cell ramp --trial 3 --out REC.mat)";
 
@@ -39,7 +39,7 @@ void add_simulate(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--cell", arguments->cell, "cell of the study (default: the first)");
   verb->add_option("--trial", arguments->trial, "trial number, from 0")->capture_default_str();
   verb->add_option("--out", arguments->out, "CSV, CSV.gz or MATLAB file to write")->required();
-  verb->footer(examples);
+  verb->footer(simulate_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

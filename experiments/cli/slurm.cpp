@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* slurm_examples = R"(Examples:
   gyrostat slurm STUDY.json --shards 100 --threads 4 --time 02:00:00
   sbatch STUDY.sbatch
   gyrostat merge runs/STUDY runs/STUDY/shard_* && gyrostat run STUDY.json
@@ -72,7 +72,7 @@ void add_slurm(CLI::App& program, Console& console, int& exit_code) {
       ->check(CLI::Range(1U, 4294967295U));
   verb->add_option("--out", job.folder, "folder that all tasks see (default: runs/<study>)");
   verb->add_option("--file", arguments->file, "file to write (default: <study>.sbatch)");
-  verb->footer(examples);
+  verb->footer(slurm_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

@@ -8,7 +8,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* status_examples = R"(Examples:
   gyrostat status runs/STUDY               how far it is, while it runs or afterwards
   watch gyrostat status runs/STUDY
   gyrostat status runs/STUDY --failures    addresses of all trials that failed, for gyrostat replay)";
@@ -142,7 +142,7 @@ void add_status(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("folder", arguments->folder, "folder of a run, as runs/<study>")->required();
   verb->add_flag("--failures", arguments->failures, "the trials that failed, with their addresses");
   arguments->format.add_to(verb);
-  verb->footer(examples);
+  verb->footer(status_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }
 

@@ -5,7 +5,7 @@
 namespace gyrostat::cli {
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* validate_examples = R"(Examples:
   gyrostat validate STUDY.json     all of its mistakes, or what it would run)";
 
 /// A design on one line: "sweep, saltelli of 768 points over phi, delta1_dps".
@@ -39,7 +39,7 @@ void add_validate(CLI::App& program, Console& console, int& exit_code) {
   auto* verb = program.add_subcommand("validate", "check a study file and say what it would run");
   auto study = std::make_shared<std::string>();
   verb->add_option("study", *study, "study file (JSON)")->required();
-  verb->footer(examples);
+  verb->footer(validate_examples);
   verb->callback([study, &console, &exit_code] { exit_code = run(*study, console); });
 }
 
