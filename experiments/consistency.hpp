@@ -25,9 +25,11 @@ struct ConsistencyTest {
 ///   lag_1         autocorrelation of successive innovations, normal
 ///   ljung_box     of lags 1 to 10, mean over trials, chi-squared
 ///   pit           chi-squared of the PIT histogram's ten shares, nine degrees of freedom
-///   nees          mean over time and trials, Student's t over trials: errors of a trial hang
-///   together nees_end      at the last sample, over trials, chi-squared (ANEES) within_3_sigma
-///   share of time, Student's t over trials
+///   nees          mean over time and trials, Hall's t over trials, for errors of a trial hang
+///                 together
+///   nees_end      at the last sample, over trials, chi-squared (ANEES)
+///   within_3_sigma
+///                 share of time, Hall's t over trials
 std::vector<ConsistencyTest> consistency_tests(const Cell& cell, const CellSummary& summary);
 
 /// The shares of a method's innovations in the tenths of the distribution that it foretold.

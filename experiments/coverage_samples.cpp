@@ -5,6 +5,7 @@
 #include "analysis/statistics/consistency.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/sequential.hpp"
+#include "analysis/statistics/summary.hpp"
 #include "experiments/coverage.hpp"
 #include "experiments/ranking.hpp"
 #include "experiments/trial.hpp"
@@ -38,8 +39,9 @@ bool all_differences_hold(const CellRanking& ranking, const CellRanking& truth) 
   return std::all_of(ranking.pairs.begin(), ranking.pairs.end(), [&](const RankedPair& pair) {
     const double expected = signed_difference(truth, ranking.methods[pair.worse].method,
                                               ranking.methods[pair.better].method);
-    return std::abs(pair.difference.mean - expected) <=
-           pair.difference.half_width * (1.0 + 1e-9) + 1e-15;
+    const auto& d = pair.difference;
+    const double rounding = 1e-9 * (d.high - d.low) + 1e-15;
+    return d.low - rounding <= expected && expected <= d.high + rounding;
   });
 }
 
@@ -106,7 +108,7 @@ std::vector<Coverage> of_samples(const CoverageStudy& study, const Population& p
   const auto truth = rank_cell(cell, source_of(everything));
   const auto heading_truth = rank_cell(cell, source_of(everything), "heading_worst");
   const auto make = [&](const char* interval) { return Coverage{interval, cell.name, size, {}}; };
-  Coverage means = make("mean (t)"), tails = make("CVaR95 (Hall)");
+  Coverage means = make("mean"), tails = make("CVaR95 (Hall)");
   Coverage pairs = make("differences, all pairs at once"),
            shares = make("share of trials (Wilson)");
   Coverage worst = make("share worse than the worst"), consistent = make("consistency bounds");
@@ -156,20 +158,20 @@ std::vector<Coverage> of_stopped_samples(const CoverageStudy& study, const Popul
   const auto truth = rank_cell(cell, source_of(sample));
   const double trials_wanted = 4.0 * first;
   const auto make = [&](const char* interval) { return Coverage{interval, cell.name, first, {}}; };
-  Coverage narrow = make("mean where a width stopped (t)");
+  Coverage narrow = make("mean where a width stopped");
   Coverage apart = make("difference where a separation stopped");
   Coverage throughout = make("difference at all looks of a separation");
   const auto counts = look_counts(first, 16 * first);
 
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
-    Running spread;
+    Running whole;
     const std::size_t at = column(m, judging_metric(cell).data());
-    for (const auto& trial : population.trials) spread.add(trial[at]);
-    cell.stop = StopRule{
-        .metric = metric_named(std::string(judging_metric(cell)), "coverage"),
-        .methods = {m},
-        .at_least = first,
-        .half_width_below = 1.96 * std::sqrt(spread.squares / spread.count / trials_wanted)};
+    for (const auto& trial : population.trials) whole.add(trial[at]);
+    cell.stop =
+        StopRule{.metric = metric_named(std::string(judging_metric(cell)), "coverage"),
+                 .methods = {m},
+                 .at_least = first,
+                 .half_width_below = 1.96 * std::sqrt(whole.squares / whole.count / trials_wanted)};
     for (std::uint32_t s = 0; s < study.samples; ++s) {
       const Draws draw(study, population, s, "width/" + std::to_string(m));
       for (const auto n : counts) {
@@ -179,8 +181,8 @@ std::vector<Coverage> of_stopped_samples(const CoverageStudy& study, const Popul
         if (!stop_reason(cell, n, outcomes) && n != counts.back()) continue;
         Running mean;
         outcomes([&](std::span<const double> trial) { mean.add(trial[at]); });
-        const double half_width = student_t_quantile(0.95, n - 1.0) * mean.error();
-        narrow.add(cell.methods[m].id, mean.mean - half_width, spread.mean, mean.mean + half_width);
+        const double half_width = half_width_95(mean);
+        narrow.add(cell.methods[m].id, mean.mean - half_width, whole.mean, mean.mean + half_width);
         break;
       }
     }
@@ -213,9 +215,10 @@ std::vector<Coverage> of_stopped_samples(const CoverageStudy& study, const Popul
           }
           Running d;
           for (const double v : differences) d.add(v);
-          const auto difference = paired_difference(n, d.mean, d.squares, families[k]);
-          const double gap = std::abs(d.mean - (exchanged ? 0.0 : expected));
-          const bool holds = gap <= difference.half_width;
+          const auto difference = paired_difference(d, families[k]);
+          const double true_difference = exchanged ? 0.0 : expected;
+          const bool holds =
+              difference.low <= true_difference && true_difference <= difference.high;
           all = all && holds;
           if (!stopped && (difference.separable || n == counts.back())) {
             apart.add(name + (exchanged ? ", exchanged" : ""), holds);

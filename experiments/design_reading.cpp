@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::size_t most_points = 1000000;
 
-DesignKind kind_named(const std::string& name, const std::string& place) {
+DesignKind read_kind(JsonObject& object) {
   std::vector<std::string> names;
-  for (const auto kind : all_design_kinds) {
-    names.push_back(name_of(kind));
-    if (names.back() == name) return kind;
-  }
-  throw InputError(place, unknown_name("design", name, names));
+  for (const auto kind : all_design_kinds) names.push_back(name_of(kind));
+  const auto name = object.required_text("kind", names);
+  for (const auto kind : all_design_kinds)
+    if (name_of(kind) == name) return kind;
+  throw InputError(object.place_of("kind"), unknown_name("design", name, names));
 }
 
 std::string shown(const Json& value) {
@@ -244,7 +244,12 @@ Design read_design(const Json& cell, const Cell& base, std::uint64_t seed, const
                    Mistakes* mistakes) {
   Design design{.name = design_name(cell, place)};
   JsonObject object(cell.at("design"), place + ".design", mistakes);
-  design.kind = kind_named(object.required_text("kind"), object.place_of("kind"));
+  if (!object.attempt([&] { design.kind = read_kind(object); })) {
+    for (const char* key : {"parameters", "points", "trajectories", "levels", "rows"})
+      object.has(key);  // which of them belong here is not known
+    object.finish();
+    return design;
+  }
   if (design.kind == DesignKind::list) {
     read_list(object, design);
   } else {

@@ -49,7 +49,8 @@ Table comparison_table(const Cell& cell, const CellSummary& summary, std::string
                                    cell.methods[best].id),
               .columns = {{"method", ""},
                           {"difference", unit},
-                          {"± 95 % simultaneous", unit},
+                          {"from", unit},
+                          {"to", unit},
                           {"p adjusted", "1"},
                           {"verdict", ""},
                           {"diverged", ""},
@@ -66,14 +67,15 @@ Table comparison_table(const Cell& cell, const CellSummary& summary, std::string
       verdict = d.mean > 0.0 ? "worse" : "better";
     else if (!std::isnan(d.trials_needed))
       verdict += fmt::format("; about {:.0f} trials would tell", d.trials_needed);
-    table.rows.push_back({cell.methods[m].id, gyrostat::cell(d.mean), gyrostat::cell(d.half_width),
-                          gyrostat::cell(d.p_adjusted), verdict,
+    table.rows.push_back({cell.methods[m].id, gyrostat::cell(d.mean), gyrostat::cell(d.low),
+                          gyrostat::cell(d.high), gyrostat::cell(d.p_adjusted), verdict,
                           out_of(summary.methods[m].diverged, summary.finished),
                           out_of(summary.methods[m].broken_down, summary.finished)});
   }
-  table.notes.push_back(fmt::format(
-      "simultaneous over all {} pairs of methods{}, so the pair may be picked after looking", pairs,
-      summary.looks > 1.0 ? " and over the looks of the stop rule" : ""));
+  table.notes.push_back(
+      fmt::format("from, to: 95 %, simultaneous over all {} pairs of methods{}, so the pair may be "
+                  "picked after looking",
+                  pairs, summary.looks > 1.0 ? " and over the looks of the stop rule" : ""));
   return table;
 }
 

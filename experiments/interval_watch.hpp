@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/statistics/running.hpp"
 #include "experiments/study.hpp"
 
 namespace gyrostat {
@@ -25,12 +26,9 @@ class IntervalWatch {
   Widest widest() const;
 
  private:
-  struct Moments {  // Welford, Technometrics 4, 1962
-    double count = 0.0, mean = 0.0, squares = 0.0;
-  };
   std::vector<std::string> methods_;
   std::size_t metric_;
-  std::vector<Moments> moments_;
+  std::vector<Running> means_;
 };
 
 }  // namespace gyrostat

@@ -4,10 +4,12 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -82,12 +84,15 @@ class JsonObject {
 
   /// The text under a key that must be there; a key that looks like it is taken for a misspelling.
   /// Nothing can be read without it, so it throws in any case.
-  std::string required_text(const std::string& key) {
+  /// `known`: what it may be.
+  std::string required_text(const std::string& key, std::span<const std::string> known = {}) {
     if (!has(key)) {
       for (const auto& [other, unused] : value_.items())
         if (is_misspelling(other, key))
           throw InputError(place_, unknown_name("key", other, std::array{key}));
-      throw InputError(place_, "\"" + key + "\" is missing");
+      throw InputError(place_,
+                       fmt::format("\"{}\" is missing{}{}", key,
+                                   known.empty() ? "" : "; known: ", fmt::join(known, ", ")));
     }
     if (!value_.at(key).is_string())
       throw InputError(place_of(key), fmt::format("{} is not a text", value_.at(key).dump()));

@@ -6,6 +6,7 @@
 
 #include "analysis/statistics/paired.hpp"
 #include "analysis/statistics/summary.hpp"
+#include "experiments/ranking_words.hpp"
 
 namespace gyrostat {
 namespace {
@@ -59,11 +60,12 @@ Finding judge_one(const Claim& claim, const Done& done, const Done& other, std::
                   .mean = own.mean,
                   .mean_half_width = own.half_width_95,
                   .quantity = d.mean,
-                  .half_width = d.half_width,
+                  .low = d.low,
+                  .high = d.high,
                   .trials_needed = d.trials_needed,
                   .trials = d.count};
   const double towards = claim.above ? d.mean : -d.mean;
-  if (d.mean == 0.0 && d.half_width == 0.0) finding.verdict = Verdict::equal;
+  if (d.low == 0.0 && d.high == 0.0) finding.verdict = Verdict::equal;
   if (d.separable) finding.verdict = towards > 0.0 ? Verdict::holds : Verdict::does_not_hold;
   return finding;
 }
@@ -95,9 +97,7 @@ std::string statement(const Claim& claim) {
 /// The difference with its interval, or the least and the greatest of several.
 std::string differences_of(const std::vector<const Finding*>& findings) {
   if (findings.empty()) return "";
-  const auto text = [](const Finding& f) {
-    return fmt::format("{:.3g} ± {:.2g}", f.quantity, f.half_width);
-  };
+  const auto text = [](const Finding& f) { return with_interval(f.quantity, f.low, f.high); };
   const auto [low, high] = std::minmax_element(
       findings.begin(), findings.end(),
       [](const Finding* a, const Finding* b) { return a->quantity < b->quantity; });
@@ -225,7 +225,8 @@ std::vector<Table> ledger_tables(const Ledger& ledger, const std::vector<Finding
                            {"mean", ""},
                            {"± 95 %", ""},
                            {"difference", ""},
-                           {"± 95 % simultaneous", ""},
+                           {"from", ""},
+                           {"to", ""},
                            {"trials", ""},
                            {"verdict", ""},
                            {"trials to tell", ""}}};
@@ -236,7 +237,8 @@ std::vector<Table> ledger_tables(const Ledger& ledger, const std::vector<Finding
       own.push_back(&f);
       detail.rows.push_back(
           {ledger.claims[c].text, f.cell, cell(f.mean), cell(f.mean_half_width), cell(f.quantity),
-           cell(f.half_width), static_cast<std::int64_t>(f.trials), std::string(name_of(f.verdict)),
+           cell(f.low), cell(f.high), static_cast<std::int64_t>(f.trials),
+           std::string(name_of(f.verdict)),
            f.verdict == Verdict::not_separable ? cell(f.trials_needed) : TableCell()});
     }
     claims.rows.push_back({ledger.claims[c].text, ledger.claims[c].source,
@@ -244,7 +246,7 @@ std::vector<Table> ledger_tables(const Ledger& ledger, const std::vector<Finding
   }
   detail.notes.push_back(
       "mean: of the claim's metric over trials, in its unit; difference: that minus "
-      "what it is claimed to lie below or above, paired by trial, with an interval "
+      "what it is claimed to lie below or above, paired by trial, with its 95 % interval from, to, "
       "simultaneous over the claim's cells (Bonferroni)");
   return {claims, detail};
 }

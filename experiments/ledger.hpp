@@ -40,7 +40,7 @@ struct Finding {
   double mean = no_value;
   double mean_half_width = no_value;
   double quantity = no_value;
-  double half_width = no_value;
+  double low = no_value, high = no_value;
   double trials_needed = no_value;
   std::size_t trials = 0;
   Verdict verdict = Verdict::not_separable;

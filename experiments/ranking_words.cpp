@@ -79,9 +79,9 @@ class Speaker {
   void compare(std::size_t better, std::size_t worse) {
     const auto& p = pair(better, worse);
     const auto& d = p.difference;
-    if (std::isnan(d.mean) || std::isnan(d.half_width)) return;
+    if (std::isnan(d.mean) || std::isnan(d.low)) return;
     constexpr double rounding = 1e-9;
-    const auto gap = with_half_width(std::abs(d.mean), d.half_width) + " " + ranking_.unit;
+    const auto gap = with_interval(d.mean, d.low, d.high) + " " + ranking_.unit;
     if (std::abs(d.mean) <= rounding * std::abs(ranking_.methods[p.better].mean))
       return say(fmt::format("{} and {} are equal to rounding", name(p.better), name(p.worse)));
     if (d.separable && d.mean > 0.0)
@@ -150,15 +150,29 @@ class Speaker {
   std::vector<std::string> sentences_;
 };
 
+/// Decimal places of a value whose half width is told to two digits.
+int places_for(double half_width) {
+  return 1 - static_cast<int>(std::floor(std::log10(half_width)));
+}
+
 }  // namespace
 
 std::string with_half_width(double value, double half_width) {
   if (!(half_width > 0.0) || !std::isfinite(half_width)) return fmt::format("{:.4g}", value);
-  const int first = static_cast<int>(std::floor(std::log10(half_width)));
-  const int places = 1 - first;
+  const int places = places_for(half_width);
   if (places < 0) return fmt::format("{:.0f} ± {:.0f}", value, half_width);
   if (places > 8) return fmt::format("{:.3e} ± {:.1e}", value, half_width);
   return fmt::format("{:.{}f} ± {:.{}f}", value, places, half_width, places);
+}
+
+std::string with_interval(double value, double low, double high) {
+  constexpr double alike = 1.25;
+  const double below = value - low, above = high - value;
+  const double farther = std::max(below, above), nearer = std::min(below, above);
+  if (!(farther > alike * nearer)) return with_half_width(value, farther);
+  const int places = nearer > 0.0 ? std::max(0, places_for(nearer)) : 99;
+  if (places > 8) return fmt::format("{:.3e} ({:.1e} to {:.1e})", value, low, high);
+  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", value, places, low, places, high, places);
 }
 
 std::vector<std::string> ranking_sentences(const Cell& cell, const CellRanking& ranking) {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "experiments/sensitivity.hpp"
+#include "experiments/sensitivity_words.hpp"
 
 namespace gyrostat {
 namespace {
@@ -148,6 +148,11 @@ TableCell value_cell(const Json& value) {
                            : TableCell(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
+bool has_sensitivities(DesignKind kind) {
+  return kind == DesignKind::one_at_a_time || kind == DesignKind::morris ||
+         kind == DesignKind::saltelli;
+}
+
 }  // namespace
 
 std::size_t Sensitivity::failed_trials() const {
@@ -159,15 +164,20 @@ std::vector<Table> sensitivity_tables(const std::vector<Sensitivity>& all, const
   for (const auto& design : study.designs) {
     const auto methods = of_design(all, design);
     if (methods.empty()) continue;
-    if (design.kind == DesignKind::one_at_a_time)
-      tables.push_back(elasticity_table(methods, design));
-    if (design.kind != DesignKind::morris && design.kind != DesignKind::saltelli) continue;
-    tables.push_back(design.kind == DesignKind::morris ? morris_table(methods, design)
-                                                       : sobol_table(methods, design));
-    tables.back().notes.push_back(bootstrap_note(methods));
-    if (methods.front()->trials == 1)
-      tables.back().notes.push_back(
-          "a single trial tells nothing of its noise: it is part of what stands here");
+    if (!has_sensitivities(design.kind)) continue;
+    tables.push_back(design.kind == DesignKind::one_at_a_time ? elasticity_table(methods, design)
+                     : design.kind == DesignKind::morris      ? morris_table(methods, design)
+                                                              : sobol_table(methods, design));
+    auto& notes = tables.back().notes;
+    if (design.kind != DesignKind::one_at_a_time) {
+      notes.push_back(bootstrap_note(methods));
+      if (methods.front()->trials == 1)
+        notes.emplace_back(
+            "a single trial tells nothing of its noise: it is part of what stands here");
+    }
+    std::vector<std::string> sentences;
+    for (const auto* s : methods) sentences.push_back(sensitivity_sentence(*s));
+    notes.insert(notes.begin(), sentences.begin(), sentences.end());
   }
   return tables;
 }

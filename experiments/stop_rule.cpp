@@ -4,13 +4,13 @@
 #include <cmath>
 #include <span>
 
-#include <boost/math/distributions/students_t.hpp>
-
 #include "analysis/statistics/running.hpp"
 #include "analysis/statistics/sequential.hpp"
+#include "analysis/statistics/skewed_mean.hpp"
 #include "analysis/statistics/summary.hpp"
 #include "experiments/cell_summary.hpp"
 #include "experiments/metric_names.hpp"
+#include "experiments/ranking_words.hpp"
 #include "experiments/study_ranges.hpp"
 #include "experiments/trial.hpp"
 
@@ -50,9 +50,7 @@ std::optional<std::string> narrow_enough(const Cell& cell, const OutcomeSource& 
   double widest = no_value;
   for (const auto& m : means) {
     if (m.count == 0.0) continue;  // a method without this metric
-    const double half_width =
-        m.count < 2.0 ? HUGE_VAL : student_t_quantile(0.95, m.count - 1.0) * m.error();
-    widest = std::fmax(widest, half_width);
+    widest = std::fmax(widest, m.count < 2.0 ? HUGE_VAL : half_width_95(m));
   }
   if (!(widest < rule.half_width_below)) return std::nullopt;
   return fmt::format("mean {} known to ± {:.3g} {}", Metrics::ids()[rule.metric], widest,
@@ -80,17 +78,17 @@ std::optional<std::string> told_apart(const Cell& cell, std::uint32_t count,
   std::string reason;
   for (const auto& [a, b, d] : pairs) {
     if (d.count < 2.0) return std::nullopt;
-    const boost::math::students_t t(d.count - 1.0);
-    const double half_width = boost::math::quantile(boost::math::complement(t, tail)) * d.error();
-    const bool equal = std::abs(d.mean) + half_width <= rule.margin;
-    if (!equal && !(std::abs(d.mean) > half_width)) return std::nullopt;
-    reason += fmt::format("{}{} {} {} by {:.3g} ± {:.2g} {} in {}", reason.empty() ? "" : "; ",
-                          cell.methods[a].id,
-                          equal          ? "equals"
-                          : d.mean < 0.0 ? "is below"
-                                         : "is above",
-                          cell.methods[b].id, std::abs(d.mean), half_width,
-                          metric_unit(rule.metric), Metrics::ids()[rule.metric]);
+    const auto [low, high] = skewed_mean_interval(d, tail);
+    const bool equal = -rule.margin <= low && high <= rule.margin;
+    if (!equal && low <= 0.0 && high >= 0.0) return std::nullopt;
+    const auto gap =
+        d.mean < 0.0 ? with_interval(-d.mean, -high, -low) : with_interval(d.mean, low, high);
+    reason +=
+        fmt::format("{}{} {} {} by {} {} in {}", reason.empty() ? "" : "; ", cell.methods[a].id,
+                    equal          ? "equals"
+                    : d.mean < 0.0 ? "is below"
+                                   : "is above",
+                    cell.methods[b].id, gap, metric_unit(rule.metric), Metrics::ids()[rule.metric]);
   }
   return reason;
 }

@@ -35,9 +35,9 @@ using OutcomeSource =
     std::function<void(const std::function<void(std::span<const double>)>& visit)>;
 
 /// Why the rule of `cell` stops after these trials, of which there are `count`, a look; nothing
-/// where it does not. A narrow interval is Student's own: its width says nothing of where the mean
-/// is (Chow and Robbins, Ann. Math. Stat. 36, 1965). Methods are told apart by intervals that hold
-/// at all looks and for all pairs together (`sequential_bounds`).
+/// where it does not. A narrow interval is that of the tables: its width says little of where the
+/// mean is (Chow and Robbins, Ann. Math. Stat. 36, 1965). Methods are told apart by intervals that
+/// hold at all looks and for all pairs together (`sequential_bounds`).
 std::optional<std::string> stop_reason(const Cell& cell, std::uint32_t count,
                                        const OutcomeSource& trials);
 

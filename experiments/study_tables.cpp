@@ -52,7 +52,8 @@ Table means(const Request& request, Results& results) {
     }
   }
   table.notes.push_back(
-      "mean over trials ± 95 % (Student t); every trial counts, broken down or not");
+      "mean over trials ± 95 %, right at both ends though values are skewed (Hall); every trial "
+      "counts, broken down or not");
   return table;
 }
 
@@ -115,7 +116,8 @@ Table versus(const Request& request, Results& results) {
                           {"than", ""},
                           {"ratio", ""},
                           {"difference", unit_of(request.metrics.front())},
-                          {"± 95 % simultaneous", unit_of(request.metrics.front())},
+                          {"from", unit_of(request.metrics.front())},
+                          {"to", unit_of(request.metrics.front())},
                           {"verdict", ""},
                           {"broke down", "trials"},
                           {"than broke down", "trials"}}};
@@ -141,13 +143,13 @@ Table versus(const Request& request, Results& results) {
                                  std::max(0.0, d.trials_needed - static_cast<double>(d.count)));
         table.rows.push_back({cell->name, cell->methods[m].id, than,
                               gyrostat::cell(summarise(ours).mean / summarise(theirs).mean),
-                              gyrostat::cell(d.mean), gyrostat::cell(d.half_width), verdict,
-                              trials_with_breakdown(result, m),
+                              gyrostat::cell(d.mean), gyrostat::cell(d.low), gyrostat::cell(d.high),
+                              verdict, trials_with_breakdown(result, m),
                               trials_with_breakdown(result, other)});
       }
   }
   table.notes.push_back(
-      fmt::format("{}, paired by trial; intervals simultaneous over the {} rows "
+      fmt::format("{}, paired by trial; from, to: 95 %, simultaneous over the {} rows "
                   "(Bonferroni)",
                   Metrics::ids()[metric], family));
   return table;

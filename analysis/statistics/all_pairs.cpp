@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/students_t.hpp>
@@ -17,11 +18,6 @@ constexpr double rounding = 1e-12;
 constexpr double too_alike = 1e-6;  ///< spreads beside the largest, for correlations to be told
 
 }  // namespace
-
-double AllPairs::Pair::error() const {
-  const double n = static_cast<double>(count);
-  return count < 2 ? no_value : std::sqrt(squares / (n - 1.0) / n);
-}
 
 AllPairs::AllPairs(std::size_t methods, double looks)
     : methods_(methods),
@@ -39,7 +35,9 @@ void AllPairs::add(std::span<const double> values) {
         pair->sum += d;
         ++pair->count;
       } else {
-        pair->squares += (d - pair->mean) * (d - pair->mean);
+        const double from_mean = d - pair->mean;
+        pair->squares += from_mean * from_mean;
+        pair->cubes += from_mean * from_mean * from_mean;
       }
     }
 }
@@ -130,11 +128,12 @@ PairedDifference AllPairs::difference(std::size_t a, std::size_t b) const {
   if (a < b) {
     auto turned = difference(b, a);
     turned.mean = -turned.mean;
+    std::tie(turned.low, turned.high) = std::pair(-turned.high, -turned.low);
     return turned;
   }
   const auto& p = pair(a, b);
   if (passes_ < 2) return {.count = p.count};
-  return paired_difference(p.count, p.mean, p.squares, comparisons_);
+  return paired_difference(p.differences(), comparisons_);
 }
 
 }  // namespace gyrostat

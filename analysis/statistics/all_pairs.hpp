@@ -31,8 +31,9 @@ class AllPairs {
  private:
   struct Pair {
     std::size_t count = 0;
-    double sum = 0.0, mean = 0.0, squares = 0.0;
-    double error() const;
+    double sum = 0.0, mean = 0.0, squares = 0.0, cubes = 0.0;
+    Running differences() const { return {static_cast<double>(count), mean, squares, cubes}; }
+    double error() const { return differences().error(); }
   };
   const Pair& pair(std::size_t a, std::size_t b) const { return pairs_[a * (a - 1) / 2 + b]; }
   double widest_error() const;

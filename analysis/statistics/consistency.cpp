@@ -25,10 +25,8 @@ Acceptance chi_squared_bound(double degrees, double alpha) {
 
 Acceptance trial_mean_bounds(const Running& over_trials, double expected, double alpha) {
   if (!(over_trials.count > 1.0)) return {};
-  const double std = over_trials.error() * std::sqrt(over_trials.count);
-  const auto [low, high] =
-      skewed_mean_interval(0.0, std, over_trials.skewness(), over_trials.count, 1.0 - alpha);
-  return {expected - high, expected - low};
+  const auto [below, above] = skewed_mean_reach(over_trials, alpha / 2.0);
+  return {expected - above, expected + below};
 }
 
 Acceptance correlation_bounds(double count, double alpha) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 
+#include "analysis/statistics/running.hpp"
 #include "core/types.hpp"
 
 namespace gyrostat {
@@ -11,19 +12,19 @@ namespace gyrostat {
 struct PairedDifference {
   std::size_t count = 0;  ///< trials where both have a value
   double mean = no_value;
-  double half_width = no_value;     ///< of the interval, simultaneous over the family
-  double p_adjusted = no_value;     ///< Bonferroni over the family, two-sided t test
-  bool separable = false;           ///< the simultaneous interval excludes 0
-  double trials_needed = no_value;  ///< to separate a difference of this size with power 0.8
+  double low = no_value, high = no_value;  ///< of the interval, simultaneous over the family
+  double p_adjusted = no_value;            ///< Bonferroni over the family, by the same interval
+  bool separable = false;                  ///< the simultaneous interval excludes 0
+  double trials_needed = no_value;         ///< to separate a difference of this size with power 0.8
 };
 
 /// a - b, paired by trial (common random numbers), with a 95 % interval that holds simultaneously
-/// over `family` comparisons (Bonferroni), so that the pair may be picked after looking.
+/// over `family` comparisons (Bonferroni), so that the pair may be picked after looking, and allows
+/// for skewed differences (`skewed_mean_interval`).
 PairedDifference paired_difference(std::span<const double> a, std::span<const double> b,
                                    std::size_t family);
 
-/// The same from what the pairs add up to: the mean of a - b over `count` pairs and the sum of
-/// squares about it.
-PairedDifference paired_difference(std::size_t count, double mean, double squares, double family);
+/// The same from the differences' own count, mean and sums about it.
+PairedDifference paired_difference(const Running& differences, double family);
 
 }  // namespace gyrostat

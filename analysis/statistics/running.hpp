@@ -25,8 +25,14 @@ struct Running {
     return count < 2.0 ? no_value : std::sqrt(squares / (count - 1.0) / count);
   }
 
+  /// Of the values; no value for fewer than two.
+  double std() const { return count < 2.0 ? no_value : std::sqrt(squares / (count - 1.0)); }
+
+  /// 0 without spread; where powers overflow, the most that so many values can have.
   double skewness() const {
-    return squares > 0.0 ? std::sqrt(count) * cubes / std::pow(squares, 1.5) : 0.0;
+    if (!(squares > 0.0)) return 0.0;
+    const double skewness = std::sqrt(count) * cubes / std::pow(squares, 1.5);
+    return std::isfinite(skewness) ? skewness : std::copysign(std::sqrt(count), cubes);
   }
 };
 

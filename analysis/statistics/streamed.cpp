@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace gyrostat {
 namespace {
@@ -30,7 +29,9 @@ void StreamedSummary::add(double value) {
     const double size = std::abs(value);
     summary_.worst = std::isnan(summary_.worst) ? size : std::max(summary_.worst, size);
   } else if (passes_ == 1) {
-    squares_ += (value - summary_.mean) * (value - summary_.mean);
+    const double d = value - summary_.mean;
+    about_mean_.squares += d * d;
+    about_mean_.cubes += d * d * d;
   }
   if (!median_known_) median_.add(value);
   if (!percentile_known_) percentile_.add(std::abs(value));
@@ -41,8 +42,11 @@ bool StreamedSummary::another_pass() {
   if (summary_.count == 0) return false;
   const double n = static_cast<double>(summary_.count);
   if (passes_ == 1) summary_.mean = sum_ / n;
-  if (passes_ == 2 && summary_.count > 1)
-    std::tie(summary_.std, summary_.half_width_95) = spread(squares_, n);
+  if (passes_ == 2) {
+    about_mean_.count = n;
+    summary_.std = about_mean_.std();
+    summary_.half_width_95 = half_width_95(about_mean_);
+  }
   const auto rank = [&](double share) {
     return static_cast<std::size_t>(at_share(share, summary_.count));
   };

@@ -19,7 +19,8 @@ class StreamedSummary {
 
  private:
   int passes_ = 0;
-  double sum_ = 0.0, squares_ = 0.0;
+  double sum_ = 0.0;
+  Running about_mean_;
   bool median_known_ = false, percentile_known_ = false;
   OrderStatistic median_, percentile_;
   Summary summary_;

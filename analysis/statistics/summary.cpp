@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <vector>
 
 #include <boost/math/distributions/students_t.hpp>
+
+#include "analysis/statistics/skewed_mean.hpp"
 
 namespace gyrostat {
 namespace {
@@ -25,9 +26,10 @@ double student_t_quantile(double confidence, double degrees_of_freedom) {
   return boost::math::quantile(t, 0.5 + confidence / 2.0);
 }
 
-std::pair<double, double> spread(double squares, double n) {
-  const double std = std::sqrt(squares / (n - 1.0));
-  return {std, student_t_quantile(0.95, n - 1.0) * std / std::sqrt(n)};
+double half_width_95(const Running& values) {
+  if (values.count < 2.0) return no_value;
+  const auto [below, above] = skewed_mean_reach(values, 0.025);
+  return std::max(below, above);
 }
 
 Summary summarise(std::span<const double> values) {
@@ -38,11 +40,17 @@ Summary summarise(std::span<const double> values) {
   if (present.empty()) return summary;
 
   const double n = static_cast<double>(present.size());
-  double sum = 0.0, squares = 0.0;
+  double sum = 0.0;
   for (const double v : present) sum += v;
   summary.mean = sum / n;
-  for (const double v : present) squares += (v - summary.mean) * (v - summary.mean);
-  if (present.size() > 1) std::tie(summary.std, summary.half_width_95) = spread(squares, n);
+  Running about_mean{.count = n, .mean = summary.mean};
+  for (const double v : present) {
+    const double d = v - summary.mean;
+    about_mean.squares += d * d;
+    about_mean.cubes += d * d * d;
+  }
+  summary.std = about_mean.std();
+  summary.half_width_95 = half_width_95(about_mean);
   std::sort(present.begin(), present.end());
   summary.median = quantile(present, 0.5);
   for (double& v : present) v = std::abs(v);

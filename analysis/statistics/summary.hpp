@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "analysis/statistics/running.hpp"
 #include "core/types.hpp"
 
 namespace gyrostat {
@@ -13,7 +14,7 @@ struct Summary {
   std::size_t count = 0;    ///< trials that have a value
   std::size_t missing = 0;  ///< trials that have none (NaN)
   double mean = no_value;
-  double half_width_95 = no_value;  ///< of the 95 % confidence interval of the mean (Student's t)
+  double half_width_95 = no_value;  ///< of the mean's 95 % interval
   double std = no_value;
   double median = no_value;
   double percentile_95 = no_value;
@@ -27,8 +28,8 @@ Summary summarise(std::span<const double> values);
 /// Two-sided critical value of Student's t with `degrees_of_freedom` >= 1.
 double student_t_quantile(double confidence, double degrees_of_freedom);
 
-/// Standard deviation and half width of the mean's 95 % interval, from the sum of squares about the
-/// mean of n > 1 values.
-std::pair<double, double> spread(double squares, double n);
+/// Distance from the mean of the farther end of its 95 % interval (`skewed_mean_reach`): ± as
+/// much is right at both ends, one-sided. No value for fewer than two values.
+double half_width_95(const Running& values);
 
 }  // namespace gyrostat

@@ -37,9 +37,7 @@ bool StreamedTailMean::another_pass() {
   const double third = sums_[2] / n - 3.0 * mean * sums_[1] / n + 2.0 * mean * mean * mean;
   tail_.value = quantile_ + mean;
   if (order_.count() < fewest_for_interval || !(second > 0.0)) return false;
-  const double std = std::sqrt(second * n / (n - 1.0));
-  const auto [low, high] =
-      skewed_mean_interval(tail_.value, std, third / std::pow(second, 1.5), n, 0.95);
+  const auto [low, high] = skewed_mean_interval({n, tail_.value, n * second, n * third}, 0.025);
   tail_.low = low;
   tail_.high = high;
   return false;

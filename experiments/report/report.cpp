@@ -1,6 +1,7 @@
 #include "experiments/report/report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <tbb/global_control.h>
@@ -10,6 +11,7 @@
 #include "experiments/report/design_charts.hpp"
 #include "experiments/report/run_times.hpp"
 #include "experiments/report_assets.hpp"
+#include "experiments/sensitivity_words.hpp"
 #include "results/render/html.hpp"
 
 namespace gyrostat {
@@ -17,8 +19,16 @@ namespace {
 
 constexpr std::size_t most_cells = 6;
 
-/// Cells shown in full: those asked for, or the first few, and of many made from one, as
-/// "ramp[phi=0.5]", only the first.
+/// Whether the cell is a point that serves its design alone. The base of one_at_a_time is a cell
+/// like any other.
+bool serves_a_design(const Study& study, std::size_t cell) {
+  const auto* design = design_of(study, cell);
+  return design != nullptr && design->is_sampled() &&
+         !(design->kind == DesignKind::one_at_a_time && cell == design->first_cell);
+}
+
+/// Cells shown in full: those asked for, or the first few that do not serve a design alone, and of
+/// many made from one, as "ramp[phi=0.5]", only the first.
 std::vector<std::size_t> chosen_cells(const Study& study, const std::vector<std::string>& names) {
   std::vector<std::size_t> chosen;
   for (const auto& name : names)
@@ -27,6 +37,7 @@ std::vector<std::size_t> chosen_cells(const Study& study, const std::vector<std:
   std::set<std::string> families;
   for (std::size_t c = 0; names.empty() && c < study.cells.size() && chosen.size() < most_cells;
        ++c) {
+    if (serves_a_design(study, c)) continue;
     const auto& name = study.cells[c].name;
     if (families.insert(name.substr(0, name.find('['))).second) chosen.push_back(c);
   }
@@ -49,17 +60,44 @@ std::string head(const Study& study, const Manifest& manifest) {
       study.seed, escaped(manifest.digest));
 }
 
-/// The most important sentence of every cell, those shown in full as links.
+/// Sensitivities of one design, the method with the least mean first.
+using DesignSensitivities = std::vector<Sensitivity>;
+
+std::vector<DesignSensitivities> by_design(const Study& study, const Store& store) {
+  std::vector<DesignSensitivities> designs;
+  for (auto& s : sensitivities(study, store)) {
+    if (designs.empty() || designs.back().front().design != s.design) designs.emplace_back();
+    designs.back().push_back(std::move(s));
+  }
+  const auto mean = [](const Sensitivity& s) {
+    Running over_points;
+    for (const double m : s.means) over_points.add(m);
+    return over_points.count > 0.0 ? over_points.mean : INFINITY;
+  };
+  for (auto& design : designs)
+    std::stable_sort(design.begin(), design.end(),
+                     [&](const auto& a, const auto& b) { return mean(a) < mean(b); });
+  return designs;
+}
+
+/// What matters in each design; the most important sentence of every cell, those shown in full as
+/// links.
 std::string in_short(const Study& study, const std::vector<CellRanking>& rankings,
-                     const std::vector<std::size_t>& chosen) {
+                     const std::vector<std::size_t>& chosen,
+                     const std::vector<DesignSensitivities>& designs) {
   constexpr std::size_t most = 200;
   std::string out =
                   "<section aria-labelledby=\"short\"><h2 id=\"short\">In short</h2>\n<ul "
                   "class=\"sentences\">\n",
               rest;
+  for (std::size_t d = 0; d < designs.size(); ++d)
+    if (const auto sentence = sensitivity_sentence(designs[d].front()); !sentence.empty())
+      out += fmt::format("<li><b><a href=\"#design-{}\">{}</a></b>: {}</li>\n", d,
+                         escaped(designs[d].front().design), escaped(sentence));
   std::size_t others = 0;
   for (std::size_t c = 0; c < study.cells.size(); ++c) {
     const bool full = std::find(chosen.begin(), chosen.end(), c) != chosen.end();
+    if (!full && serves_a_design(study, c)) continue;
     if (!full && ++others > most) continue;
     const auto& sentences = rankings[c].sentences;
     const auto name =
@@ -119,19 +157,29 @@ std::string charts_section(const std::string& id, const std::string& title,
   return out + "</div></section>\n";
 }
 
-std::string sensitivity_sections(const Study& study, const Store& store,
-                                 const MethodColours& colours) {
-  std::vector<std::pair<std::string, std::vector<Sensitivity>>> designs;
-  for (auto& s : sensitivities(study, store)) {
-    if (designs.empty() || designs.back().first != s.design)
-      designs.emplace_back(s.design, std::vector<Sensitivity>());
-    designs.back().second.push_back(std::move(s));
+/// One section for all sweeps of a base, as of a one-at-a-time design.
+std::string sweep_sections(const Study& study, const std::vector<Sweep>& sweeps,
+                           const std::vector<CellSummary>& summaries,
+                           const MethodColours& colours) {
+  std::string out;
+  for (std::size_t first = 0, s = 0; first < sweeps.size(); first = s) {
+    std::vector<Chart> charts;
+    for (; s < sweeps.size() && sweeps[s].name == sweeps[first].name; ++s)
+      for (auto& chart :
+           sweep_charts(study, sweeps[s], summaries, colours, fmt::format("sweep-{}", s)))
+        charts.push_back(std::move(chart));
+    out += charts_section(fmt::format("sweeps-{}", first), "Over parameters: " + sweeps[first].name,
+                          charts);
   }
+  return out;
+}
+
+std::string sensitivity_sections(const std::vector<DesignSensitivities>& designs,
+                                 const MethodColours& colours) {
   std::string out;
   for (std::size_t d = 0; d < designs.size(); ++d)
-    out +=
-        charts_section(fmt::format("design-{}", d), "What matters: " + designs[d].first,
-                       sensitivity_charts(designs[d].second, colours, fmt::format("design-{}", d)));
+    out += charts_section(fmt::format("design-{}", d), "What matters: " + designs[d].front().design,
+                          sensitivity_charts(designs[d], colours, fmt::format("design-{}", d)));
   return out;
 }
 
@@ -172,6 +220,7 @@ std::string report_page(const Study& study, const Store& store, const std::files
   const MethodColours colours(study);
   const auto sweeps = sweeps_of(study);
   const auto chosen = chosen_cells(study, options.cells);
+  const auto designs = by_design(study, store);
   const auto times = run_times(folder / "log.jsonl");
 
   std::vector<CellSummary> summaries;
@@ -179,16 +228,15 @@ std::string report_page(const Study& study, const Store& store, const std::files
   for (std::uint32_t c = 0; c < study.cells.size(); ++c) {
     const auto trials = trials_of(study.cells[c], store, c);
     summaries.push_back(summarise_cell(study.cells[c], trials));
-    rankings.push_back(rank_cell(study.cells[c], trials));
+    const bool is_seen =
+        !serves_a_design(study, c) || std::find(chosen.begin(), chosen.end(), c) != chosen.end();
+    rankings.push_back(is_seen ? rank_cell(study.cells[c], trials) : CellRanking{});
   }
 
   std::string body = head(study, manifest) + "<main id=\"main\" tabindex=\"-1\">\n" +
-                     in_short(study, rankings, chosen);
-  for (std::size_t s = 0; s < sweeps.size(); ++s)
-    body += charts_section(
-        fmt::format("sweep-{}", s), "Over parameters: " + sweeps[s].name,
-        sweep_charts(study, sweeps[s], summaries, colours, fmt::format("sweep-{}", s)));
-  body += sensitivity_sections(study, store, colours);
+                     in_short(study, rankings, chosen, designs);
+  body += sweep_sections(study, sweeps, summaries, colours);
+  body += sensitivity_sections(designs, colours);
   for (const std::size_t c : chosen) {
     if (summaries[c].finished == 0) continue;
     const auto prepared = prepare_cell(study.cells[c], study.seed, options.threads);

@@ -130,23 +130,21 @@ Chart convergence_chart(const CellView& v) {
     auto line = v.colours.mark(Mark::Kind::line, v.cell.methods[m].id);
     line.shown = v.leads(m, 3);
     // The first few trials would fill the picture with their wide intervals.
-    double n = 0.0, mean = 0.0, squares = 0.0, next = v.values.trials.size() > 40 ? 10.0 : 2.0;
+    Running running;
+    double next = v.values.trials.size() > 40 ? 10.0 : 2.0;
     const auto note = [&] {
-      const double half = spread(squares, n).second;
-      line.x.push_back(n);
-      line.y.push_back(mean);
-      line.y_low.push_back(mean - half);
-      line.y_high.push_back(mean + half);
+      const double half = half_width_95(running);
+      line.x.push_back(running.count);
+      line.y.push_back(running.mean);
+      line.y_low.push_back(running.mean - half);
+      line.y_high.push_back(running.mean + half);
     };
     for (const double x : v.values.values[m]) {
       if (std::isnan(x)) continue;
-      n += 1.0;
-      const double step = x - mean;
-      mean += step / n;
-      squares += step * (x - mean);
-      if (n >= next) note(), next = std::ceil(1.12 * n);
+      running.add(x);
+      if (running.count >= next) note(), next = std::ceil(1.12 * running.count);
     }
-    if (n >= 2.0 && line.x.back() != n) note();
+    if (running.count >= 2.0 && line.x.back() != running.count) note();
     if (!line.x.empty()) chart.marks.push_back(std::move(line));
   }
   chart.note =

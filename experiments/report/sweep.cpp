@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/fields.hpp"
+
 namespace gyrostat {
 namespace {
 
@@ -49,6 +51,20 @@ void drop_constant(Sweep& sweep) {
   }
 }
 
+/// The base of a one-at-a-time design is a value of each of its parameters.
+void add_bases(const Study& study, std::vector<Sweep>& sweeps) {
+  for (const auto& design : study.designs) {
+    if (design.kind != DesignKind::one_at_a_time) continue;
+    for (std::size_t p = 0; p < design.parameters.size(); ++p)
+      for (auto& sweep : sweeps) {
+        if (sweep.name != design.name || sweep.parameters != std::vector{design.parameters[p].name})
+          continue;
+        sweep.cells.push_back(design.first_cell);
+        sweep.values.push_back({short_number(design.base[p])});
+      }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> Sweep::levels(std::size_t parameter) const {
@@ -81,6 +97,7 @@ std::vector<Sweep> sweeps_of(const Study& study) {
     at->cells.push_back(c);
     at->values.push_back(values);
   }
+  add_bases(study, sweeps);
   for (auto& sweep : sweeps) drop_constant(sweep);
   std::erase_if(sweeps, [](const Sweep& s) { return s.parameters.empty(); });
   return sweeps;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/metric_names.hpp"
 #include "experiments/report/design_charts.hpp"
 
 namespace gyrostat {
@@ -30,12 +31,13 @@ Chart lines(const Study& study, const Sweep& sweep, const std::vector<CellSummar
             const MethodColours& colours, const std::string& id) {
   const auto levels = sweep.levels(0);
   const bool numbers = numeric(levels);
+  const std::string metric(judging_metric(study.cells[sweep.cells[0]]));
   Chart chart{
       .id = id + "-sweep",
       .title = fmt::format("Error over {}", sweep.parameters[0]),
       .note = "Mean over trials with its 95 % interval.",
       .x = {sweep.parameters[0], "", false, {}},
-      .y = {fmt::format("mean {}", judging_metric(study.cells[sweep.cells[0]])), "", false, {}},
+      .y = {fmt::format("mean {}", metric), metric_unit(metric_named(metric, "report")), false, {}},
       .marks = {}};
   if (!numbers)
     chart.x.names = levels;

@@ -14,6 +14,12 @@ using render_detail::Axis;
 
 constexpr double width = 560.0, top = 10.0, bottom = 44.0, right = 14.0, letter = 6.6;
 
+std::string head(const ChartAxis& a) {
+  return a.unit.empty() ? a.label : a.label + " [" + a.unit + "]";
+}
+
+double head_length(const ChartAxis& a) { return letter * static_cast<double>(head(a).size()); }
+
 /// Everything that a mark is drawn with.
 struct Canvas {
   Axis x, y;
@@ -206,14 +212,15 @@ std::string axes(const Chart& chart, const Canvas& c) {
     for (const double v : c.y.ticks(true)) along_y(c.y.at(v), fmt::format("{:g}", v));
   for (std::size_t i = 0; i < chart.y.names.size(); ++i)
     along_y(c.y.at(static_cast<double>(i)), chart.y.names[i]);
-  const auto head = [](const ChartAxis& a) {
-    return a.unit.empty() ? a.label : a.label + " [" + a.unit + "]";
-  };
-  out += text_at(left + 0.5 * c.x.length, base + 36.0, head(chart.x), "middle");
-  if (!chart.y.label.empty())
+  const double half_head = std::min(0.5 * width, 0.5 * head_length(chart.x));
+  out += text_at(std::clamp(left + 0.5 * c.x.length, half_head, width - half_head), base + 36.0,
+                 head(chart.x), "middle");
+  if (!chart.y.label.empty()) {
+    const double half = 0.5 * head_length(chart.y);
     out += fmt::format(
         "<text transform=\"translate(12,{:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-        0.5 * (base + top), escaped(head(chart.y)));
+        std::clamp(0.5 * (base + top), half, base + bottom - half), escaped(head(chart.y)));
+  }
   return out;
 }
 
@@ -224,9 +231,9 @@ std::string chart_svg(const Chart& chart) {
   for (const auto& name : chart.y.names) longest = std::max(longest, name.size());
   const double left = std::min(190.0, letter * static_cast<double>(longest) + 10.0) +
                       (chart.y.label.empty() ? 0 : 18);
-  const double height = chart.y.names.empty()
-                            ? 320.0
-                            : top + bottom + 27.0 * static_cast<double>(chart.y.names.size());
+  const double rows = 27.0 * static_cast<double>(chart.y.names.size());
+  const double height =
+      std::max(chart.y.names.empty() ? 320.0 : top + rows + bottom, head_length(chart.y));
   const auto canvas = canvas_of(chart, left, height);
   std::string out =
       fmt::format("<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">", width,

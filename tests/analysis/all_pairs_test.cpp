@@ -43,9 +43,13 @@ TEST(AllPairs, IsThePlainIntervalOfTheOnlyPair) {
   const auto d = pairs.difference(0, 1);
   EXPECT_EQ(d.count, 3U);
   EXPECT_DOUBLE_EQ(d.mean, expected.mean);
-  EXPECT_DOUBLE_EQ(d.half_width, expected.half_width);
+  EXPECT_DOUBLE_EQ(d.low, expected.low);
+  EXPECT_DOUBLE_EQ(d.high, expected.high);
   EXPECT_DOUBLE_EQ(d.p_adjusted, expected.p_adjusted);
-  EXPECT_DOUBLE_EQ(pairs.difference(1, 0).mean, -expected.mean);
+  const auto turned = pairs.difference(1, 0);
+  EXPECT_DOUBLE_EQ(turned.mean, -expected.mean);
+  EXPECT_DOUBLE_EQ(turned.low, -expected.high);
+  EXPECT_DOUBLE_EQ(turned.high, -expected.low);
 }
 
 // For methods that are alike and independent, max |t| is Tukey's studentised range over the root of
@@ -87,13 +91,13 @@ TEST(AllPairs, LeavesOutWhatHasNoValue) {
   const auto pairs = pairs_of({{1, 2, no_value}, {no_value, 1, 1}, {3, 1, no_value}, {4, 0, 2}});
   EXPECT_EQ(pairs.difference(0, 1).count, 3U);
   EXPECT_EQ(pairs.difference(2, 0).count, 1U);
-  EXPECT_TRUE(std::isnan(pairs.difference(2, 0).half_width));
+  EXPECT_TRUE(std::isnan(pairs.difference(2, 0).low));
   EXPECT_EQ(pairs.difference(2, 1).count, 2U);
   EXPECT_TRUE(std::isnan(pairs_of({}).difference(0, 1).mean));
 }
 
-// 1000 families of 4 methods in 30 trials, with a share in common, and of unlike spread: the rate of
-// families with a separation has a standard error of 0.007 about 0.05; outside 0.022 to 0.078 by
+// 1000 families of 4 methods in 30 trials, with a share in common, and of unlike spread: the rate
+// of families with a separation has a standard error of 0.007 about 0.05; outside 0.022 to 0.078 by
 // chance with probability below 1e-4.
 TEST(AllPairs, FindsNothingInNothingOnceInTwentyFamilies) {
   int found = 0;

@@ -24,9 +24,20 @@ TEST(PairedDifference, AgreesWithTheHandComputedInterval) {
   const auto d = paired_difference(a, b, 1);
   EXPECT_EQ(d.count, 3U);
   EXPECT_DOUBLE_EQ(d.mean, 2.0);
-  EXPECT_NEAR(d.half_width, 4.302653 / std::sqrt(3.0), 1e-6);
+  EXPECT_NEAR(d.high - 2.0, 4.302653 / std::sqrt(3.0), 1e-6);
+  EXPECT_NEAR(2.0 - d.low, 4.302653 / std::sqrt(3.0), 1e-6);
   EXPECT_NEAR(d.p_adjusted, 0.0741799, 1e-6);
   EXPECT_FALSE(d.separable);
+}
+
+TEST(PairedDifference, ItsProbabilityIsThatOfItsInterval) {
+  for (std::uint32_t trial = 0; trial < 200; ++trial) {
+    auto a = normals(trial, "a", 30, 0.3);
+    for (double& v : a) v = v * v;  // skewed
+    const auto b = normals(trial, "b", 30, 0.6);
+    const auto d = paired_difference(a, b, 3);
+    EXPECT_EQ(d.separable, d.p_adjusted < 0.05) << trial;
+  }
 }
 
 TEST(PairedDifference, DoesNotSeeWhatBothTrialsShare) {

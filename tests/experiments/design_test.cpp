@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/sensitivity.hpp"
+#include "experiments/sensitivity_words.hpp"
 #include "experiments/study.hpp"
 #include "experiments/study_store.hpp"
 #include "tests/experiments/program.hpp"
@@ -151,6 +152,8 @@ TEST(Design, NamesEveryMistakeInOneLine) {
                  {"form", "did you mean 'from'"});
   expect_refused({{"kind", "saltely"}, {"parameters", both}},
                  {"design.kind", "did you mean 'saltelli'"});
+  expect_refused({{"type", "saltelli"}, {"row", 64}, {"parameters", both}},
+                 {"\"kind\" is missing; known: grid, list", "'type'", "did you mean 'rows'"});
   expect_refused({{"kind", "saltelli"}, {"points", 3}, {"parameters", both}},
                  {"points", "did you mean"});
   expect_refused({{"kind", "saltelli"}}, {"parameters"});
@@ -233,6 +236,23 @@ TEST(Plan, MeasuresAFewPointsOfADesignAndSaysSo) {
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("d (saltelli)"));
   EXPECT_THAT(ended.out, HasSubstr("measured at 3 of its 1000 points"));
+}
+
+TEST(SensitivitySentence, NamesWhatMattersMost) {
+  Sensitivity s{.method = "kf", .metric = "bias_rmse", .unit = "dps"};
+  EXPECT_EQ(sensitivity_sentence(s), "");
+  s.elasticities = {{"phi", {0.2, 0.1, 0.3}}, {"noise", {-0.9, -1.0, -0.8}}};
+  EXPECT_EQ(sensitivity_sentence(s),
+            "kf: noise matters most to bias_rmse (elasticity -0.9, -1 to -0.8), then phi (0.2, 0.1 "
+            "to 0.3)");
+  s.elasticities.clear();
+  s.elementary_effects = {{"phi", {0.2, 0.1, 0.3}, {}}, {"noise", {0.1, 0.0, 0.3}, {}}};
+  EXPECT_EQ(sensitivity_sentence(s),
+            "kf: phi matters most to bias_rmse (mu* 0.2, 0.1 to 0.3 dps); the others' effects are "
+            "not told from none");
+  s.elementary_effects.clear();
+  s.indices = {{"phi", {}, {0.2, 0.0, 0.9}}, {"noise", {}, {no_value, no_value, no_value}}};
+  EXPECT_EQ(sensitivity_sentence(s), "kf: no parameter's effect on bias_rmse is told from none");
 }
 
 }  // namespace

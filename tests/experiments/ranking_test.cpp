@@ -122,6 +122,11 @@ TEST(Ranking, RoundsAValueAsItsIntervalAllows) {
   EXPECT_EQ(with_half_width(0.3104, 0.0421), "0.310 ± 0.042");
   EXPECT_EQ(with_half_width(12345.6, 234.5), "12346 ± 234");
   EXPECT_EQ(with_half_width(1.5, 0.0), "1.5");
+  EXPECT_EQ(with_interval(0.3104, 0.27, 0.3525), "0.310 ± 0.042");
+  EXPECT_EQ(with_interval(0.3104, 0.11, 0.834), "0.31 (0.11 to 0.83)");
+  EXPECT_EQ(with_interval(0.08696, 0.07404, 0.1047), "0.087 (0.074 to 0.105)");
+  EXPECT_EQ(with_interval(1234.0, 1100.0, 2000.0), "1234 (1100 to 2000)");
+  EXPECT_EQ(with_interval(-1e-12, -1e-12, -1e-12), "-1e-12");
 }
 
 TEST(Ranking, TheVerbTellsAboutAFinishedRun) {

@@ -238,5 +238,22 @@ TEST(Sweep, IsReadFromTheNamesOfCells) {
   EXPECT_THAT(sweeps[0].cells, testing::ElementsAre(1, 2, 3));
 }
 
+TEST(Sweep, TheBaseOfOneAtATimeLiesOnEveryLine) {
+  Study study;
+  for (const char* name : {"o[base]", "o[a=1]", "o[a=3]", "o[b=0.5]", "o[b=0.7]"}) {
+    study.cells.emplace_back();
+    study.cells.back().name = name;
+  }
+  study.designs.push_back({.name = "o",
+                           .kind = DesignKind::one_at_a_time,
+                           .parameters = {{.name = "a"}, {.name = "b"}},
+                           .base = {2.0, 0.6}});
+  const auto sweeps = sweeps_of(study);
+  ASSERT_EQ(sweeps.size(), 2U);
+  EXPECT_THAT(sweeps[0].levels(0), testing::ElementsAre("1", "2", "3"));
+  EXPECT_THAT(sweeps[0].cells, testing::ElementsAre(1, 2, 0));
+  EXPECT_THAT(sweeps[1].levels(0), testing::ElementsAre("0.5", "0.6", "0.7"));
+}
+
 }  // namespace
 }  // namespace gyrostat
