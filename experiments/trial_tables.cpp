@@ -91,9 +91,9 @@ Table allan(const Request& request, Results& results) {
     for (const char* prefix : {"", "lower ", "upper "})
       table.columns.push_back({prefix + played.ids[m], "dps"});
     for (std::size_t p = 0; p < points.size(); ++p) {
-      if (m == 0) table.rows[p].push_back(points[p].tau_s);
+      if (m == 0) table.rows[p].emplace_back(points[p].tau_s);
       for (const double v : {points[p].deviation, points[p].lower, points[p].upper})
-        table.rows[p].push_back(v);
+        table.rows[p].emplace_back(v);
     }
   }
   table.notes.push_back(

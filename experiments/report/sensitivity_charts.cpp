@@ -44,8 +44,7 @@ std::vector<std::string> by_size(std::vector<T> list, const Size& size) {
 Chart tornado(const std::vector<Sensitivity>& all, const MethodColours& colours,
               const std::string& id) {
   auto chart =
-      by_parameter(id + "-tornado", "Elasticity of " + all.front().metric,
-                   "relative change of the metric per relative change of the parameter", "1",
+      by_parameter(id + "-tornado", "Elasticity of " + all.front().metric, "elasticity", "1",
                    "One parameter at a time around the base, with 95 % intervals: 1 means 10 % "
                    "more of the parameter "
                    "gives 10 % more error.",

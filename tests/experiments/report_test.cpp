@@ -239,16 +239,16 @@ TEST(Sweep, IsReadFromTheNamesOfCells) {
 }
 
 TEST(Sweep, TheBaseOfOneAtATimeLiesOnEveryLine) {
-  Study study;
+  Study swept;
   for (const char* name : {"o[base]", "o[a=1]", "o[a=3]", "o[b=0.5]", "o[b=0.7]"}) {
-    study.cells.emplace_back();
-    study.cells.back().name = name;
+    swept.cells.emplace_back();
+    swept.cells.back().name = name;
   }
-  study.designs.push_back({.name = "o",
+  swept.designs.push_back({.name = "o",
                            .kind = DesignKind::one_at_a_time,
                            .parameters = {{.name = "a"}, {.name = "b"}},
                            .base = {2.0, 0.6}});
-  const auto sweeps = sweeps_of(study);
+  const auto sweeps = sweeps_of(swept);
   ASSERT_EQ(sweeps.size(), 2U);
   EXPECT_THAT(sweeps[0].levels(0), testing::ElementsAre("1", "2", "3"));
   EXPECT_THAT(sweeps[0].cells, testing::ElementsAre(1, 2, 0));
