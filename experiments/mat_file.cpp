@@ -9,12 +9,12 @@
 
 #include <fmt/format.h>
 #include <matio.h>
-#include <stdlib.h>
 
 #include "core/error.hpp"
 #include "experiments/atomic_file.hpp"
 #include "experiments/mat_integrity.hpp"
 #include "experiments/recording.hpp"
+#include "experiments/temporary_folder.hpp"
 
 namespace gyrostat {
 namespace {
@@ -136,22 +136,6 @@ Variable names_of(const std::string& name, const std::vector<std::string_view>& 
   return list;
 }
 
-/// A file of its own in the folder for temporary ones, gone at the end.
-struct Temporary {
-  Temporary() {
-    std::string name = (fs::temp_directory_path() / "gyrostat_XXXXXX").string();
-    const int opened = mkstemp(name.data());
-    if (opened < 0) throw InputError(name, "cannot be written");
-    ::close(opened);
-    path = name;
-  }
-  ~Temporary() {
-    std::error_code ignored;
-    fs::remove(path, ignored);
-  }
-  fs::path path;
-};
-
 void write_variables(mat_t* file, std::span<const CsvColumn> columns) {
   // Cells are not compressed: matio 1.5.23 then states wrong lengths for them.
   const auto write = [&](const Variable& variable) {
@@ -222,14 +206,15 @@ MatColumns read_mat(const fs::path& path) {
 }
 
 void write_mat(const fs::path& path, std::span<const CsvColumn> columns) {
-  const Temporary temporary;
+  const TemporaryFolder folder;
+  const auto temporary = folder.path() / "variables.mat";
   {
-    const File file(Mat_CreateVer(temporary.path.c_str(),
-                                  "MATLAB 5.0 MAT-file, written by gyrostat", MAT_FT_MAT5));
+    const File file(
+        Mat_CreateVer(temporary.c_str(), "MATLAB 5.0 MAT-file, written by gyrostat", MAT_FT_MAT5));
     if (!file) throw InputError(path.string(), "cannot be written");
     write_variables(file.get(), columns);
   }
-  std::ifstream written(temporary.path, std::ios::binary);
+  std::ifstream written(temporary, std::ios::binary);
   write_atomically(path, std::string(std::istreambuf_iterator<char>(written), {}));
 }
 

@@ -39,6 +39,9 @@ struct Sensitivity {
   std::size_t failed_trials() const;  ///< over all points
 };
 
+/// Whether a design of that kind says what matters; the points of one that does serve it alone.
+bool has_sensitivities(DesignKind kind);
+
 /// Which metric, and of which method; empty: the judging metric, all methods but the oracle.
 struct SensitivityChoice {
   std::string metric{}, method{};

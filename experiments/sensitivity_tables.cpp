@@ -148,12 +148,12 @@ TableCell value_cell(const Json& value) {
                            : TableCell(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
+}  // namespace
+
 bool has_sensitivities(DesignKind kind) {
   return kind == DesignKind::one_at_a_time || kind == DesignKind::morris ||
          kind == DesignKind::saltelli;
 }
-
-}  // namespace
 
 std::size_t Sensitivity::failed_trials() const {
   return std::accumulate(failures.begin(), failures.end(), std::size_t{0});

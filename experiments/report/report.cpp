@@ -1,14 +1,13 @@
 #include "experiments/report/report.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include <tbb/global_control.h>
 
 #include "experiments/address.hpp"
 #include "experiments/report/cell_section.hpp"
-#include "experiments/report/design_charts.hpp"
+#include "experiments/report/design_sections.hpp"
 #include "experiments/report/run_times.hpp"
 #include "experiments/report_assets.hpp"
 #include "experiments/sensitivity_words.hpp"
@@ -18,14 +17,6 @@ namespace gyrostat {
 namespace {
 
 constexpr std::size_t most_cells = 6;
-
-/// Whether the cell is a point that serves its design alone. The base of one_at_a_time is a cell
-/// like any other.
-bool serves_a_design(const Study& study, std::size_t cell) {
-  const auto* design = design_of(study, cell);
-  return design != nullptr && design->is_sampled() &&
-         !(design->kind == DesignKind::one_at_a_time && cell == design->first_cell);
-}
 
 /// Cells shown in full: those asked for, or the first few that do not serve a design alone, and of
 /// many made from one, as "ramp[phi=0.5]", only the first.
@@ -58,26 +49,6 @@ std::string head(const Study& study, const Manifest& manifest) {
       "move, Enter copies the command that replays an outlier.</p>\n</header>\n",
       escaped(title), escaped(study.name()), study.cells.size(), finished, study.trials(),
       study.seed, escaped(manifest.digest));
-}
-
-/// Sensitivities of one design, the method with the least mean first.
-using DesignSensitivities = std::vector<Sensitivity>;
-
-std::vector<DesignSensitivities> by_design(const Study& study, const Store& store) {
-  std::vector<DesignSensitivities> designs;
-  for (auto& s : sensitivities(study, store)) {
-    if (designs.empty() || designs.back().front().design != s.design) designs.emplace_back();
-    designs.back().push_back(std::move(s));
-  }
-  const auto mean = [](const Sensitivity& s) {
-    Running over_points;
-    for (const double m : s.means) over_points.add(m);
-    return over_points.count > 0.0 ? over_points.mean : INFINITY;
-  };
-  for (auto& design : designs)
-    std::stable_sort(design.begin(), design.end(),
-                     [&](const auto& a, const auto& b) { return mean(a) < mean(b); });
-  return designs;
 }
 
 /// What matters in each design; the most important sentence of every cell, those shown in full as
@@ -145,42 +116,6 @@ std::string failures(const Store& store, const Manifest& manifest) {
           ? fmt::format(" The first {} are here; gyrostat status DIR --failures has all.", most)
           : "",
       rows);
-}
-
-std::string charts_section(const std::string& id, const std::string& title,
-                           const std::vector<Chart>& charts) {
-  if (charts.empty()) return "";
-  std::string out = fmt::format(
-      "<section aria-labelledby=\"{0}\"><h2 id=\"{0}\">{1}</h2>\n<div class=\"charts\">\n", id,
-      escaped(title));
-  for (const auto& chart : charts) out += html(chart);
-  return out + "</div></section>\n";
-}
-
-/// One section for all sweeps of a base, as of a one-at-a-time design.
-std::string sweep_sections(const Study& study, const std::vector<Sweep>& sweeps,
-                           const std::vector<CellSummary>& summaries,
-                           const MethodColours& colours) {
-  std::string out;
-  for (std::size_t first = 0, s = 0; first < sweeps.size(); first = s) {
-    std::vector<Chart> charts;
-    for (; s < sweeps.size() && sweeps[s].name == sweeps[first].name; ++s)
-      for (auto& chart :
-           sweep_charts(study, sweeps[s], summaries, colours, fmt::format("sweep-{}", s)))
-        charts.push_back(std::move(chart));
-    out += charts_section(fmt::format("sweeps-{}", first), "Over parameters: " + sweeps[first].name,
-                          charts);
-  }
-  return out;
-}
-
-std::string sensitivity_sections(const std::vector<DesignSensitivities>& designs,
-                                 const MethodColours& colours) {
-  std::string out;
-  for (std::size_t d = 0; d < designs.size(); ++d)
-    out += charts_section(fmt::format("design-{}", d), "What matters: " + designs[d].front().design,
-                          sensitivity_charts(designs[d], colours, fmt::format("design-{}", d)));
-  return out;
 }
 
 /// What the page is drawn by, with its licence. Without it the pictures stay as they are.

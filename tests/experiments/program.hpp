@@ -15,40 +15,28 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include "experiments/temporary_folder.hpp"
+
 namespace gyrostat {
 
 /// A fresh folder that goes with the test.
-class TestFolder {
+class TestFolder : public TemporaryFolder {
  public:
-  TestFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "gyrostat_test_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~TestFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
   void write(const std::string& name, std::string_view contents) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << contents;
+    std::filesystem::create_directories((path() / name).parent_path());
+    std::ofstream(path() / name, std::ios::binary) << contents;
   }
 
   std::string read(const std::string& name) const {
-    std::ifstream file(path_ / name, std::ios::binary);
+    std::ifstream file(path() / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
   /// Every file below the folder with its bytes, every folder with "/" behind its name.
   std::map<std::string, std::string> contents() const {
     std::map<std::string, std::string> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(path_)) {
-      const auto name = std::filesystem::relative(entry.path(), path_).string();
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path())) {
+      const auto name = std::filesystem::relative(entry.path(), path()).string();
       if (entry.is_directory())
         files[name + '/'];
       else
@@ -56,9 +44,6 @@ class TestFolder {
     }
     return files;
   }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// How a program ended.
