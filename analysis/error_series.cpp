@@ -1,6 +1,6 @@
-#include "analysis/error_series.hpp"
+#include <gyrostat/analysis/error_series.hpp>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
 
 namespace gyrostat {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/track.hpp"
+#include <gyrostat/core/track.hpp>
 
 namespace gyrostat {
 

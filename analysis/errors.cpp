@@ -1,4 +1,4 @@
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
 
 #include <algorithm>
 

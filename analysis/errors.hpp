@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "analysis/innovations.hpp"
-#include "core/track.hpp"
+#include <gyrostat/analysis/innovations.hpp>
+#include <gyrostat/core/track.hpp>
 
 namespace gyrostat {
 

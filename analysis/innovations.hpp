@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/track.hpp"
+#include <gyrostat/core/track.hpp>
 
 namespace gyrostat {
 

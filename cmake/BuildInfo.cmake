@@ -1,6 +1,6 @@
 # gyrostat_build_info(target)
 #
-# Gives `target` the header experiments/build_info.hpp: commit, compiler and flags of this very build.
+# Gives `target` the header <gyrostat/experiments/run/build_info.hpp>: commit, compiler and flags of this very build.
 # Run as a script, it writes that header, and leaves it alone where nothing has changed.
 if(CMAKE_SCRIPT_MODE_FILE)
   set(commit "")
@@ -30,7 +30,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
 endif()
 
 function(gyrostat_build_info target)
-  set(header ${PROJECT_BINARY_DIR}/generated/experiments/build_info.hpp)
+  set(header ${PROJECT_BINARY_DIR}/generated/gyrostat/experiments/run/build_info.hpp)
   string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
   string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}} -ffp-contract=off" flags)
   add_custom_target(gyrostat_build_info_header BYPRODUCTS ${header}

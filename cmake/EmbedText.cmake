@@ -4,7 +4,7 @@
 function(gyrostat_embed file header name)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
   file(READ ${PROJECT_SOURCE_DIR}/${file} text)
-  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/${header} @ONLY CONTENT "#pragma once
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/gyrostat/${header} @ONLY CONTENT "#pragma once
 
 namespace gyrostat {
 

@@ -1,6 +1,6 @@
 # The report's own script and style, and µPlot as npm put it into node_modules. Without µPlot reports are
 # made all the same: their pictures then stand still.
-file(GLOB scripts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/experiments/report/script/*.js)
+file(GLOB scripts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/experiments/findings/report/script/*.js)
 list(SORT scripts)
 set(report_script "")
 foreach(file IN LISTS scripts)
@@ -8,9 +8,9 @@ foreach(file IN LISTS scripts)
   file(READ ${file} text)
   string(APPEND report_script "${text}")
 endforeach()
-file(READ ${PROJECT_SOURCE_DIR}/experiments/report/report.css report_style)
+file(READ ${PROJECT_SOURCE_DIR}/experiments/findings/report/report.css report_style)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
-             ${PROJECT_SOURCE_DIR}/experiments/report/report.css
+             ${PROJECT_SOURCE_DIR}/experiments/findings/report/report.css
              ${PROJECT_SOURCE_DIR}/package-lock.json)
 
 set(uplot ${PROJECT_SOURCE_DIR}/node_modules/uplot)
@@ -31,7 +31,7 @@ set(constants "")
 foreach(name report_script report_style uplot_script uplot_style uplot_licence)
   string(APPEND constants "inline constexpr const char* ${name} = R\"embedded(${${name}})embedded\";\n")
 endforeach()
-file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/experiments/report_assets.hpp @ONLY CONTENT "#pragma once
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/gyrostat/experiments/findings/report/assets.hpp @ONLY CONTENT "#pragma once
 
 namespace gyrostat {
 

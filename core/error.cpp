@@ -1,4 +1,4 @@
-#include "core/error.hpp"
+#include <gyrostat/core/error.hpp>
 
 #include <algorithm>
 #include <numeric>

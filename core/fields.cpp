@@ -1,4 +1,4 @@
-#include "core/fields.hpp"
+#include <gyrostat/core/fields.hpp>
 
 #include <cmath>
 #include <cstdio>

@@ -62,6 +62,30 @@ constexpr auto join_fields(const std::array<Field<B, T>, N>&... lists) {
   return joined;
 }
 
+/// A parameter without the C++ type of its owner.
+struct FieldInfo {
+  std::string_view name, unit;
+  Range range;
+  std::string_view doc;
+  double value = 0.0;  ///< by default
+};
+
+/// The fields of `P` with their defaults.
+template <class P>
+constexpr auto field_infos() {
+  constexpr auto fields = P::fields();
+  std::array<FieldInfo, fields.size()> infos{};
+  if constexpr (fields.size() > 0) {
+    const P defaults{};
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      infos[i] = {fields[i].name, fields[i].unit, fields[i].range, fields[i].doc,
+                  defaults.*(fields[i].member)};
+  }
+  return infos;
+}
+template <class P>
+inline constexpr auto field_infos_of = field_infos<P>();
+
 /// The same parameters on another scalar (a SIMD pack, a ceres::Jet).
 template <class T, template <class> class P>
 P<T> cast_parameters(const P<double>& from) {

@@ -1,11 +1,11 @@
-#include "core/random.hpp"
+#include <gyrostat/core/random.hpp>
 
 #include <array>
 
 #include <Random123/philox.h>
 
-#include "core/packed/kernels.hpp"
-#include "core/packed/normals.hpp"
+#include <gyrostat/core/packed/kernels.hpp>
+#include <gyrostat/core/packed/normals.hpp>
 
 namespace gyrostat {
 namespace {

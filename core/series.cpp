@@ -1,9 +1,9 @@
-#include "core/series.hpp"
+#include <gyrostat/core/series.hpp>
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/fields.hpp"
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/fields.hpp>
 
 namespace gyrostat {
 

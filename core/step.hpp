@@ -4,8 +4,8 @@
 #include <concepts>
 #include <string_view>
 
-#include "core/numerics/lanes.hpp"
-#include "core/types.hpp"
+#include <gyrostat/core/numerics/lanes.hpp>
+#include <gyrostat/core/values.hpp>
 
 namespace gyrostat {
 
@@ -106,11 +106,31 @@ struct Needs {
   bool truth = false;
 };
 
+/// What a filter is compared as.
+struct Role {
+  enum class Rank {
+    floor,      ///< what doing nothing costs
+    contender,  ///< what one could use
+    bound,      ///< knows what no gyro tells: no contender can be better
+  };
+  enum class Corrects { random_error, thermal_drift };
+
+  Rank rank = Rank::contender;
+  Corrects corrects = Corrects::random_error;
+  int published =
+      0;  ///< its place among the methods of study [A], or of [B] for drift; 0: in neither
+
+  constexpr bool is_contender() const { return rank == Rank::contender; }
+  constexpr bool is_floor() const { return rank == Rank::floor; }
+  constexpr bool is_bound() const { return rank == Rank::bound; }
+};
+
 /// A compensation filter: a small copyable value that turns samples into steps.
 template <class F>
 concept Filter = std::copyable<F> && requires(F filter, Sample<typename F::Scalar> sample) {
   typename F::Parameters;
   { F::needs } -> std::convertible_to<Needs>;
+  { F::role } -> std::convertible_to<Role>;
   { F::title } -> std::convertible_to<std::string_view>;
   { filter.step(sample) } -> std::same_as<Step<typename F::Scalar>>;
 };

@@ -1,4 +1,4 @@
-#include "core/track.hpp"
+#include <gyrostat/core/track.hpp>
 
 namespace gyrostat {
 namespace {

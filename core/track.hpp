@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/series.hpp"
-#include "core/step.hpp"
+#include <gyrostat/core/series.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat {
 

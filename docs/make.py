@@ -17,7 +17,7 @@ REFERENCE = ROOT / "docs" / "reference"
 # kind, its name for one, folder of the headers
 KINDS = [("filters", "filter", "core/filters"),
          ("effects", "effect", "generators/effects"),
-         ("lenses", "lens", "analysis/gap/lenses"),
+         ("lenses", "lens", "diagnosis/lenses"),
          ("metrics", "metric", "analysis/metrics"),
          ("temperatures", "temperature profile", "generators/environment/temperature"),
          ("motions", "motion profile", "generators/environment/motion"),

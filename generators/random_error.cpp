@@ -1,8 +1,8 @@
-#include "generators/random_error.hpp"
+#include <gyrostat/generators/random_error.hpp>
 
 #include <cmath>
 
-#include "generators/sampled.hpp"
+#include <gyrostat/generators/sampled.hpp>
 
 namespace gyrostat {
 

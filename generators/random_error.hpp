@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "core/models/arima111.hpp"
-#include "core/random.hpp"
+#include <gyrostat/core/models/arima111.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/random.hpp"
-#include "core/series.hpp"
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/core/series.hpp>
 
 namespace gyrostat {
 

@@ -1,22 +1,18 @@
-#include "generators/scenario.hpp"
+#include <gyrostat/generators/scenario.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 
-#include "generators/random_error.hpp"
+#include <gyrostat/generators/random_error.hpp>
 
 namespace gyrostat {
 namespace {
 
 void apply_stage(Stage stage, const Scenario& scenario, const Noise& noise, Series& series) {
-  for (const auto& any : scenario.effects)
-    std::visit(
-        [&](const auto& effect) {
-          if (effect.stage == stage) effect.apply(series, noise);
-        },
-        any);
+  for (const auto& effect : scenario.effects)
+    if (effect.stage() == stage) effect.apply(series, noise);
 }
 
 void linear_drift(const ThermalDrift<double>& drift, Series& series) {
@@ -59,14 +55,16 @@ void measure_heading(const Compass& compass, const Scenario& scenario, const Noi
   compass.read(series, noise);
 }
 
-template <class Profile>
-void accelerate(const Profile& profile, Series& series) {
-  for (const double t : series.t_s) {
-    const auto [x, y, z] = profile(t);
-    series.acc_x_mps2.push_back(x);
-    series.acc_y_mps2.push_back(y);
-    series.acc_z_mps2.push_back(z);
+template <class Type, std::size_t Width>
+void follow(const Chosen<Type>& profile, Series& series,
+            const std::array<std::vector<double> Series::*, Width>& channels_of) {
+  std::array<std::span<double>, Width> values;
+  for (std::size_t k = 0; k < Width; ++k) {
+    auto& channel = series.*channels_of[k];
+    channel.resize(series.size());
+    values[k] = channel;
   }
+  profile.type().at(profile.plugin(), series.t_s, values);
 }
 
 /// `values` with each missing sample replaced by the one before it, or by the first that there is.
@@ -103,18 +101,11 @@ void synthesise(const Scenario& scenario, const Noise& noise, Series& series) {
   for (std::size_t i = 0; i < samples; ++i)
     series.t_s[i] = static_cast<double>(i) / scenario.sampling.rate_hz;
 
-  const auto over_time = [&](const auto& profile, std::vector<double>& out) {
-    out.resize(samples);
-    std::visit(
-        [&](const auto& at) {
-          std::transform(series.t_s.begin(), series.t_s.end(), out.begin(), at);
-        },
-        profile);
-  };
-  over_time(scenario.temperature, series.temperature_C);
-  over_time(scenario.motion, series.rate_ref_dps);
+  follow(scenario.temperature, series, std::array{&Series::temperature_C});
+  follow(scenario.motion, series, std::array{&Series::rate_ref_dps});
   if (scenario.acceleration)
-    std::visit([&](const auto& profile) { accelerate(profile, series); }, *scenario.acceleration);
+    follow(*scenario.acceleration, series,
+           std::array{&Series::acc_x_mps2, &Series::acc_y_mps2, &Series::acc_z_mps2});
   apply_stage(Stage::environment, scenario, noise, series);
 
   measure_rate(scenario, noise, series);

@@ -3,13 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include "core/models/arima111.hpp"
-#include "core/models/thermal.hpp"
-#include "generators/effects/list.hpp"
-#include "generators/environment/acceleration/list.hpp"
-#include "generators/environment/magnetic/compass.hpp"
-#include "generators/environment/motion/list.hpp"
-#include "generators/environment/temperature/list.hpp"
+#include <gyrostat/core/models/arima111.hpp>
+#include <gyrostat/core/models/thermal_drift.hpp>
+#include <gyrostat/generators/effect.hpp>
+#include <gyrostat/generators/environment/magnetic/compass.hpp>
+#include <gyrostat/generators/profile.hpp>
 
 namespace gyrostat {
 
@@ -36,11 +34,11 @@ struct Scenario {
   Sampling sampling;
   Arima111<double> random_error;
   ThermalDrift<double> thermal_drift;
-  Temperatures::Any temperature = temperature::QuietRoom{};
-  Motions::Any motion = motion::Stationary{};
-  std::optional<Accelerations::Any> acceleration;  ///< none: no accelerometer, acc channels empty
+  Temperature temperature{temperature_types().named("quiet_room", "scenario")};
+  Motion motion{motion_types().named("stationary", "scenario")};
+  std::optional<Acceleration> acceleration;  ///< none: no accelerometer, acc channels empty
   Compass compass;
-  std::vector<Effects::Any> effects;
+  std::vector<Effect> effects;
 };
 
 /// The signal of `scenario` under `noise`, with its truth, into `series` (whose memory is reused):

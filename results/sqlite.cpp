@@ -1,4 +1,4 @@
-#include "results/sqlite.hpp"
+#include <gyrostat/results/sqlite.hpp>
 
 #include <sqlite3.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "results/store.hpp"
+#include <gyrostat/results/store.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -14,8 +14,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "core/error.hpp"
-#include "results/schema.hpp"
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/results/schema.hpp>
 
 namespace gyrostat {
 namespace {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "results/sqlite.hpp"
+#include <gyrostat/results/sqlite.hpp>
 
 namespace gyrostat {
 

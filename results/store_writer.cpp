@@ -1,4 +1,4 @@
-#include "results/store_writer.hpp"
+#include <gyrostat/results/store_writer.hpp>
 
 #include <algorithm>
 #include <chrono>

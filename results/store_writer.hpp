@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "results/store.hpp"
+#include <gyrostat/results/store.hpp>
 
 namespace gyrostat {
 

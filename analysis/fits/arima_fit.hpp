@@ -1,10 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 
-#include "core/models/arima111.hpp"
-#include "core/types.hpp"
+#include <gyrostat/core/models/arima111.hpp>
 
 namespace gyrostat {
 
@@ -13,7 +13,7 @@ struct ArimaFit {
   Arima111<double> parameters;
   Arima111<double> standard_errors;
   /// Of phi, delta1, delta2 and sqrt(R), in that order and in their units.
-  Matrix<double, 4> covariance = Matrix<double, 4>::Zero();
+  std::array<std::array<double, 4>, 4> covariance{};
   bool converged = false;
   std::string message;
   int iterations = 0;

@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "core/models/arima111.hpp"
-#include "core/step.hpp"
+#include <gyrostat/core/models/arima111.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat {
 

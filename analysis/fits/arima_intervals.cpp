@@ -1,4 +1,4 @@
-#include "analysis/fits/arima_intervals.hpp"
+#include <gyrostat/analysis/fits/arima_intervals.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <ceres/jet.h>
 
-#include "analysis/fits/arima_innovations.hpp"
-#include "analysis/fits/arima_likelihood.hpp"
+#include <gyrostat/analysis/fits/arima_innovations.hpp>
+#include <gyrostat/analysis/fits/arima_likelihood.hpp>
 
 namespace gyrostat {
 namespace {

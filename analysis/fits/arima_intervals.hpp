@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/fits/arima_fit.hpp"
+#include <gyrostat/analysis/fits/arima_fit.hpp>
 
 namespace gyrostat {
 

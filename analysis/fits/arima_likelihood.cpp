@@ -1,4 +1,4 @@
-#include "analysis/fits/arima_likelihood.hpp"
+#include <gyrostat/analysis/fits/arima_likelihood.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,8 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <ceres/ceres.h>
 
-#include "analysis/fits/arima_innovations.hpp"
-#include "core/error.hpp"
+#include <gyrostat/analysis/fits/arima_innovations.hpp>
+#include <gyrostat/core/error.hpp>
 
 namespace gyrostat {
 namespace {
@@ -247,19 +247,19 @@ ArimaFit descend(std::span<const double> z, const Variant& variant) {
     fit.message += "; |delta2| = delta1, the limit: x does not wander";
   fit.samples = z.size();
   fit.objective = arima_log_likelihood(fit.parameters, z);
+  Eigen::Map<Eigen::Matrix4d> fitted(fit.covariance[0].data());
   if (const auto covariance = covariance_of(fit.parameters, variant, z)) {
-    fit.covariance = *covariance;
+    fitted = *covariance;
   } else {
-    fit.covariance =
-        Eigen::Vector4d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
+    fitted = Eigen::Vector4d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
     fit.message += "; the parameters are not all identifiable";
   }
-  fit.standard_errors = {std::sqrt(fit.covariance(0, 0)), std::sqrt(fit.covariance(1, 1)),
-                         std::sqrt(fit.covariance(2, 2)), std::sqrt(fit.covariance(3, 3))};
+  fit.standard_errors = {std::sqrt(fitted(0, 0)), std::sqrt(fitted(1, 1)), std::sqrt(fitted(2, 2)),
+                         std::sqrt(fitted(3, 3))};
   return fit;
 }
 
-bool is_identified(const ArimaFit& fit) { return std::isfinite(fit.covariance(1, 1)); }
+bool is_identified(const ArimaFit& fit) { return std::isfinite(fit.covariance[1][1]); }
 
 }  // namespace
 

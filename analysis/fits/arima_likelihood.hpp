@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "analysis/fits/arima_fit.hpp"
+#include <gyrostat/analysis/fits/arima_fit.hpp>
 
 namespace gyrostat {
 

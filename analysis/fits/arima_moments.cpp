@@ -1,4 +1,4 @@
-#include "analysis/fits/arima_moments.hpp"
+#include <gyrostat/analysis/fits/arima_moments.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,11 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <ceres/ceres.h>
 
-#include "analysis/spectra/allan.hpp"
-#include "analysis/spectra/arima_haar.hpp"
-#include "core/error.hpp"
-#include "core/random.hpp"
+#include <gyrostat/analysis/spectra/allan.hpp>
+#include <gyrostat/analysis/spectra/arima_haar.hpp>
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {
@@ -229,10 +230,11 @@ ArimaFit fit_arima_moments(std::span<const double> rate_dps) {
   if (refuted) fit.message += "; the model does not describe these data";
 
   const Free units(1.0, unit, unit, unit);
-  fit.covariance = units.asDiagonal() *
-                   spread_about(best, moments, refuted ? fit.objective / degrees : 1.0) *
-                   units.asDiagonal();
-  const Free errors = fit.covariance.diagonal().cwiseSqrt();
+  Eigen::Map<Eigen::Matrix4d> fitted(fit.covariance[0].data());
+  fitted = units.asDiagonal() *
+           spread_about(best, moments, refuted ? fit.objective / degrees : 1.0) *
+           units.asDiagonal();
+  const Free errors = fitted.diagonal().cwiseSqrt();
   fit.standard_errors = {errors[0], errors[1], errors[2], errors[3]};
   const auto model = model_of(best);
   fit.parameters = {model.phi, model.delta1_dps * unit, model.delta2_dps * unit,

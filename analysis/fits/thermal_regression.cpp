@@ -1,4 +1,4 @@
-#include "analysis/fits/thermal_regression.hpp"
+#include <gyrostat/analysis/fits/thermal_regression.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,11 @@
 
 #include <Eigen/QR>
 
-#include "core/error.hpp"
-#include "core/models/compass_aiding.hpp"
-#include "core/track.hpp"
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/models/compass_aiding.hpp>
+#include <gyrostat/core/models/thermal.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/track.hpp>
 
 namespace gyrostat {
 namespace {
@@ -153,7 +155,7 @@ double compass_noise_std(const Series& series, const ThermalDrift<double>& drift
   CompassAiding<double> aiding(interval_s);
   for (std::size_t i = 0; i < series.size(); ++i)
     if (const auto epoch = aiding.observe(sample_at(series, i), 0.0))
-      residual.push_back(epoch->bias_dps - epoch->regressors.dot(drift.coefficients()));
+      residual.push_back(epoch->bias_dps - epoch->regressors.dot(coefficients_of(drift)));
   double sum = 0.0;
   std::size_t count = 0;
   for (std::size_t k = 3; k < residual.size(); ++k) {
@@ -173,7 +175,7 @@ double bias_measurement_std(const Series& series, const ThermalDrift<double>& dr
     return epoch ? epoch->bias_dps : no_value;
   });
   if (y.size() < 2) return no_value;
-  const Eigen::VectorXd residual = y - X * drift.coefficients();
+  const Eigen::VectorXd residual = y - X * coefficients_of(drift);
   return std::sqrt((residual.array() - residual.mean()).square().sum() /
                    static_cast<double>(y.size() - 1));
 }

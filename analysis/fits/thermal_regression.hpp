@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "core/models/thermal.hpp"
-#include "core/series.hpp"
+#include <gyrostat/core/models/thermal_drift.hpp>
+#include <gyrostat/core/series.hpp>
 
 namespace gyrostat {
 

@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/goal.hpp>
 
 namespace gyrostat::metrics {
 
@@ -10,6 +11,7 @@ namespace gyrostat::metrics {
 struct BiasMean {
   static constexpr std::string_view title = "bias estimation error, mean";
   static constexpr std::string_view unit = "dps";
+  static constexpr Goal goal = Goal::near_zero;
 
   double operator()(const TrackErrors& errors) const { return errors.bias.mean; }
 };

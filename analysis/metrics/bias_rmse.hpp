@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/goal.hpp>
 
 namespace gyrostat::metrics {
 
@@ -10,6 +11,10 @@ namespace gyrostat::metrics {
 struct BiasRmse {
   static constexpr std::string_view title = "bias estimation error, RMSE";
   static constexpr std::string_view unit = "dps";
+  static constexpr Goal goal = Goal::near_zero;
+  static constexpr TableOf table{
+      .place = 1,
+      .title = "bias estimation error (estimate - drift - random error), RMSE over time"};
 
   double operator()(const TrackErrors& errors) const { return errors.bias.rmse; }
 };

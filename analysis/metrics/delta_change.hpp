@@ -3,7 +3,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/goal.hpp>
 
 namespace gyrostat::metrics {
 
@@ -12,6 +13,7 @@ namespace gyrostat::metrics {
 struct DeltaChange {
   static constexpr std::string_view title = "how far delta1 and delta2 moved";
   static constexpr std::string_view unit = "dps";
+  static constexpr Goal goal = Goal::none;
 
   double operator()(const TrackErrors& errors) const {
     return std::hypot(errors.learned_last.delta1_dps - errors.learned_first.delta1_dps,

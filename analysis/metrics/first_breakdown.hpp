@@ -3,7 +3,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/goal.hpp>
 
 namespace gyrostat::metrics {
 
@@ -11,6 +12,7 @@ namespace gyrostat::metrics {
 struct FirstBreakdown {
   static constexpr std::string_view title = "time of the first breakdown";
   static constexpr std::string_view unit = "s";
+  static constexpr Goal goal = Goal::none;
 
   double operator()(const TrackErrors& errors) const { return errors.first_breakdown_s; }
 };

@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/goal.hpp>
 
 namespace gyrostat::metrics {
 
@@ -10,6 +11,8 @@ namespace gyrostat::metrics {
 struct HeadingRange {
   static constexpr std::string_view title = "heading error, range";
   static constexpr std::string_view unit = "deg";
+  static constexpr Goal goal = Goal::near_zero;
+  static constexpr TableOf table{.place = 6, .title = "heading error, highest minus lowest"};
 
   double operator()(const TrackErrors& errors) const {
     return errors.heading.max_deg - errors.heading.min_deg;

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/goal.hpp>
 
 namespace gyrostat::metrics {
 
@@ -11,6 +12,7 @@ namespace gyrostat::metrics {
 struct HeadingWorst {
   static constexpr std::string_view title = "heading error, largest";
   static constexpr std::string_view unit = "deg";
+  static constexpr Goal goal = Goal::near_zero;
 
   double operator()(const TrackErrors& errors) const {
     return std::max(errors.heading.max_deg, -errors.heading.min_deg);

@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/goal.hpp>
 
 namespace gyrostat::metrics {
 
@@ -11,6 +12,7 @@ namespace gyrostat::metrics {
 struct InnovationLag1 {
   static constexpr std::string_view title = "autocorrelation of successive innovations";
   static constexpr std::string_view unit = "1";
+  static constexpr Goal goal = Goal::consistent;
 
   double operator()(const TrackErrors& errors) const { return errors.innovations.lag_1; }
 };

@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/goal.hpp>
 
 namespace gyrostat::metrics {
 
@@ -10,6 +11,7 @@ namespace gyrostat::metrics {
 struct Innovations {
   static constexpr std::string_view title = "innovations";
   static constexpr std::string_view unit = "1";
+  static constexpr Goal goal = Goal::consistent;
 
   double operator()(const TrackErrors& errors) const {
     return static_cast<double>(errors.innovations.count);

@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/goal.hpp>
 
 namespace gyrostat::metrics {
 
@@ -12,6 +13,9 @@ namespace gyrostat::metrics {
 struct LogScore {
   static constexpr std::string_view title = "logarithmic score of the innovations, mean";
   static constexpr std::string_view unit = "nat";
+  static constexpr Goal goal = Goal::small;
+  static constexpr TableOf table{
+      .place = 1, .title = "logarithmic score of the innovations (small: foretells the gyro well)"};
 
   double operator()(const TrackErrors& errors) const { return errors.innovations.log_score; }
 };

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/goal.hpp>
 
 namespace gyrostat::metrics {
 
@@ -11,6 +12,7 @@ namespace gyrostat::metrics {
 struct PhiStdRatio {
   static constexpr std::string_view title = "standard deviation of phi, last over first";
   static constexpr std::string_view unit = "1";
+  static constexpr Goal goal = Goal::none;
 
   double operator()(const TrackErrors& errors) const {
     return errors.learned_last.phi_std / errors.learned_first.phi_std;

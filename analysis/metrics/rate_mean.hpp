@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/goal.hpp>
 
 namespace gyrostat::metrics {
 
@@ -10,6 +11,8 @@ namespace gyrostat::metrics {
 struct RateMean {
   static constexpr std::string_view title = "compensated rate error, mean";
   static constexpr std::string_view unit = "dps";
+  static constexpr Goal goal = Goal::near_zero;
+  static constexpr TableOf table{.place = 4, .title = "compensated rate error, mean over time"};
 
   double operator()(const TrackErrors& errors) const { return errors.rate.mean; }
 };

@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/goal.hpp>
 
 namespace gyrostat::metrics {
 
@@ -10,6 +11,9 @@ namespace gyrostat::metrics {
 struct RateStd {
   static constexpr std::string_view title = "compensated rate error, standard deviation";
   static constexpr std::string_view unit = "dps";
+  static constexpr Goal goal = Goal::near_zero;
+  static constexpr TableOf table{.place = 3,
+                                 .title = "compensated rate error, standard deviation over time"};
 
   double operator()(const TrackErrors& errors) const { return errors.rate.std; }
 };

@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "analysis/errors.hpp"
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/goal.hpp>
 
 namespace gyrostat::metrics {
 
@@ -12,6 +13,7 @@ struct Within3Sigma {
   static constexpr std::string_view title =
       "bias error within ±3σ of the filter's own, share of time";
   static constexpr std::string_view unit = "1";
+  static constexpr Goal goal = Goal::consistent;
 
   double operator()(const TrackErrors& errors) const { return errors.covariance.within_3_sigma; }
 };

@@ -1,4 +1,4 @@
-#include "analysis/search/box_search.hpp"
+#include <gyrostat/analysis/search/box_search.hpp>
 
 #include <algorithm>
 #include <array>

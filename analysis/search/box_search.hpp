@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/types.hpp"
+#include <gyrostat/core/values.hpp>
 
 namespace gyrostat {
 

@@ -1,11 +1,11 @@
-#include "analysis/sensitivity/crossed_rows.hpp"
+#include <gyrostat/analysis/sensitivity/crossed_rows.hpp>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
 
-#include "core/random.hpp"
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/sensitivity/indices.hpp"
+#include <gyrostat/analysis/sensitivity/indices.hpp>
 
 namespace gyrostat {
 

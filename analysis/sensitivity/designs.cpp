@@ -1,4 +1,4 @@
-#include "analysis/sensitivity/designs.hpp"
+#include <gyrostat/analysis/sensitivity/designs.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -6,7 +6,7 @@
 
 #include <boost/random/sobol.hpp>
 
-#include "core/random.hpp"
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,7 +1,7 @@
 #include <numeric>
 
-#include "analysis/sensitivity/estimators.hpp"
-#include "analysis/sensitivity/paired_trials.hpp"
+#include <gyrostat/analysis/sensitivity/estimators.hpp>
+#include <gyrostat/analysis/sensitivity/paired_trials.hpp>
 
 namespace gyrostat {
 namespace {

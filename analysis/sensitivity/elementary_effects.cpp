@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/sensitivity/estimators.hpp"
-#include "analysis/sensitivity/paired_trials.hpp"
-#include "analysis/sensitivity/trial_moments.hpp"
+#include <gyrostat/analysis/sensitivity/estimators.hpp>
+#include <gyrostat/analysis/sensitivity/paired_trials.hpp>
+#include <gyrostat/analysis/sensitivity/trial_moments.hpp>
 
 namespace gyrostat {
 namespace {

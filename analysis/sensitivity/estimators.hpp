@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "analysis/sensitivity/crossed_rows.hpp"
-#include "analysis/sensitivity/designs.hpp"
-#include "analysis/sensitivity/outputs.hpp"
+#include <gyrostat/analysis/sensitivity/crossed_rows.hpp>
+#include <gyrostat/analysis/sensitivity/designs.hpp>
+#include <gyrostat/analysis/sensitivity/outputs.hpp>
 
 namespace gyrostat {
 

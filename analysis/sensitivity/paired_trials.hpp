@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "analysis/sensitivity/outputs.hpp"
+#include <gyrostat/analysis/sensitivity/outputs.hpp>
 
 namespace gyrostat {
 

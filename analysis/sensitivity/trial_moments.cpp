@@ -1,4 +1,4 @@
-#include "analysis/sensitivity/trial_moments.hpp"
+#include <gyrostat/analysis/sensitivity/trial_moments.hpp>
 
 #include <cmath>
 #include <numbers>

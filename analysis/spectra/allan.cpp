@@ -1,4 +1,4 @@
-#include "analysis/spectra/allan.hpp"
+#include <gyrostat/analysis/spectra/allan.hpp>
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include <boost/math/distributions/chi_squared.hpp>
 
-#include "core/error.hpp"
+#include <gyrostat/core/error.hpp>
 
 namespace gyrostat {
 namespace {

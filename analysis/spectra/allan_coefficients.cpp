@@ -1,4 +1,4 @@
-#include "analysis/spectra/allan_coefficients.hpp"
+#include <gyrostat/analysis/spectra/allan_coefficients.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,8 @@
 #include <boost/math/special_functions/trigamma.hpp>
 #include <boost/math/tools/roots.hpp>
 
-#include "core/error.hpp"
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat {
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "analysis/spectra/allan.hpp"
-#include "core/types.hpp"
+#include <gyrostat/analysis/spectra/allan.hpp>
+#include <gyrostat/core/values.hpp>
 
 namespace gyrostat {
 

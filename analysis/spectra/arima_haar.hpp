@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <numbers>
 
-#include "core/models/arima111.hpp"
-#include "core/types.hpp"
+#include <gyrostat/core/models/arima111.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat {
 namespace arima_haar {

@@ -1,10 +1,10 @@
-#include "analysis/spectra/shrinkage.hpp"
+#include <gyrostat/analysis/spectra/shrinkage.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "core/error.hpp"
+#include <gyrostat/core/error.hpp>
 
 namespace gyrostat {
 namespace {

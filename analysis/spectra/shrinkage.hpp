@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/spectra/wavelet.hpp"
+#include <gyrostat/analysis/spectra/wavelet.hpp>
 
 namespace gyrostat {
 

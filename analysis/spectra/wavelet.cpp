@@ -1,4 +1,4 @@
-#include "analysis/spectra/wavelet.hpp"
+#include <gyrostat/analysis/spectra/wavelet.hpp>
 
 #include <array>
 #include <bit>
@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "core/error.hpp"
+#include <gyrostat/core/error.hpp>
 
 namespace gyrostat {
 namespace {

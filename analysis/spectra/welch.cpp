@@ -1,4 +1,4 @@
-#include "analysis/spectra/welch.hpp"
+#include <gyrostat/analysis/spectra/welch.hpp>
 
 #include <cmath>
 #include <complex>

@@ -1,4 +1,4 @@
-#include "analysis/statistics/all_pairs.hpp"
+#include <gyrostat/analysis/statistics/all_pairs.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "core/random.hpp"
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/statistics/paired.hpp"
+#include <gyrostat/analysis/statistics/paired.hpp>
 
 namespace gyrostat {
 

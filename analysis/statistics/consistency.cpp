@@ -1,11 +1,11 @@
-#include "analysis/statistics/consistency.hpp"
+#include <gyrostat/analysis/statistics/consistency.hpp>
 
 #include <cmath>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 
-#include "analysis/statistics/skewed_mean.hpp"
+#include <gyrostat/analysis/statistics/skewed_mean.hpp>
 
 namespace gyrostat {
 

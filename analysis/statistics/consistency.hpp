@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "analysis/statistics/running.hpp"
+#include <gyrostat/analysis/statistics/running.hpp>
 
 namespace gyrostat {
 

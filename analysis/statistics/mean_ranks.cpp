@@ -1,4 +1,4 @@
-#include "analysis/statistics/mean_ranks.hpp"
+#include <gyrostat/analysis/statistics/mean_ranks.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/types.hpp"
+#include <gyrostat/core/values.hpp>
 
 namespace gyrostat {
 

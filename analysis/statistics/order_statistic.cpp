@@ -1,4 +1,4 @@
-#include "analysis/statistics/order_statistic.hpp"
+#include <gyrostat/analysis/statistics/order_statistic.hpp>
 
 #include <algorithm>
 #include <bit>

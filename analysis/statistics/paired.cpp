@@ -1,4 +1,4 @@
-#include "analysis/statistics/paired.hpp"
+#include <gyrostat/analysis/statistics/paired.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <boost/math/distributions/normal.hpp>
 
-#include "analysis/statistics/skewed_mean.hpp"
+#include <gyrostat/analysis/statistics/skewed_mean.hpp>
 
 namespace gyrostat {
 

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <span>
 
-#include "analysis/statistics/running.hpp"
-#include "core/types.hpp"
+#include <gyrostat/analysis/statistics/running.hpp>
+#include <gyrostat/core/values.hpp>
 
 namespace gyrostat {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/types.hpp"
+#include <gyrostat/core/values.hpp>
 
 namespace gyrostat {
 

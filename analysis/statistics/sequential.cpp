@@ -1,4 +1,4 @@
-#include "analysis/statistics/sequential.hpp"
+#include <gyrostat/analysis/statistics/sequential.hpp>
 
 #include <cmath>
 #include <numbers>

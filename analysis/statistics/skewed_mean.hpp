@@ -5,7 +5,7 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
-#include "analysis/statistics/running.hpp"
+#include <gyrostat/analysis/statistics/running.hpp>
 
 namespace gyrostat {
 

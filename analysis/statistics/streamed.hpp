@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "analysis/statistics/order_statistic.hpp"
-#include "analysis/statistics/summary.hpp"
+#include <gyrostat/analysis/statistics/order_statistic.hpp>
+#include <gyrostat/analysis/statistics/summary.hpp>
 
 namespace gyrostat {
 

@@ -1,4 +1,4 @@
-#include "analysis/statistics/summary.hpp"
+#include <gyrostat/analysis/statistics/summary.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
-#include "analysis/statistics/skewed_mean.hpp"
+#include <gyrostat/analysis/statistics/skewed_mean.hpp>
 
 namespace gyrostat {
 namespace {

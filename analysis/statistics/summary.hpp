@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "analysis/statistics/running.hpp"
-#include "core/types.hpp"
+#include <gyrostat/analysis/statistics/running.hpp>
+#include <gyrostat/core/values.hpp>
 
 namespace gyrostat {
 

@@ -1,8 +1,8 @@
-#include "analysis/statistics/tail_mean.hpp"
+#include <gyrostat/analysis/statistics/tail_mean.hpp>
 
 #include <cmath>
 
-#include "analysis/statistics/skewed_mean.hpp"
+#include <gyrostat/analysis/statistics/skewed_mean.hpp>
 
 namespace gyrostat {
 namespace {

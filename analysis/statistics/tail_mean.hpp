@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/statistics/order_statistic.hpp"
-#include "core/types.hpp"
+#include <gyrostat/analysis/statistics/order_statistic.hpp>
+#include <gyrostat/core/values.hpp>
 
 namespace gyrostat {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/filters/sr_rsukf.hpp"
-#include "core/filters/thermal_stf.hpp"
+#include <gyrostat/core/filters/sr_rsukf.hpp>
+#include <gyrostat/core/filters/thermal_stf.hpp>
 
 namespace gyrostat::filters {
 
@@ -35,6 +35,7 @@ class Cascade {
   using Parameters = CascadeParameters<T>;
   static constexpr std::string_view title = "thermal STF and SR-RSUKF on what it leaves";
   static constexpr Needs needs{.temperature = true, .heading = true};
+  static constexpr Role role{.corrects = Role::Corrects::thermal_drift};
 
   explicit Cascade(const Parameters& p) : thermal_(p), fast_(p) {}
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/models/model_l.hpp"
-#include "core/numerics/scalar_update.hpp"
-#include "core/step.hpp"
+#include <gyrostat/core/models/model_l.hpp>
+#include <gyrostat/core/numerics/scalar_update.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat::filters {
 
@@ -15,6 +15,7 @@ class Kf {
   using Parameters = RandomErrorParameters<T>;
   static constexpr std::string_view title = "Kalman filter on model L";
   static constexpr Needs needs{};
+  static constexpr Role role{.published = 1};
   static constexpr bool packs_trials = true;
 
   explicit Kf(const Parameters& p) : model_(p), state_(ModelL<T>::initial(p)) {}

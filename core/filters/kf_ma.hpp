@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/models/model_l.hpp"
-#include "core/numerics/scalar_update.hpp"
-#include "core/step.hpp"
+#include <gyrostat/core/models/model_l.hpp>
+#include <gyrostat/core/numerics/scalar_update.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat::filters {
 
@@ -16,6 +16,7 @@ class KfMa {
   using Parameters = RandomErrorParameters<T>;
   static constexpr std::string_view title = "Kalman filter that carries a_k (MA-exact)";
   static constexpr Needs needs{};
+  static constexpr Role role{};
   static constexpr bool packs_trials = true;
 
   explicit KfMa(const Parameters& p) : model_(p), state_(ModelExact<T>::initial(p)) {}

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/models/arima_learner.hpp"
-#include "core/models/arima_minimal.hpp"
-#include "core/step.hpp"
+#include <gyrostat/core/models/arima_learner.hpp>
+#include <gyrostat/core/models/arima_minimal.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat::filters {
 
@@ -32,6 +32,7 @@ class KfRml {
       "MA-exact Kalman filter that learns phi, delta1, delta2 and R by recursive maximum "
       "likelihood";
   static constexpr Needs needs{};
+  static constexpr Role role{};
 
   explicit KfRml(const Parameters& p)
       : learner_(p, p), model_(learner_.model()), state_(model_, p) {}

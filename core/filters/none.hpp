@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/models/no_parameters.hpp"
-#include "core/step.hpp"
+#include <gyrostat/core/models/no_parameters.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat::filters {
 
@@ -13,6 +13,7 @@ class None {
   using Parameters = NoParameters<T>;
   static constexpr std::string_view title = "no compensation";
   static constexpr Needs needs{};
+  static constexpr Role role{.rank = Role::Rank::floor};
 
   explicit None(const Parameters& /*none*/) {}
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/filters/kf_ma.hpp"
+#include <gyrostat/core/filters/kf_ma.hpp>
 
 namespace gyrostat::filters {
 
@@ -13,6 +13,7 @@ class Oracle {
   using Parameters = RandomErrorParameters<T>;
   static constexpr std::string_view title = "oracle: true drift and motion, KfMa for the rest";
   static constexpr Needs needs{.truth = true};
+  static constexpr Role role{.rank = Role::Rank::bound};
   static constexpr bool packs_trials = true;
 
   explicit Oracle(const Parameters& p) : random_error_(p) {}

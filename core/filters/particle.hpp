@@ -3,8 +3,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "core/models/particle_cloud.hpp"
-#include "core/step.hpp"
+#include <gyrostat/core/models/particle_cloud.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat::filters {
 
@@ -23,6 +23,7 @@ class Particle {
   using Parameters = ParticleParameters<T>;
   static constexpr std::string_view title = "bootstrap particle filter on model NL";
   static constexpr Needs needs{};
+  static constexpr Role role{};
   static constexpr bool draws_noise = true;  ///< so no mirror image, nor exactly zero for nothing
 
   explicit Particle(const Parameters& p) : noise_std_(p.measurement_noise_std_dps), cloud_(p) {}

@@ -1,9 +1,10 @@
 #pragma once
 
-#include "core/models/model_l.hpp"
-#include "core/numerics/risk.hpp"
-#include "core/numerics/scalar_update.hpp"
-#include "core/step.hpp"
+#include <gyrostat/core/models/model_l.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/numerics/risk.hpp>
+#include <gyrostat/core/numerics/scalar_update.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat::filters {
 
@@ -35,6 +36,7 @@ class Rskf {
   using Parameters = RskfParameters<T>;
   static constexpr std::string_view title = "risk-sensitive Kalman filter on model L";
   static constexpr Needs needs{};
+  static constexpr Role role{};
   static constexpr bool packs_trials = true;
 
   explicit Rskf(const Parameters& p)

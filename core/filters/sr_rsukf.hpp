@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/models/nl_unscented.hpp"
+#include <gyrostat/core/models/nl_unscented.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat::filters {
 
@@ -58,6 +59,7 @@ class SrRsukf {
   static constexpr std::string_view title =
       "square-root risk-sensitive unscented Kalman filter on model NL";
   static constexpr Needs needs{};
+  static constexpr Role role{.published = 4};
   static constexpr bool packs_trials = true;
 
   explicit SrRsukf(const Parameters& p) : filter_(p), risk_(p.diagonal()) {}

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/models/nl_unscented.hpp"
+#include <gyrostat/core/models/nl_unscented.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat::filters {
 
@@ -33,6 +34,7 @@ class SrRsukfScalar {
   static constexpr std::string_view title =
       "square-root risk-sensitive unscented Kalman filter with scalar risk on model NL";
   static constexpr Needs needs{};
+  static constexpr Role role{};
   static constexpr bool packs_trials = true;
 
   explicit SrRsukfScalar(const Parameters& p)

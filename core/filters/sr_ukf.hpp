@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/models/nl_unscented.hpp"
+#include <gyrostat/core/models/nl_unscented.hpp>
 
 namespace gyrostat::filters {
 
@@ -13,6 +13,7 @@ class SrUkf {
   using Parameters = NlParameters<T>;
   static constexpr std::string_view title = "square-root unscented Kalman filter on model NL";
   static constexpr Needs needs{};
+  static constexpr Role role{.published = 3};
   static constexpr bool packs_trials = true;
 
   explicit SrUkf(const Parameters& p) : filter_(p) {}

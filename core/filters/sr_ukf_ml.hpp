@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/filters/kf_rml.hpp"
-#include "core/models/nl_unscented.hpp"
+#include <gyrostat/core/filters/kf_rml.hpp>
+#include <gyrostat/core/models/nl_unscented.hpp>
 
 namespace gyrostat::filters {
 
@@ -25,6 +25,7 @@ class SrUkfMl {
   static constexpr std::string_view title =
       "SR-UKF on model NL with delta1, delta2 and R by recursive maximum likelihood";
   static constexpr Needs needs{};
+  static constexpr Role role{};
 
   explicit SrUkfMl(const Parameters& p) : learner_(p), filter_(at_start(p)) {}
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/models/nl_unscented.hpp"
+#include <gyrostat/core/models/nl_unscented.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat::filters {
 
@@ -44,6 +45,7 @@ class SrUkfWalk {
   static constexpr std::string_view title =
       "square-root unscented Kalman filter on model NL with walking parameters";
   static constexpr Needs needs{};
+  static constexpr Role role{};
   static constexpr bool packs_trials = true;
 
   explicit SrUkfWalk(const Parameters& p)

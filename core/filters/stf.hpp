@@ -1,9 +1,9 @@
 #pragma once
 
-#include "core/models/fading.hpp"
-#include "core/models/model_l.hpp"
-#include "core/numerics/scalar_update.hpp"
-#include "core/step.hpp"
+#include <gyrostat/core/models/fading.hpp>
+#include <gyrostat/core/models/model_l.hpp>
+#include <gyrostat/core/numerics/scalar_update.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat::filters {
 
@@ -24,6 +24,7 @@ class Stf {
   using Parameters = StfParameters<T>;
   static constexpr std::string_view title = "strong tracking Kalman filter on model L";
   static constexpr Needs needs{};
+  static constexpr Role role{.published = 2};
   static constexpr bool packs_trials = true;
 
   explicit Stf(const Parameters& p) : model_(p), fading_(p), state_(ModelL<T>::initial(p)) {}

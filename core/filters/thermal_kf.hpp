@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/models/coefficient_kalman.hpp"
-#include "core/models/thermal_compensator.hpp"
+#include <gyrostat/core/models/coefficient_kalman.hpp>
+#include <gyrostat/core/models/thermal_compensator.hpp>
 
 namespace gyrostat::filters {
 
@@ -10,6 +10,7 @@ class KfRule {
  public:
   using Parameters = CoefficientKalmanParameters<T>;
   static constexpr std::string_view title = "thermal drift by a Kalman filter on [a, b, c]";
+  static constexpr Role role{.corrects = Role::Corrects::thermal_drift, .published = 2};
 
   explicit KfRule(const Parameters& p) : kalman_(p) {}
 

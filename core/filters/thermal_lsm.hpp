@@ -4,7 +4,8 @@
 
 #include <Eigen/Cholesky>
 
-#include "core/models/thermal_compensator.hpp"
+#include <gyrostat/core/models/thermal_compensator.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat::filters {
 
@@ -26,6 +27,7 @@ class LsmRule {
  public:
   using Parameters = ThermalLsmParameters<T>;
   static constexpr std::string_view title = "thermal drift by least squares over recent points";
+  static constexpr Role role{.corrects = Role::Corrects::thermal_drift, .published = 3};
 
   explicit LsmRule(const Parameters& p)
       : p_(p), coefficients_{p.coefficients(), p.initial_covariance()} {}

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/models/thermal_compensator.hpp"
+#include <gyrostat/core/models/thermal_compensator.hpp>
 
 namespace gyrostat::filters {
 
@@ -9,6 +9,7 @@ class MlrRule {
  public:
   using Parameters = ThermalParameters<T>;
   static constexpr std::string_view title = "thermal drift by multiple linear regression, constant";
+  static constexpr Role role{.corrects = Role::Corrects::thermal_drift, .published = 1};
 
   explicit MlrRule(const Parameters& p)
       : coefficients_{p.coefficients(), p.initial_covariance()},

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/models/coefficient_kalman.hpp"
-#include "core/models/fading.hpp"
-#include "core/models/thermal_compensator.hpp"
+#include <gyrostat/core/models/coefficient_kalman.hpp>
+#include <gyrostat/core/models/fading.hpp>
+#include <gyrostat/core/models/thermal_compensator.hpp>
 
 namespace gyrostat::filters {
 
@@ -20,6 +20,7 @@ class StfRule {
   using Parameters = ThermalStfParameters<T>;
   static constexpr std::string_view title =
       "thermal drift by a strong tracking Kalman filter on [a, b, c]";
+  static constexpr Role role{.corrects = Role::Corrects::thermal_drift, .published = 4};
 
   explicit StfRule(const Parameters& p) : kalman_(p), fading_(p) {}
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/models/coefficient_kalman_ma.hpp"
-#include "core/models/thermal_compensator.hpp"
+#include <gyrostat/core/models/coefficient_kalman_ma.hpp>
+#include <gyrostat/core/models/thermal_compensator.hpp>
 
 namespace gyrostat::filters {
 
@@ -11,6 +11,7 @@ class StfMaRule {
   using Parameters = CoefficientKalmanMaParameters<T>;
   static constexpr std::string_view title =
       "thermal drift by a strong tracking Kalman filter that knows the compass noise is shared";
+  static constexpr Role role{.corrects = Role::Corrects::thermal_drift};
 
   explicit StfMaRule(const Parameters& p) : kalman_(p) {}
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/fields.hpp"
-#include "core/types.hpp"
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/values.hpp>
 
 namespace gyrostat {
 

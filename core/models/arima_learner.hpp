@@ -4,9 +4,10 @@
 
 #include <Eigen/Cholesky>
 
-#include "core/models/arima111.hpp"
-#include "core/models/model_nl.hpp"
-#include "core/numerics/dual.hpp"
+#include <gyrostat/core/models/arima111.hpp>
+#include <gyrostat/core/models/model_nl.hpp>
+#include <gyrostat/core/numerics/dual.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat {
 

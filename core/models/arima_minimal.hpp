@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/models/arima111.hpp"
+#include <gyrostat/core/models/arima111.hpp>
 
 namespace gyrostat {
 

@@ -2,8 +2,9 @@
 
 #include <optional>
 
-#include "core/models/compass_aiding.hpp"
-#include "core/models/thermal.hpp"
+#include <gyrostat/core/models/compass_aiding.hpp>
+#include <gyrostat/core/models/thermal.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat {
 

@@ -2,7 +2,8 @@
 
 #include <optional>
 
-#include "core/step.hpp"
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat {
 

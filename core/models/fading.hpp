@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/fields.hpp"
-#include "core/numerics/lanes.hpp"
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/numerics/lanes.hpp>
 
 namespace gyrostat {
 

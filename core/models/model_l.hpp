@@ -1,7 +1,8 @@
 #pragma once
 
-#include "core/models/arima111.hpp"
-#include "core/numerics/kalman.hpp"
+#include <gyrostat/core/models/arima111.hpp>
+#include <gyrostat/core/numerics/kalman.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat {
 

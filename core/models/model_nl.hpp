@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/models/arima111.hpp"
+#include <gyrostat/core/models/arima111.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat {
 

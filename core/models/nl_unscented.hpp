@@ -2,11 +2,12 @@
 
 #include <array>
 
-#include "core/models/model_nl.hpp"
-#include "core/numerics/companion_root.hpp"
-#include "core/numerics/kalman.hpp"
-#include "core/numerics/unscented.hpp"
-#include "core/step.hpp"
+#include <gyrostat/core/models/model_nl.hpp>
+#include <gyrostat/core/numerics/companion_root.hpp>
+#include <gyrostat/core/numerics/kalman.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/numerics/unscented.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/fields.hpp"
+#include <gyrostat/core/fields.hpp>
 
 namespace gyrostat {
 

@@ -5,9 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/models/model_nl.hpp"
-#include "core/numerics/resampling.hpp"
-#include "core/random.hpp"
+#include <gyrostat/core/models/model_nl.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/numerics/resampling.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 

@@ -1,30 +1,16 @@
 #pragma once
 
-#include "core/fields.hpp"
-#include "core/numerics/kalman.hpp"
-#include "core/types.hpp"
+#include <gyrostat/core/models/thermal_drift.hpp>
+#include <gyrostat/core/numerics/kalman.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat {
 
-/// Linear thermal drift of a gyro's bias [B eq. 2]: B_f = a T + b T' + c.
+/// [a, b, c].
 template <class T>
-struct ThermalDrift {
-  T a_dps_per_C{0.0};
-  T b_dps_s_per_C{0.0};
-  T c_dps{0.0};
-
-  static constexpr auto fields() {
-    using P = ThermalDrift;
-    return std::array{
-        Field{"a_dps_per_C", &P::a_dps_per_C, "dps/°C", ranges::any, "bias per temperature, a"},
-        Field{"b_dps_s_per_C", &P::b_dps_s_per_C, "dps·s/°C", ranges::any,
-              "bias per rate of temperature, b"},
-        Field{"c_dps", &P::c_dps, "dps", ranges::any, "constant bias, c"},
-    };
-  }
-
-  Vector<T, 3> coefficients() const { return {a_dps_per_C, b_dps_s_per_C, c_dps}; }
-};
+Vector<T, 3> coefficients_of(const ThermalDrift<T>& drift) {
+  return {drift.a_dps_per_C, drift.b_dps_s_per_C, drift.c_dps};
+}
 
 /// What every thermal method is told: initial coefficients with their uncertainty, and the compass.
 template <class T>
@@ -53,6 +39,7 @@ struct ThermalParameters : ThermalDrift<T> {
         });
   }
 
+  Vector<T, 3> coefficients() const { return coefficients_of<T>(*this); }
   Matrix<T, 3> initial_covariance() const {
     const Vector<T, 3> std{initial_a_std_dps_per_C, initial_b_std_dps_s_per_C, initial_c_std_dps};
     return std.cwiseAbs2().asDiagonal();

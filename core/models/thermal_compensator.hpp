@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/models/compass_aiding.hpp"
-#include "core/models/thermal.hpp"
+#include <gyrostat/core/models/compass_aiding.hpp>
+#include <gyrostat/core/models/thermal.hpp>
 
 namespace gyrostat {
 
@@ -17,6 +17,7 @@ class ThermalCompensator {
   using Parameters = typename Rule::Parameters;
   static constexpr std::string_view title = Rule::title;
   static constexpr Needs needs{.temperature = true, .heading = true};
+  static constexpr Role role = Rule::role;
 
   explicit ThermalCompensator(const Parameters& p) : aiding_(p.update_interval_s), rule_(p) {}
 

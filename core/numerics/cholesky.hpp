@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/numerics/lanes.hpp"
-#include "core/types.hpp"
+#include <gyrostat/core/numerics/lanes.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat {
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/numerics/cholesky.hpp"
+#include <gyrostat/core/numerics/cholesky.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/types.hpp"
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat {
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/LU>
 
-#include "core/numerics/lanes.hpp"
-#include "core/types.hpp"
+#include <gyrostat/core/numerics/lanes.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/numerics/kalman.hpp"
-#include "core/step.hpp"
+#include <gyrostat/core/numerics/kalman.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat {
 

@@ -1,4 +1,4 @@
-#include "core/packed/kernels.hpp"
+#include <gyrostat/core/packed/kernels.hpp>
 
 #include <array>
 
@@ -37,8 +37,9 @@ std::span<const Kernels* const> available_kernels() {
 const PackedFilter* packed_filter(std::string_view filter, int lanes) {
   const PackedFilter* found = nullptr;
   for (const Kernels* kernels : available_kernels())
-    for (const auto& candidate : kernels->filters)
-      if (candidate.filter == filter && candidate.lanes == lanes) found = &candidate;
+    for (const auto* unit : kernels->filters)
+      for (const auto& candidate : *unit)
+        if (candidate.filter == filter && candidate.lanes == lanes) found = &candidate;
   return found;
 }
 

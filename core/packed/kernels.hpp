@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/step.hpp"
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat {
 
@@ -38,7 +38,7 @@ struct PackedFilter {
 struct Kernels {
   std::string_view target;
   int width = 1;  ///< doubles in one of its registers
-  std::span<const PackedFilter> filters;
+  std::span<const std::span<const PackedFilter>* const> filters;  ///< by compiled unit
   /// Normal deviates of `normal_blocks` blocks of four from block `first` on.
   void (*normals)(const NormalAddress& at, std::uint32_t first, double* out) = nullptr;
 };

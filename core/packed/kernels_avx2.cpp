@@ -1,16 +1,12 @@
-#include "core/packed/kernel_table.hpp"
-#include "core/packed/target.hpp"
+#include <gyrostat/core/packed/normals.hpp>
+#include <gyrostat/core/packed/target.hpp>
+#include <gyrostat/core/packed/units.hpp>
 
 namespace gyrostat {
 
 extern const Kernels kernels_avx2;
 
-namespace {
-using Table = KernelTable<targets::Avx2>;
-constexpr auto filters_avx2 = Table::of_filters<4, 8>(Filters{});
-}  // namespace
-
 constinit const Kernels kernels_avx2{targets::Avx2::name, targets::Avx2::width, filters_avx2,
-                                     &Table::normals};
+                                     &NormalBlocks<targets::Avx2, normal_blocks>::fill};
 
 }  // namespace gyrostat

@@ -1,16 +1,13 @@
-#include "core/packed/kernel_table.hpp"
-#include "core/packed/target.hpp"
+#include <gyrostat/core/packed/normals.hpp>
+#include <gyrostat/core/packed/target.hpp>
+#include <gyrostat/core/packed/units.hpp>
 
 namespace gyrostat {
 
 extern const Kernels kernels_avx512;
 
-namespace {
-using Table = KernelTable<targets::Avx512>;
-constexpr auto filters_avx512 = Table::of_filters<8, 16>(Filters{});
-}  // namespace
-
 constinit const Kernels kernels_avx512{targets::Avx512::name, targets::Avx512::width,
-                                       filters_avx512, &Table::normals};
+                                       filters_avx512,
+                                       &NormalBlocks<targets::Avx512, normal_blocks>::fill};
 
 }  // namespace gyrostat

@@ -1,16 +1,12 @@
-#include "core/packed/kernel_table.hpp"
-#include "core/packed/target.hpp"
+#include <gyrostat/core/packed/normals.hpp>
+#include <gyrostat/core/packed/target.hpp>
+#include <gyrostat/core/packed/units.hpp>
 
 namespace gyrostat {
 
 extern const Kernels kernels_sse2;
 
-namespace {
-using Table = KernelTable<targets::Sse2>;
-constexpr auto filters_sse2 = Table::of_filters<2, 4, 8>(Filters{});
-}  // namespace
-
 constinit const Kernels kernels_sse2{targets::Sse2::name, targets::Sse2::width, filters_sse2,
-                                     &Table::normals};
+                                     &NormalBlocks<targets::Sse2, normal_blocks>::fill};
 
 }  // namespace gyrostat

@@ -46,6 +46,11 @@ class NormalBlocks {
     }
   }
 
+  /// `normals` as one function.
+  [[gnu::flatten]] static void fill(const NormalAddress& at, std::uint32_t first, double* out) {
+    normals(at, first, out);
+  }
+
   /// Box and Muller (1958): of each pair of words a radius and an angle.
   [[gnu::always_inline]] static void normals(const NormalAddress& at, std::uint32_t first,
                                              double* out) {

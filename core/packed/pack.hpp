@@ -3,8 +3,9 @@
 #include <Eigen/Core>
 #include <experimental/simd>
 
-#include "core/numerics/lanes.hpp"
-#include "core/step.hpp"
+#include <gyrostat/core/numerics/lanes.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat {
 

@@ -1,14 +1,16 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
-#include "experiments/diagnosis/diagnosis.hpp"
-#include "generators/scenario.hpp"
+#include <gyrostat/diagnosis/diagnosis.hpp>
+#include <gyrostat/generators/effects/list.hpp>
+#include <gyrostat/generators/environment/temperature/list.hpp>
+#include <gyrostat/generators/scenario.hpp>
 
 namespace gyrostat {
 namespace {
 
 /// An hour at 100 Hz with temperature and heading, and with one effect or none.
-Series recording(const std::vector<Effects::Any>& effects) {
+Series recording(const std::vector<Effect>& effects) {
   Scenario scenario;
   scenario.sampling = {.duration_s = 3600.0, .rate_hz = 100.0};
   scenario.random_error = {0.5, 2e-5, 1e-5, 0.02};
@@ -25,7 +27,7 @@ Series recording(const std::vector<Effects::Any>& effects) {
 
 /// Elapsed time with all threads; a counter for the seconds of each part, and the largest memory of
 /// the process so far.
-void diagnosis(benchmark::State& state, const std::vector<Effects::Any>& effects) {
+void diagnosis(benchmark::State& state, const std::vector<Effect>& effects) {
   const auto series = recording(effects);
   for (auto _ : state) {
     const auto found = gap::diagnose(series, {});

@@ -5,7 +5,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
-#include "core/models/nl_unscented.hpp"
+#include <gyrostat/core/models/nl_unscented.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat {
 

@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
-#include "core/filters/list.hpp"
-#include "experiments/study.hpp"
-#include "experiments/trial.hpp"
+#include <gyrostat/core/filters/list.hpp>
+#include <gyrostat/experiments/run/trial.hpp>
+#include <gyrostat/experiments/study/study.hpp>
 
 namespace gyrostat {
 namespace {
@@ -79,7 +79,7 @@ Cell bench_cell() {
 /// One minute at 100 Hz through none, kf, stf, sr_ukf, sr_rsukf and oracle, metrics included.
 void trial(benchmark::State& state) {
   const Cell cell = bench_cell();
-  Workspace workspace;
+  std::vector<Workspace> workspace(1);
   std::uint32_t number = 0;
   for (auto _ : state)
     benchmark::DoNotOptimize(run_trial(cell, Calibration{}, 1, number++, workspace));

@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
-#include "analysis/fits/arima_likelihood.hpp"
-#include "analysis/fits/arima_moments.hpp"
-#include "generators/random_error.hpp"
+#include <gyrostat/analysis/fits/arima_likelihood.hpp>
+#include <gyrostat/analysis/fits/arima_moments.hpp>
+#include <gyrostat/generators/random_error.hpp>
 
 namespace gyrostat {
 namespace {

@@ -5,16 +5,16 @@
 
 #include <benchmark/benchmark.h>
 
-#include "core/filters/list.hpp"
-#include "core/packed/kernels.hpp"
-#include "core/packed/normals.hpp"
-#include "core/packed/target.hpp"
-#include "experiments/benchmarks/counted.hpp"
-#include "experiments/benchmarks/eigen_sr_ukf.hpp"
-#include "experiments/benchmarks/peak.hpp"
-#include "experiments/benchmarks/recursion.hpp"
-#include "experiments/runner.hpp"
-#include "generators/random_error.hpp"
+#include <gyrostat/core/filters/list.hpp>
+#include <gyrostat/core/packed/kernels.hpp>
+#include <gyrostat/core/packed/normals.hpp>
+#include <gyrostat/core/packed/target.hpp>
+#include <gyrostat/experiments/benchmarks/counted.hpp>
+#include <gyrostat/experiments/benchmarks/eigen_sr_ukf.hpp>
+#include <gyrostat/experiments/benchmarks/peak.hpp>
+#include <gyrostat/experiments/benchmarks/recursion.hpp>
+#include <gyrostat/experiments/run/runner.hpp>
+#include <gyrostat/generators/random_error.hpp>
 
 namespace gyrostat {
 

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "core/packed/pack.hpp"
+#include <gyrostat/core/packed/pack.hpp>
 
 namespace gyrostat {
 

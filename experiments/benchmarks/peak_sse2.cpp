@@ -1,6 +1,6 @@
-#include "core/packed/target.hpp"
-#include "experiments/benchmarks/peak.hpp"
-#include "experiments/benchmarks/recursion.hpp"
+#include <gyrostat/core/packed/target.hpp>
+#include <gyrostat/experiments/benchmarks/peak.hpp>
+#include <gyrostat/experiments/benchmarks/recursion.hpp>
 
 namespace gyrostat {
 

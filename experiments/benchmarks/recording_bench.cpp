@@ -6,8 +6,8 @@
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
-#include "experiments/recording.hpp"
-#include "experiments/text_input.hpp"
+#include <gyrostat/recordings/recording.hpp>
+#include <gyrostat/recordings/text.hpp>
 
 namespace {
 

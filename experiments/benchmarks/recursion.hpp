@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "core/filters/list.hpp"
-#include "core/packed/pack.hpp"
+#include <gyrostat/core/filters/list.hpp>
+#include <gyrostat/core/packed/pack.hpp>
 
 namespace gyrostat {
 

@@ -1,12 +1,12 @@
 // sensitivity_coverage [repeats] [seed]: the coverage of sensitivity intervals, as tables.json of a
 // page, and as Markdown on standard error.
-#include "experiments/sensitivity_coverage.hpp"
+#include <gyrostat/experiments/coverage/sensitivity_coverage.hpp>
 
 #include <cstdlib>
 #include <iostream>
 
-#include "experiments/page.hpp"
-#include "results/render/render.hpp"
+#include <gyrostat/experiments/pages/page.hpp>
+#include <gyrostat/results/render/render.hpp>
 
 int main(int argc, char** argv) {
   using namespace gyrostat;

@@ -5,11 +5,11 @@
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
-#include "experiments/cell_summary.hpp"
-#include "experiments/outcome_file.hpp"
-#include "experiments/study_store.hpp"
-#include "experiments/temporary_folder.hpp"
-#include "results/store_writer.hpp"
+#include <gyrostat/experiments/findings/cell_summary.hpp>
+#include <gyrostat/experiments/run/outcome_file.hpp>
+#include <gyrostat/experiments/run/study_store.hpp>
+#include <gyrostat/recordings/temporary_folder.hpp>
+#include <gyrostat/results/store_writer.hpp>
 
 namespace gyrostat {
 namespace {

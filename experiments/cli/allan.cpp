@@ -1,7 +1,7 @@
-#include "analysis/spectra/allan.hpp"
+#include <gyrostat/analysis/spectra/allan.hpp>
 
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
 
 namespace gyrostat::cli {
 namespace {

@@ -1,11 +1,11 @@
 #include <cmath>
 #include <memory>
 
-#include "core/filters/list.hpp"
-#include "experiments/application.hpp"
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/outcome_file.hpp"
+#include <gyrostat/core/filter_type.hpp>
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/findings/application.hpp>
+#include <gyrostat/experiments/run/outcome_file.hpp>
 
 namespace gyrostat::cli {
 namespace {

@@ -1,13 +1,13 @@
-#include "experiments/diagnosis/blind_check.hpp"
+#include <gyrostat/experiments/blind/blind_check.hpp>
 
 #include <filesystem>
 
-#include "experiments/atomic_file.hpp"
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/diagnosis/blind_score.hpp"
-#include "experiments/outcome_file.hpp"
-#include "experiments/page.hpp"
+#include <gyrostat/experiments/blind/blind_score.hpp>
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/pages/page.hpp>
+#include <gyrostat/experiments/run/outcome_file.hpp>
+#include <gyrostat/recordings/atomic_file.hpp>
 
 namespace gyrostat::cli {
 namespace {

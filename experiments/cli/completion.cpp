@@ -1,10 +1,10 @@
 #include <functional>
 #include <map>
 
-#include "core/filters/list.hpp"
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "generators/effects/list.hpp"
+#include <gyrostat/core/filter_type.hpp>
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/generators/effect.hpp>
 
 namespace gyrostat::cli {
 namespace {
@@ -24,7 +24,7 @@ Words choices(const std::string& verb, const std::string& option) {
       {"--fit", {"likelihood", "moments"}},
       {"--method", {"likelihood", "moments"}},
       {"--lanes", {"1", "2", "4", "8"}},
-      {"--without", Effects::ids()}};
+      {"--without", effect_types().ids()}};
   static const std::map<std::string, Words> of_verb = {
       {"list",
        {"all", "filters", "effects", "temperatures", "motions", "accelerations", "metrics",

@@ -1,8 +1,8 @@
-#include "experiments/consistency.hpp"
+#include <gyrostat/experiments/findings/consistency.hpp>
 
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/study_store.hpp"
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/run/study_store.hpp>
 
 namespace gyrostat::cli {
 namespace {

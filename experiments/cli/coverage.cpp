@@ -1,8 +1,8 @@
-#include "experiments/coverage.hpp"
+#include <gyrostat/experiments/coverage/coverage.hpp>
 
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/progress.hpp"
-#include "experiments/cli/verbs.hpp"
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/progress.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
 
 namespace gyrostat::cli {
 namespace {

@@ -1,11 +1,11 @@
-#include "analysis/gap/conditions.hpp"
-#include "experiments/atomic_file.hpp"
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/diagnosis/diagnosis_json.hpp"
-#include "experiments/diagnosis/diagnosis_tables.hpp"
-#include "experiments/outcome_file.hpp"
-#include "experiments/study.hpp"
+#include <gyrostat/diagnosis/diagnosis_json.hpp>
+#include <gyrostat/diagnosis/diagnosis_tables.hpp>
+#include <gyrostat/diagnosis/gap/conditions.hpp>
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/run/outcome_file.hpp>
+#include <gyrostat/experiments/study/study.hpp>
+#include <gyrostat/recordings/atomic_file.hpp>
 
 namespace gyrostat::cli {
 namespace {
@@ -28,8 +28,7 @@ struct DiagnoseArguments {
 int run(DiagnoseArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const auto& file = arguments.recording.file;
-  for (const auto& name : arguments.options.without)
-    Effects::with("--without", "effect", name, [](auto) {});
+  for (const auto& name : arguments.options.without) (void)effect_types().named(name, "--without");
   if (!arguments.claim.empty()) {
     const auto study = read_study(arguments.claim);
     if (study.cells.front().scenario.effects.empty())

@@ -1,7 +1,7 @@
-#include "experiments/atomic_file.hpp"
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/outcome_file.hpp"
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/run/outcome_file.hpp>
+#include <gyrostat/recordings/atomic_file.hpp>
 
 namespace gyrostat::cli {
 namespace {

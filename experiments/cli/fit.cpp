@@ -2,10 +2,10 @@
 
 #include <tbb/parallel_for.h>
 
-#include "analysis/fits/arima_intervals.hpp"
-#include "experiments/calibration.hpp"
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
+#include <gyrostat/analysis/calibration.hpp>
+#include <gyrostat/analysis/fits/arima_intervals.hpp>
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
 
 namespace gyrostat::cli {
 namespace {

@@ -1,9 +1,9 @@
-#include "experiments/ledger.hpp"
+#include <gyrostat/experiments/pages/ledger.hpp>
 
-#include "experiments/atomic_file.hpp"
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/progress.hpp"
-#include "experiments/cli/verbs.hpp"
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/progress.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/recordings/atomic_file.hpp>
 
 namespace gyrostat::cli {
 namespace {

@@ -1,14 +1,14 @@
-#include "analysis/gap/lenses/list.hpp"
+#include <gyrostat/diagnosis/gap/instrument.hpp>
 
 #include <filesystem>
 
-#include "analysis/metrics/list.hpp"
-#include "core/filters/list.hpp"
-#include "core/track.hpp"
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/json_object.hpp"
-#include "generators/scenario.hpp"
+#include <gyrostat/analysis/metric_type.hpp>
+#include <gyrostat/core/filter_type.hpp>
+#include <gyrostat/core/track.hpp>
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
+#include <gyrostat/generators/scenario.hpp>
 
 namespace gyrostat::cli {
 namespace {
@@ -25,27 +25,15 @@ struct ListArguments {
   bool json = false;
 };
 
-template <class P>
-Json described(const P& defaults) {
+Json described(std::span<const FieldInfo> fields) {
   auto list = Json::array();
-  for (const auto& field : P::fields())
+  for (const auto& field : fields)
     list.push_back({{"name", field.name},
-                    {"default", defaults.*(field.member)},
+                    {"default", field.value},
                     {"unit", field.unit},
                     {"range", field.range.to_string()},
                     {"meaning", field.doc}});
   return list;
-}
-
-/// A plug-in's parameters: its own members, or those of its Parameters type.
-template <class Type>
-Json parameters_of() {
-  if constexpr (requires { typename Type::Parameters; })
-    return described(typename Type::Parameters{});
-  else if constexpr (requires { Type::fields(); })
-    return described(Type{});
-  else
-    return Json::array();
 }
 
 std::string_view name_of(Stage stage) {
@@ -72,27 +60,26 @@ std::string_view name_of(Stage stage) {
 Json needed(const Needs& needs) { return missing_channels(needs, Series{}); }
 
 /// The channels that an effect cannot do without.
-template <std::size_t N>
-Json needed(const std::array<std::vector<double> Series::*, N>& needs) {
+Json needed(std::span<std::vector<double> Series::*const> needs) {
   auto names = Json::array();
   for (const auto& channel : channels)
     if (std::ranges::find(needs, channel.values) != needs.end()) names.push_back(channel.name);
   return names;
 }
 
-template <class List>
-Json plugins() {
+template <class Types>
+Json plugins(const Types& types) {
   auto list = Json::array();
-  List::for_each([&](auto plugin) {
-    using Type = typename decltype(plugin)::type;
-    Json entry = {{"id", plugin.id}, {"title", Type::title}};
-    if constexpr (requires { Type::unit; }) entry["unit"] = Type::unit;
-    if constexpr (requires { Type::stage; }) entry["stage"] = name_of(Type::stage);
-    if constexpr (requires { Type::needs; }) entry["needs"] = needed(Type::needs);
-    if constexpr (requires { Type::channel; }) entry["needs"] = Json::array({Type::channel});
-    entry["parameters"] = parameters_of<Type>();
+  for (const auto& type : types) {
+    Json entry = {{"id", type.id}, {"title", type.title}};
+    if constexpr (requires { type.unit; }) entry["unit"] = type.unit;
+    if constexpr (requires { type.stage; }) entry["stage"] = name_of(type.stage);
+    if constexpr (requires { type.needs; }) entry["needs"] = needed(type.needs);
+    if constexpr (requires { type.channel; }) entry["needs"] = Json::array({type.channel});
+    entry["parameters"] = Json::array();
+    if constexpr (requires { type.fields; }) entry["parameters"] = described(type.fields);
     list.push_back(std::move(entry));
-  });
+  }
   return list;
 }
 
@@ -129,13 +116,13 @@ void print(const std::string& kind, const Json& entries, std::ostream& out) {
 
 int run(const ListArguments& arguments, Console& console) {
   const std::vector<std::pair<std::string, Json>> kinds = {
-      {"filters", plugins<Filters>()},
-      {"effects", plugins<Effects>()},
-      {"temperatures", plugins<Temperatures>()},
-      {"motions", plugins<Motions>()},
-      {"accelerations", plugins<Accelerations>()},
-      {"metrics", plugins<Metrics>()},
-      {"lenses", plugins<Lenses>()},
+      {"filters", plugins(filter_types())},
+      {"effects", plugins(effect_types())},
+      {"temperatures", plugins(temperature_types())},
+      {"motions", plugins(motion_types())},
+      {"accelerations", plugins(acceleration_types())},
+      {"metrics", plugins(metric_types())},
+      {"lenses", plugins(gap::lens_types())},
       {"studies", studies(arguments.studies, arguments.studies != default_studies)}};
   std::vector<std::string> names = {"all"};
   Json chosen;

@@ -1,7 +1,7 @@
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/outcome_file.hpp"
-#include "experiments/study_store.hpp"
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/run/outcome_file.hpp>
+#include <gyrostat/experiments/run/study_store.hpp>
 
 namespace gyrostat::cli {
 namespace {

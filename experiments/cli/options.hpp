@@ -5,9 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-#include "experiments/recording.hpp"
-#include "results/render/render.hpp"
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/recordings/recording.hpp>
+#include <gyrostat/results/render/render.hpp>
 
 namespace gyrostat::cli {
 

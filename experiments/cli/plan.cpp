@@ -1,4 +1,4 @@
-#include "experiments/plan.hpp"
+#include <gyrostat/experiments/findings/plan.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -6,9 +6,9 @@
 
 #include <unistd.h>
 
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/temporary_folder.hpp"
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/recordings/temporary_folder.hpp>
 
 namespace gyrostat::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/cli/progress.hpp"
+#include <gyrostat/experiments/cli/progress.hpp>
 
 #include <condition_variable>
 

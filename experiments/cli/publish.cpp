@@ -1,12 +1,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "experiments/atomic_file.hpp"
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/progress.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/outcome_file.hpp"
-#include "experiments/page.hpp"
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/progress.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/pages/page.hpp>
+#include <gyrostat/experiments/run/outcome_file.hpp>
+#include <gyrostat/recordings/atomic_file.hpp>
 
 namespace gyrostat::cli {
 namespace {

@@ -1,12 +1,12 @@
 #include <filesystem>
 
-#include "experiments/atomic_file.hpp"
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/outcome_file.hpp"
-#include "experiments/ranking.hpp"
-#include "experiments/study_store.hpp"
-#include "results/render/figure.hpp"
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/findings/ranking.hpp>
+#include <gyrostat/experiments/run/outcome_file.hpp>
+#include <gyrostat/experiments/run/study_store.hpp>
+#include <gyrostat/recordings/atomic_file.hpp>
+#include <gyrostat/results/render/figure.hpp>
 
 namespace gyrostat::cli {
 namespace {

@@ -1,11 +1,11 @@
 #include <bit>
 #include <filesystem>
 
-#include "experiments/address.hpp"
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/runner.hpp"
-#include "experiments/study_store.hpp"
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/run/runner.hpp>
+#include <gyrostat/experiments/run/study_store.hpp>
+#include <gyrostat/experiments/study/address.hpp>
 
 namespace gyrostat::cli {
 namespace {
@@ -58,16 +58,15 @@ void print_steps(const Series& series, const Track& track, std::ostream& out) {
                        name_of(track.status[i]));
 }
 
-Table outcome_table(const std::string& address, const Outcome& outcome) {
+Table outcome_table(const std::string& address, const Outcome& outcome, const std::string& thrown) {
   Table table{.title = address, .columns = {{"metric", ""}, {"value", ""}}};
-  const auto ids = Metrics::ids();
-  for (std::size_t m = 0; m < metric_count; ++m)
-    table.rows.push_back({ids[m], gyrostat::cell(outcome.metrics[m])});
+  for (std::size_t m = 0; m < metric_types().size(); ++m)
+    table.rows.push_back({metric_types()[m].id, gyrostat::cell(outcome.metric(m))});
   for (std::size_t s = 0; s < status_names.size(); ++s)
-    table.rows.push_back(
-        {"steps: " + std::string(status_names[s]), std::int64_t{outcome.status_counts[s]}});
-  table.rows.push_back({"diverged", outcome.diverged ? "yes" : "no"});
-  if (!outcome.thrown.empty()) table.notes.push_back("threw: " + outcome.thrown);
+    table.rows.push_back({"steps: " + std::string(status_names[s]),
+                          static_cast<std::int64_t>(outcome.steps(static_cast<Status>(s)))});
+  table.rows.push_back({"diverged", outcome.diverged() ? "yes" : "no"});
+  if (!thrown.empty()) table.notes.push_back("threw: " + thrown);
   return table;
 }
 
@@ -95,19 +94,18 @@ int run(const ReplayArguments& arguments, Console& console) {
   const auto at = parse_address(arguments.address, study);
   const auto prepared = prepare_cell(study.cells[at.cell], study.seed, 0);
   const auto& cell = prepared.cell;
-  Workspace workspace;
-  const auto record = run_trial(cell, prepared.calibration, study.seed, at.trial, workspace);
-  const auto& outcome = record.outcomes[at.method];
+  std::vector<Workspace> workspaces(1);
+  const auto record = run_trial(cell, prepared.calibration, study.seed, at.trial, workspaces);
+  const auto& thrown = record.thrown[at.method];
   if (arguments.steps) {
-    if (!outcome.thrown.empty())
-      throw std::runtime_error(arguments.address + ": " + outcome.thrown);
+    if (!thrown.empty()) throw std::runtime_error(arguments.address + ": " + thrown);
     Cell alone = cell;
     alone.methods = {cell.methods[at.method]};
-    run_trial(alone, prepared.calibration, study.seed, at.trial, workspace);
-    print_steps(workspace.series, workspace.track, console.out);
+    run_trial(alone, prepared.calibration, study.seed, at.trial, workspaces);
+    print_steps(workspaces[0].series, workspaces[0].track, console.out);
     return complete;
   }
-  auto table = outcome_table(arguments.address, outcome);
+  auto table = outcome_table(arguments.address, record.of(at.method), thrown);
   if (const auto folder = store_of(arguments); fs::exists(folder / Store::file_name)) {
     const auto row = row_of(static_cast<std::uint32_t>(at.cell), at.trial, record);
     for (const auto& failure : row.failures)

@@ -1,21 +1,22 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "analysis/statistics/sequential.hpp"
-#include "experiments/atomic_file.hpp"
-#include "experiments/build.hpp"
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/progress.hpp"
-#include "experiments/cli/stopper.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/error_tables.hpp"
-#include "experiments/outcome_file.hpp"
-#include "experiments/ranking.hpp"
-#include "experiments/run_log.hpp"
-#include "experiments/sensitivity.hpp"
-#include "experiments/stored_run.hpp"
-#include "experiments/study_store.hpp"
-#include "experiments/time_of_day.hpp"
+#include <gyrostat/analysis/statistics/sequential.hpp>
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/progress.hpp>
+#include <gyrostat/experiments/cli/stopper.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/findings/error_tables.hpp>
+#include <gyrostat/experiments/findings/ranking.hpp>
+#include <gyrostat/experiments/findings/sensitivity.hpp>
+#include <gyrostat/experiments/run/build.hpp>
+#include <gyrostat/experiments/run/outcome_file.hpp>
+#include <gyrostat/experiments/run/run_log.hpp>
+#include <gyrostat/experiments/run/stopping.hpp>
+#include <gyrostat/experiments/run/stored_run.hpp>
+#include <gyrostat/experiments/run/study_store.hpp>
+#include <gyrostat/experiments/run/time_of_day.hpp>
+#include <gyrostat/recordings/atomic_file.hpp>
 
 namespace gyrostat::cli {
 namespace {

@@ -1,6 +1,6 @@
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/study_schema.hpp"
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/study/study_schema.hpp>
 
 namespace gyrostat::cli {
 namespace {

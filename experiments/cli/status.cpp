@@ -1,9 +1,10 @@
-#include "analysis/statistics/sequential.hpp"
-#include "experiments/address.hpp"
-#include "experiments/cli/options.hpp"
-#include "experiments/cli/verbs.hpp"
-#include "experiments/study_store.hpp"
-#include "results/store.hpp"
+#include <gyrostat/analysis/statistics/sequential.hpp>
+#include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/run/stopping.hpp>
+#include <gyrostat/experiments/run/study_store.hpp>
+#include <gyrostat/experiments/study/address.hpp>
+#include <gyrostat/results/store.hpp>
 
 namespace gyrostat::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "experiments/cli/verbs.hpp"
+#include <gyrostat/experiments/cli/verbs.hpp>
 
 namespace gyrostat::cli {
 

@@ -3,11 +3,11 @@
 #include <array>
 #include <cmath>
 
-#include "core/fields.hpp"
-#include "core/random.hpp"
-#include "core/series.hpp"
-#include "generators/sampled.hpp"
-#include "generators/stage.hpp"
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/sampled.hpp>
+#include <gyrostat/generators/stage.hpp>
 
 namespace gyrostat::effects {
 

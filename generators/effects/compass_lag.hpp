@@ -2,12 +2,12 @@
 
 #include <array>
 
-#include "core/fields.hpp"
-#include "core/random.hpp"
-#include "core/series.hpp"
-#include "core/types.hpp"
-#include "generators/sampled.hpp"
-#include "generators/stage.hpp"
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/core/series.hpp>
+#include <gyrostat/core/values.hpp>
+#include <gyrostat/generators/sampled.hpp>
+#include <gyrostat/generators/stage.hpp>
 
 namespace gyrostat::effects {
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "results/render/chart.hpp"
-#include "results/render/html.hpp"
+#include <gyrostat/results/render/chart.hpp>
+#include <gyrostat/results/render/html.hpp>
 
 namespace gyrostat {
 namespace {

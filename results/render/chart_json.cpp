@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "results/render/chart.hpp"
+#include <gyrostat/results/render/chart.hpp>
 
 namespace gyrostat {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "results/render/axis.hpp"
-#include "results/render/chart.hpp"
-#include "results/render/html.hpp"
+#include <gyrostat/results/render/axis.hpp>
+#include <gyrostat/results/render/chart.hpp>
+#include <gyrostat/results/render/html.hpp>
 
 namespace gyrostat {
 namespace {

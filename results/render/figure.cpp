@@ -1,4 +1,4 @@
-#include "results/render/figure.hpp"
+#include <gyrostat/results/render/figure.hpp>
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "results/render/axis.hpp"
-#include "results/render/html.hpp"
+#include <gyrostat/results/render/axis.hpp>
+#include <gyrostat/results/render/html.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,9 +1,9 @@
-#include "results/render/html.hpp"
+#include <gyrostat/results/render/html.hpp>
 
 #include <fmt/format.h>
 
-#include "results/render/page_style.hpp"
-#include "results/render/render.hpp"
+#include <gyrostat/results/render/page_style.hpp>
+#include <gyrostat/results/render/render.hpp>
 
 namespace gyrostat {
 

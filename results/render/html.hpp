@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/table.hpp"
+#include <gyrostat/core/table.hpp>
 
 namespace gyrostat {
 

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "results/render/render.hpp"
+#include <gyrostat/results/render/render.hpp>
 
 namespace gyrostat::render_detail {
 namespace {

@@ -1,7 +1,7 @@
 #include <string_view>
 #include <utility>
 
-#include "results/render/render.hpp"
+#include <gyrostat/results/render/render.hpp>
 
 namespace gyrostat::render_detail {
 namespace {

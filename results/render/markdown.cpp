@@ -1,4 +1,4 @@
-#include "results/render/render.hpp"
+#include <gyrostat/results/render/render.hpp>
 
 namespace gyrostat::render_detail {
 namespace {

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
-#include "results/render/render.hpp"
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/results/render/render.hpp>
 
 namespace gyrostat {
 namespace {

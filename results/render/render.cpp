@@ -1,4 +1,4 @@
-#include "results/render/render.hpp"
+#include <gyrostat/results/render/render.hpp>
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
+#include <gyrostat/core/error.hpp>
 
 namespace gyrostat {
 namespace {

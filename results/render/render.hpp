@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/table.hpp"
+#include <gyrostat/core/table.hpp>
 
 namespace gyrostat {
 

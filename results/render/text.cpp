@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "results/render/render.hpp"
+#include <gyrostat/results/render/render.hpp>
 
 namespace gyrostat::render_detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "analysis/statistics/all_pairs.hpp"
+#include <gyrostat/analysis/statistics/all_pairs.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <gtest/gtest.h>
 
-#include "core/random.hpp"
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

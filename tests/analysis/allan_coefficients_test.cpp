@@ -1,4 +1,4 @@
-#include "analysis/spectra/allan_coefficients.hpp"
+#include <gyrostat/analysis/spectra/allan_coefficients.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/random.hpp"
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,4 +1,4 @@
-#include "analysis/spectra/allan.hpp"
+#include <gyrostat/analysis/spectra/allan.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/random.hpp"
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,13 +1,13 @@
-#include "analysis/fits/arima_intervals.hpp"
+#include <gyrostat/analysis/fits/arima_intervals.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "analysis/fits/arima_likelihood.hpp"
-#include "core/error.hpp"
-#include "tests/analysis/simulated_random_error.hpp"
+#include <gyrostat/analysis/fits/arima_likelihood.hpp>
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/tests/analysis/simulated_random_error.hpp>
 
 namespace gyrostat {
 namespace {

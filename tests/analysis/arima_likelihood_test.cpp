@@ -1,4 +1,4 @@
-#include "analysis/fits/arima_likelihood.hpp"
+#include <gyrostat/analysis/fits/arima_likelihood.hpp>
 
 #include <cmath>
 #include <limits>
@@ -6,10 +6,10 @@
 #include <ceres/jet.h>
 #include <gmock/gmock.h>
 
-#include "analysis/fits/arima_innovations.hpp"
-#include "core/error.hpp"
-#include "core/filters/kf_ma.hpp"
-#include "tests/analysis/simulated_random_error.hpp"
+#include <gyrostat/analysis/fits/arima_innovations.hpp>
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/filters/kf_ma.hpp>
+#include <gyrostat/tests/analysis/simulated_random_error.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,4 +1,4 @@
-#include "analysis/fits/arima_moments.hpp"
+#include <gyrostat/analysis/fits/arima_moments.hpp>
 
 #include <cmath>
 #include <limits>
@@ -8,10 +8,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "analysis/spectra/allan.hpp"
-#include "analysis/spectra/arima_haar.hpp"
-#include "core/error.hpp"
-#include "core/random.hpp"
+#include <gyrostat/analysis/spectra/allan.hpp>
+#include <gyrostat/analysis/spectra/arima_haar.hpp>
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {
@@ -164,7 +165,7 @@ TEST(ArimaMoments, FindsTheParametersOfASimulation) {
                        .eval();
     EXPECT_LT(z.cwiseAbs().maxCoeff(), 4.5) << z.transpose();
     EXPECT_LT(fit.standard_errors.phi, 0.02);
-    EXPECT_DOUBLE_EQ(fit.covariance(2, 2), std::pow(fit.standard_errors.delta2_dps, 2));
+    EXPECT_DOUBLE_EQ(fit.covariance[2][2], std::pow(fit.standard_errors.delta2_dps, 2));
   }
 }
 

@@ -1,12 +1,12 @@
-#include "analysis/statistics/consistency.hpp"
+#include <gyrostat/analysis/statistics/consistency.hpp>
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "analysis/statistics/summary.hpp"
-#include "core/random.hpp"
+#include <gyrostat/analysis/statistics/summary.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

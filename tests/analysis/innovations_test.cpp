@@ -1,4 +1,4 @@
-#include "analysis/innovations.hpp"
+#include <gyrostat/analysis/innovations.hpp>
 
 #include <cmath>
 #include <random>

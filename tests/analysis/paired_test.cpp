@@ -1,11 +1,11 @@
-#include "analysis/statistics/paired.hpp"
+#include <gyrostat/analysis/statistics/paired.hpp>
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "core/random.hpp"
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include "analysis/statistics/mean_ranks.hpp"
-#include "analysis/statistics/tail_mean.hpp"
+#include <gyrostat/analysis/statistics/mean_ranks.hpp>
+#include <gyrostat/analysis/statistics/tail_mean.hpp>
 
 namespace gyrostat {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/sensitivity/estimators.hpp"
-#include "analysis/sensitivity/test_functions.hpp"
-#include "analysis/sensitivity/trial_moments.hpp"
-#include "core/random.hpp"
+#include <gyrostat/analysis/sensitivity/estimators.hpp>
+#include <gyrostat/analysis/sensitivity/test_functions.hpp>
+#include <gyrostat/analysis/sensitivity/trial_moments.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

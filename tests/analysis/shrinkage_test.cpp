@@ -1,4 +1,4 @@
-#include "analysis/spectra/shrinkage.hpp"
+#include <gyrostat/analysis/spectra/shrinkage.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/random.hpp"
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "generators/random_error.hpp"
+#include <gyrostat/generators/random_error.hpp>
 
 namespace gyrostat {
 

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/statistics/skewed_mean.hpp"
-#include "analysis/statistics/summary.hpp"
-#include "core/random.hpp"
+#include <gyrostat/analysis/statistics/skewed_mean.hpp>
+#include <gyrostat/analysis/statistics/summary.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,4 +1,4 @@
-#include "analysis/statistics/streamed.hpp"
+#include <gyrostat/analysis/statistics/streamed.hpp>
 
 #include <bit>
 #include <cmath>

@@ -1,11 +1,13 @@
-#include "analysis/fits/thermal_regression.hpp"
+#include <gyrostat/analysis/fits/thermal_regression.hpp>
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "core/error.hpp"
-#include "generators/scenario.hpp"
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/generators/effects/list.hpp>
+#include <gyrostat/generators/environment/temperature/list.hpp>
+#include <gyrostat/generators/scenario.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,4 +1,4 @@
-#include "analysis/spectra/wavelet.hpp"
+#include <gyrostat/analysis/spectra/wavelet.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "analysis/spectra/allan.hpp"
-#include "core/error.hpp"
-#include "core/random.hpp"
+#include <gyrostat/analysis/spectra/allan.hpp>
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -7,8 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "generators/effects/list.hpp"
-#include "generators/scenario.hpp"
+#include <gyrostat/generators/effects/list.hpp>
+#include <gyrostat/generators/environment/acceleration/list.hpp>
+#include <gyrostat/generators/environment/motion/list.hpp>
+#include <gyrostat/generators/environment/temperature/list.hpp>
+#include <gyrostat/generators/scenario.hpp>
 
 namespace gyrostat {
 namespace {
@@ -33,7 +36,7 @@ class EffectContract : public testing::Test {};
 TYPED_TEST_SUITE(EffectContract, TypesOf<Effects>::type, Ids);
 
 /// A warm and moving scenario with the given effects.
-Series with(const std::vector<Effects::Any>& effects, const Noise& noise = {1, 0}) {
+Series with(const std::vector<Effect>& effects, const Noise& noise = {1, 0}) {
   Scenario scenario;
   scenario.sampling = {.duration_s = 300.0, .rate_hz = 10.0};
   scenario.thermal_drift = {.a_dps_per_C = 0.002, .b_dps_s_per_C = 0.3, .c_dps = -0.05};
@@ -87,7 +90,7 @@ Series rich_conditions() {
   return conditions;
 }
 
-Series under(const Series& conditions, const std::vector<Effects::Any>& effects) {
+Series under(const Series& conditions, const std::vector<Effect>& effects) {
   Scenario scenario;
   scenario.thermal_drift = {.a_dps_per_C = 0.002, .b_dps_s_per_C = 0.3, .c_dps = -0.05};
   scenario.effects = effects;
@@ -222,32 +225,33 @@ TYPED_TEST(EffectContract, TakesUnevenTimes) {
 /// The random error is what it was to the bit, and what each effect adds is the same wherever other
 /// effects stand beside it.
 TYPED_TEST(EffectContract, MovesNoDrawOfAnythingElse) {
-  const typename TypeParam::type effect;
-  Effects::for_each([&](auto plugin) {
-    if (plugin.id == TypeParam::id) return;
-    const typename decltype(plugin)::type other;
-    const auto neither = with({}), one = with({effect}), two = with({other}),
-               both = with({other, effect});
-    EXPECT_TRUE(same_bits(neither.random_error_dps, both.random_error_dps)) << plugin.id;
-    EXPECT_TRUE(same_bits(neither.rate_ref_dps, both.rate_ref_dps)) << plugin.id;
-    EXPECT_TRUE(same_bits(neither.temperature_C, both.temperature_C)) << plugin.id;
-    EXPECT_TRUE(same_bits(neither.mag_valid, both.mag_valid)) << plugin.id;
-    if (!is_additive(effect.stage) || !is_additive(other.stage)) return;
-    EXPECT_TRUE(same_bits(neither.heading_deg, both.heading_deg)) << plugin.id;
+  const Effect effect = typename TypeParam::type{};
+  const auto neither = with({}), one = with({effect});
+  for (const auto& type : effect_types()) {
+    if (type.id == effect.id()) continue;
+    const Effect other(type);
+    const auto two = with({other}), both = with({other, effect});
+    EXPECT_TRUE(same_bits(neither.random_error_dps, both.random_error_dps)) << type.id;
+    EXPECT_TRUE(same_bits(neither.rate_ref_dps, both.rate_ref_dps)) << type.id;
+    EXPECT_TRUE(same_bits(neither.temperature_C, both.temperature_C)) << type.id;
+    EXPECT_TRUE(same_bits(neither.mag_valid, both.mag_valid)) << type.id;
+    if (!is_additive(effect.stage()) || !is_additive(other.stage())) continue;
+    EXPECT_TRUE(same_bits(neither.heading_deg, both.heading_deg)) << type.id;
     for (std::size_t i = 0; i < neither.size(); ++i)
       ASSERT_NEAR(both.gyro_dps[i] - two.gyro_dps[i], one.gyro_dps[i] - neither.gyro_dps[i], 1e-12)
-          << plugin.id << ", sample " << i;
-  });
+          << type.id << ", sample " << i;
+  }
 }
 
 TYPED_TEST(EffectContract, TheOrderOfEffectsOfOneStageDoesNotChangeTheirSum) {
-  const typename TypeParam::type effect;
-  Effects::for_each([&](auto plugin) {
-    const typename decltype(plugin)::type other;
-    if (!is_additive(effect.stage) || !is_additive(other.stage)) return;
+  const Effect effect = typename TypeParam::type{};
+  if (!is_additive(effect.stage())) return;
+  for (const auto& type : effect_types()) {
+    if (!is_additive(type.stage)) continue;
+    const Effect other(type);
     const auto a = with({effect, other}), b = with({other, effect});
     for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a.gyro_dps[i], b.gyro_dps[i], 1e-12);
-  });
+  }
 }
 
 TYPED_TEST(EffectContract, IsAFunctionOfSeedAndTrial) {

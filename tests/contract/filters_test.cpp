@@ -9,8 +9,8 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include "core/filters/list.hpp"
-#include "core/random.hpp"
+#include <gyrostat/core/filters/list.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

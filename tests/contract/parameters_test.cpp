@@ -6,9 +6,15 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/metrics/list.hpp"
-#include "core/filters/list.hpp"
-#include "generators/scenario.hpp"
+#include <gyrostat/analysis/metric_type.hpp>
+#include <gyrostat/core/filter_type.hpp>
+#include <gyrostat/core/filters/list.hpp>
+#include <gyrostat/generators/effect.hpp>
+#include <gyrostat/generators/effects/list.hpp>
+#include <gyrostat/generators/environment/acceleration/list.hpp>
+#include <gyrostat/generators/environment/motion/list.hpp>
+#include <gyrostat/generators/environment/temperature/list.hpp>
+#include <gyrostat/generators/scenario.hpp>
 
 namespace gyrostat {
 namespace {
@@ -70,14 +76,13 @@ TEST(ParameterContract, FiltersAreWellDescribed) {
 /// Calibration and study hand parameters over by name, so a name means one thing to all filters.
 TEST(ParameterContract, AParameterOfOneNameHasOneUnitRangeAndMeaning) {
   std::map<std::string_view, std::array<std::string, 3>> known;
-  Filters::for_each([&](auto plugin) {
-    for (const auto& field : decltype(plugin)::type::Parameters::fields()) {
+  for (const auto& filter : filter_types())
+    for (const auto& field : filter.fields) {
       const std::array text = {std::string(field.unit), field.range.to_string(),
                                std::string(field.doc)};
       EXPECT_EQ(known.emplace(field.name, text).first->second, text)
-          << plugin.id << "." << field.name;
+          << filter.id << "." << field.name;
     }
-  });
 }
 
 TEST(ParameterContract, EffectsAreWellDescribed) { check_plugins<Effects>(); }
@@ -95,16 +100,15 @@ TEST(ParameterContract, ScenarioPartsAreWellDescribed) {
 
 TEST(ParameterContract, MetricsHaveTitleAndUnit) {
   std::set<std::string> titles;
-  Metrics::for_each([&](auto plugin) {
-    using Metric = typename decltype(plugin)::type;
-    EXPECT_FALSE(Metric::unit.empty()) << plugin.id;
-    EXPECT_TRUE(titles.insert(std::string(Metric::title)).second) << plugin.id;
-  });
+  for (const auto& metric : metric_types()) {
+    EXPECT_FALSE(metric.unit.empty()) << metric.id;
+    EXPECT_TRUE(titles.insert(metric.title).second) << metric.id;
+  }
 }
 
 TEST(ParameterContract, IdsAreUniqueAndReadAsFileStems) {
-  for (const auto& ids : {Filters::ids(), Effects::ids(), Temperatures::ids(), Motions::ids(),
-                          Accelerations::ids(), Metrics::ids()}) {
+  for (const auto& ids : {filter_types().ids(), effect_types().ids(), temperature_types().ids(),
+                          motion_types().ids(), acceleration_types().ids(), metric_types().ids()}) {
     EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), ids.size());
     for (const auto& id : ids)
       EXPECT_EQ(id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"), std::string::npos);

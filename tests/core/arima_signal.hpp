@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/models/arima111.hpp"
-#include "core/random.hpp"
-#include "core/step.hpp"
+#include <gyrostat/core/models/arima111.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/core/step.hpp>
 
 namespace gyrostat {
 

@@ -1,4 +1,4 @@
-#include "core/filters/cascade.hpp"
+#include <gyrostat/core/filters/cascade.hpp>
 
 #include <bit>
 #include <cmath>
@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/filters/sr_rsukf.hpp"
-#include "core/filters/thermal_stf.hpp"
-#include "core/random.hpp"
+#include <gyrostat/core/filters/sr_rsukf.hpp>
+#include <gyrostat/core/filters/thermal_stf.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/fields.hpp"
+#include <gyrostat/core/fields.hpp>
 
 #include <cmath>
 #include <limits>
@@ -6,9 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/filters/list.hpp"
-#include "core/types.hpp"
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/filter_type.hpp>
+#include <gyrostat/core/filters/sr_rsukf.hpp>
+#include <gyrostat/core/values.hpp>
 
 namespace gyrostat {
 namespace {
@@ -124,9 +125,9 @@ TEST(NearestName, IsTheOneWithTheFewestEdits) {
   EXPECT_EQ(nearest_name("kf", {}), "");
 }
 
-TEST(PluginList, AnUnknownNameIsAnInputErrorThatNamesPlaceAndNearest) {
+TEST(Registry, AnUnknownNameIsAnInputErrorThatNamesPlaceAndNearest) {
   try {
-    Filters::with("study.json: filters[2]", "filter", "sr_ufk", [](auto) { FAIL(); });
+    (void)filter_types().named("sr_ufk", "study.json: filters[2]");
     FAIL() << "nothing was thrown";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),
@@ -135,15 +136,8 @@ TEST(PluginList, AnUnknownNameIsAnInputErrorThatNamesPlaceAndNearest) {
   }
 }
 
-TEST(PluginList, WithVisitsThePluginOfThatNameAlone) {
-  for (const auto& id : Filters::ids()) {
-    int visits = 0;
-    Filters::with("here", "filter", id, [&](auto plugin) {
-      ++visits;
-      EXPECT_EQ(plugin.id, id);
-    });
-    EXPECT_EQ(visits, 1);
-  }
+TEST(Registry, GivesEachPluginByItsName) {
+  for (const auto& id : filter_types().ids()) EXPECT_EQ(filter_types().named(id, "here").id, id);
 }
 
 }  // namespace

@@ -7,12 +7,12 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include "core/filters/kf.hpp"
-#include "core/filters/kf_ma.hpp"
-#include "core/filters/none.hpp"
-#include "core/filters/oracle.hpp"
-#include "core/filters/stf.hpp"
-#include "core/random.hpp"
+#include <gyrostat/core/filters/kf.hpp>
+#include <gyrostat/core/filters/kf_ma.hpp>
+#include <gyrostat/core/filters/none.hpp>
+#include <gyrostat/core/filters/oracle.hpp>
+#include <gyrostat/core/filters/stf.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/filters/kf_rml.hpp"
+#include <gyrostat/core/filters/kf_rml.hpp>
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/filters/kf_ma.hpp"
-#include "core/filters/sr_ukf.hpp"
-#include "core/random.hpp"
+#include <gyrostat/core/filters/kf_ma.hpp>
+#include <gyrostat/core/filters/sr_ukf.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -8,9 +8,9 @@
 #include <Random123/philox.h>
 #include <gtest/gtest.h>
 
-#include "core/packed/kernels.hpp"
-#include "core/packed/normals.hpp"
-#include "core/random.hpp"
+#include <gyrostat/core/packed/kernels.hpp>
+#include <gyrostat/core/packed/normals.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

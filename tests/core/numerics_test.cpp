@@ -6,11 +6,12 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include "core/numerics/cholesky.hpp"
-#include "core/numerics/kalman.hpp"
-#include "core/numerics/unscented.hpp"
-#include "core/random.hpp"
-#include "tests/core/reference/dense_unscented.hpp"
+#include <gyrostat/core/numerics/cholesky.hpp>
+#include <gyrostat/core/numerics/kalman.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/numerics/unscented.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/tests/core/reference/dense_unscented.hpp>
 
 namespace gyrostat {
 namespace {

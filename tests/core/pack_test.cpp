@@ -1,4 +1,4 @@
-#include "core/packed/pack.hpp"
+#include <gyrostat/core/packed/pack.hpp>
 
 #include <array>
 #include <bit>
@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/filters/list.hpp"
-#include "core/random.hpp"
+#include <gyrostat/core/filters/list.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/filters/particle.hpp"
+#include <gyrostat/core/filters/particle.hpp>
 
 #include <bit>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/filters/kf.hpp"
-#include "core/filters/sr_ukf.hpp"
-#include "tests/core/arima_signal.hpp"
+#include <gyrostat/core/filters/kf.hpp>
+#include <gyrostat/core/filters/sr_ukf.hpp>
+#include <gyrostat/tests/core/arima_signal.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/random.hpp"
+#include <gyrostat/core/random.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "core/filters/rskf.hpp"
+#include <gyrostat/core/filters/rskf.hpp>
 
 #include <bit>
 #include <cmath>
@@ -9,10 +9,11 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "core/filters/kf.hpp"
-#include "core/filters/sr_rsukf.hpp"
-#include "core/random.hpp"
-#include "tests/core/arima_signal.hpp"
+#include <gyrostat/core/filters/kf.hpp>
+#include <gyrostat/core/filters/sr_rsukf.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/tests/core/arima_signal.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,11 +1,11 @@
-#include "core/series.hpp"
+#include <gyrostat/core/series.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/filters/none.hpp"
-#include "core/track.hpp"
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/filters/none.hpp>
+#include <gyrostat/core/track.hpp>
 
 namespace gyrostat {
 namespace {

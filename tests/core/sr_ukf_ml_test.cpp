@@ -1,12 +1,12 @@
-#include "core/filters/sr_ukf_ml.hpp"
+#include <gyrostat/core/filters/sr_ukf_ml.hpp>
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "core/filters/sr_ukf.hpp"
-#include "tests/core/arima_signal.hpp"
+#include <gyrostat/core/filters/sr_ukf.hpp>
+#include <gyrostat/tests/core/arima_signal.hpp>
 
 namespace gyrostat {
 namespace {

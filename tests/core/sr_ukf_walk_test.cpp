@@ -1,4 +1,4 @@
-#include "core/filters/sr_ukf_walk.hpp"
+#include <gyrostat/core/filters/sr_ukf_walk.hpp>
 
 #include <bit>
 #include <cmath>
@@ -7,9 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/filters/sr_ukf.hpp"
-#include "core/random.hpp"
-#include "tests/core/arima_signal.hpp"
+#include <gyrostat/core/filters/sr_ukf.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/tests/core/arima_signal.hpp>
 
 namespace gyrostat {
 namespace {

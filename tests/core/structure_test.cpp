@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/models/nl_unscented.hpp"
-#include "core/random.hpp"
-#include "tests/core/reference/dense_unscented.hpp"
+#include <gyrostat/core/models/nl_unscented.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/tests/core/reference/dense_unscented.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/filters/thermal_stf_ma.hpp"
+#include <gyrostat/core/filters/thermal_stf_ma.hpp>
 
 #include <cmath>
 #include <vector>
@@ -6,9 +6,10 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include "core/filters/thermal_kf.hpp"
-#include "core/filters/thermal_stf.hpp"
-#include "core/random.hpp"
+#include <gyrostat/core/filters/thermal_kf.hpp>
+#include <gyrostat/core/filters/thermal_stf.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
 namespace {

@@ -10,11 +10,12 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "core/filters/kf.hpp"
-#include "core/filters/sr_rsukf.hpp"
-#include "core/filters/sr_ukf.hpp"
-#include "core/random.hpp"
-#include "tests/core/reference/dense_unscented.hpp"
+#include <gyrostat/core/filters/kf.hpp>
+#include <gyrostat/core/filters/sr_rsukf.hpp>
+#include <gyrostat/core/filters/sr_ukf.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/tests/core/reference/dense_unscented.hpp>
 
 namespace gyrostat {
 namespace {

@@ -8,8 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "generators/scenario.hpp"
-#include "tests/generators/effect_series.hpp"
+#include <gyrostat/generators/effects/list.hpp>
+#include <gyrostat/generators/environment/motion/list.hpp>
+#include <gyrostat/generators/scenario.hpp>
+#include <gyrostat/tests/generators/effect_series.hpp>
 
 namespace gyrostat {
 namespace {

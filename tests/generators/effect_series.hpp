@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/series.hpp"
-#include "generators/effects/list.hpp"
+#include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/effects/list.hpp>
 
 namespace gyrostat {
 

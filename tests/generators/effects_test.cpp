@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "generators/effects/list.hpp"
+#include <gyrostat/generators/effects/list.hpp>
 
 namespace gyrostat {
 namespace {

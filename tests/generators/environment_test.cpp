@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "generators/environment/acceleration/list.hpp"
-#include "generators/environment/magnetic/compass.hpp"
-#include "generators/environment/motion/list.hpp"
-#include "generators/environment/temperature/list.hpp"
+#include <gyrostat/generators/environment/acceleration/list.hpp>
+#include <gyrostat/generators/environment/magnetic/compass.hpp>
+#include <gyrostat/generators/environment/motion/list.hpp>
+#include <gyrostat/generators/environment/temperature/list.hpp>
 
 namespace gyrostat {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/generators/effect_series.hpp"
+#include <gyrostat/tests/generators/effect_series.hpp>
 
 namespace gyrostat {
 namespace {

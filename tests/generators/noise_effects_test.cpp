@@ -4,9 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "generators/random_error.hpp"
-#include "generators/scenario.hpp"
-#include "tests/generators/effect_series.hpp"
+#include <gyrostat/generators/effects/list.hpp>
+#include <gyrostat/generators/random_error.hpp>
+#include <gyrostat/generators/scenario.hpp>
+#include <gyrostat/tests/generators/effect_series.hpp>
 
 namespace gyrostat {
 namespace {
@@ -129,7 +130,7 @@ TEST(NoiseBandwidth, HasUnitGainAtRestAndLeavesRateAndDriftAlone) {
 }
 
 TEST(NoiseBandwidth, DoesNotFilterSlowErrorsOrOutliers) {
-  const auto gyro = [](const std::vector<Effects::Any>& effects) {
+  const auto gyro = [](const std::vector<Effect>& effects) {
     Scenario scenario;
     scenario.sampling = {.duration_s = 20.0, .rate_hz = 100.0};
     scenario.effects = effects;

@@ -1,4 +1,4 @@
-#include "generators/random_error.hpp"
+#include <gyrostat/generators/random_error.hpp>
 
 #include <cmath>
 #include <vector>

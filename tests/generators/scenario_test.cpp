@@ -1,4 +1,8 @@
-#include "generators/scenario.hpp"
+#include <gyrostat/generators/effects/list.hpp>
+#include <gyrostat/generators/environment/acceleration/list.hpp>
+#include <gyrostat/generators/environment/motion/list.hpp>
+#include <gyrostat/generators/environment/temperature/list.hpp>
+#include <gyrostat/generators/scenario.hpp>
 
 #include <bit>
 #include <cmath>

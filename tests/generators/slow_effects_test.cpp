@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/spectra/allan.hpp"
-#include "tests/generators/effect_series.hpp"
+#include <gyrostat/analysis/spectra/allan.hpp>
+#include <gyrostat/tests/generators/effect_series.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,12 +1,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "analysis/fits/arima_likelihood.hpp"
-#include "analysis/spectra/allan.hpp"
-#include "core/filters/kf.hpp"
-#include "core/filters/list.hpp"
-#include "generators/scenario.hpp"
-#include "results/render/render.hpp"
+#include <gyrostat/analysis/fits/arima_likelihood.hpp>
+#include <gyrostat/analysis/spectra/allan.hpp>
+#include <gyrostat/core/filter_type.hpp>
+#include <gyrostat/core/filters/kf.hpp>
+#include <gyrostat/generators/scenario.hpp>
+#include <gyrostat/results/render/render.hpp>
 
 /// Simulates a gyro, fits it, filters it, and prints its Allan deviation: one symbol from every
 /// library that is installed.
@@ -29,6 +29,6 @@ int main() {
   for (const auto& point : overlapping_allan_deviation(series.gyro_dps, series.rate_hz()))
     table.rows.push_back({point.tau_s, point.deviation});
   std::printf("%s%zu filters, last estimate %g dps\n", render({&table, 1}, Format::text).c_str(),
-              Filters::ids().size(), estimate);
+              filter_types().ids().size(), estimate);
   return fit.converged && std::isfinite(estimate) && !table.rows.empty() ? 0 : 1;
 }

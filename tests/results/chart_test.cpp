@@ -1,11 +1,11 @@
-#include "results/render/chart.hpp"
+#include <gyrostat/results/render/chart.hpp>
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "results/render/html.hpp"
+#include <gyrostat/results/render/html.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,11 +1,11 @@
-#include "results/render/figure.hpp"
+#include <gyrostat/results/render/figure.hpp>
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "core/error.hpp"
-#include "results/render/render.hpp"
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/results/render/render.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,4 +1,4 @@
-#include "results/render/render.hpp"
+#include <gyrostat/results/render/render.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
+#include <gyrostat/core/error.hpp>
 
 namespace gyrostat {
 namespace {

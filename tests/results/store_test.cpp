@@ -1,4 +1,4 @@
-#include "results/store.hpp"
+#include <gyrostat/results/store.hpp>
 
 #include <cstring>
 #include <fstream>
@@ -7,9 +7,9 @@
 
 #include <gmock/gmock.h>
 
-#include "core/types.hpp"
-#include "results/store_writer.hpp"
-#include "tests/experiments/program.hpp"
+#include <gyrostat/core/values.hpp>
+#include <gyrostat/results/store_writer.hpp>
+#include <gyrostat/tests/program.hpp>
 
 namespace gyrostat {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/fields.hpp"
+#include <gyrostat/core/fields.hpp>
 
 namespace gyrostat::acceleration {
 

@@ -1,8 +1,8 @@
-#include "generators/environment/magnetic/compass.hpp"
+#include <gyrostat/generators/environment/magnetic/compass.hpp>
 
 #include <string>
 
-#include "generators/random_error.hpp"
+#include <gyrostat/generators/random_error.hpp>
 
 namespace gyrostat {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "core/fields.hpp"
-#include "core/random.hpp"
-#include "core/series.hpp"
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/core/series.hpp>
 
 namespace gyrostat {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/fields.hpp"
+#include <gyrostat/core/fields.hpp>
 
 namespace gyrostat::temperature {
 

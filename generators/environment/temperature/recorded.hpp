@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "core/fields.hpp"
-#include "core/series.hpp"
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/series.hpp>
 
 namespace gyrostat::temperature {
 

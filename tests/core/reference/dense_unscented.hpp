@@ -2,8 +2,9 @@
 
 #include <optional>
 
-#include "core/models/nl_unscented.hpp"
-#include "tests/core/reference/dense_roots.hpp"
+#include <gyrostat/core/models/nl_unscented.hpp>
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/tests/core/reference/dense_roots.hpp>
 
 namespace gyrostat::reference {
 

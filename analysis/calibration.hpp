@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <gyrostat/analysis/fits/arima_fit.hpp>
+#include <gyrostat/analysis/fits/thermal_regression.hpp>
+#include <gyrostat/core/parameter_map.hpp>
+#include <gyrostat/core/series.hpp>
+
+namespace gyrostat {
+
+enum class FitMethod { likelihood, moments };
+
+/// The fit method called `name`; throws InputError at `place` otherwise.
+FitMethod fit_method_named(const std::string& name, const std::string& place);
+
+/// What a calibration span tells about a gyro: the thermal drift where there is temperature, and
+/// the random error of what the drift leaves.
+struct Calibration {
+  std::optional<ThermalFit> thermal;
+  ArimaFit random_error;
+  double bias_measurement_std_dps = no_value;  ///< of M; NaN without a compass
+  double compass_noise_std_deg = no_value;     ///< of one reading; NaN without a compass
+  double start_temperature_C = no_value;
+  double mean_dps = 0.0;       ///< of the rate error over the span
+  double level_std_dps = 0.0;  ///< spread of the 10 s means about the drift
+};
+
+Calibration calibrate(const Series& series, FitMethod method);
+
+/// What the random error is fitted to: the rate error in dps without its fitted drift, NaN where
+/// the gyro value is missing.
+std::vector<double> without_drift(const Series& series, const std::optional<ThermalFit>& thermal);
+
+/// The calibration as parameters of filters. The first state is predicted from the drift at
+/// `start_temperature_C`, with a spread that allows for the sensor's level.
+ParameterMap parameters_from(const Calibration& calibration, double start_temperature_C);
+
+}  // namespace gyrostat

@@ -1,0 +1,93 @@
+# gyrostat_kernels(variable)
+#
+# The filters that pack trials, compiled for each instruction set in UNITS sources each, so that cores share the
+# work and a filter that does not pack is in none. Leaves the sources in `variable`, with their flags set, and
+# writes <gyrostat/core/packed/units.hpp>, which knows them all.
+set(kernel_units 2)
+# Whole programs inlined into one function: no sanitizer follows.
+set(kernel_options -O3 -DNDEBUG -fno-math-errno -fno-trapping-math -fno-sanitize=all
+    -Wno-uninitialized -Wno-maybe-uninitialized)
+set(kernel_flags_sse2 "")
+set(kernel_flags_avx2 -mavx2)
+set(kernel_flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mfma -mprefer-vector-width=512)
+
+function(gyrostat_kernels variable)
+  set(targets sse2)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND targets avx2 avx512)
+  endif()
+  file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/core/filters/*.hpp)
+  list(SORT headers)
+  set(count 0)
+  foreach(header IN LISTS headers)
+    # Whether it packs is what the header says, so a changed header asks anew.
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
+    file(STRINGS ${PROJECT_SOURCE_DIR}/${header} packs REGEX "packs_trials = true")
+    if(NOT packs)
+      continue()
+    endif()
+    get_filename_component(id ${header} NAME_WE)
+    gyrostat_type_of(${id} type)
+    math(EXPR unit "${count} % ${kernel_units}")
+    math(EXPR count "${count} + 1")
+    string(APPEND includes_${unit} "#include <gyrostat/${header}>\n")
+    list(APPEND entries_${unit} "ScalarPlugin<\"${id}\", filters::${type}>")
+  endforeach()
+
+  set(generated ${PROJECT_BINARY_DIR}/generated/gyrostat/core/packed)
+  set(sources "")
+  set(known "")
+  math(EXPR last "${kernel_units} - 1")
+  foreach(target IN LISTS targets)
+    string(SUBSTRING ${target} 0 1 head)
+    string(SUBSTRING ${target} 1 -1 tail)
+    string(TOUPPER ${head} head)
+    set(pointers "")
+    foreach(unit RANGE ${last})
+      list(JOIN entries_${unit} ",\n               " entries)
+      set(name filters_${target}_${unit})
+      list(APPEND pointers "&${name}")
+      string(APPEND known "extern const std::span<const PackedFilter> ${name};\n")
+      file(CONFIGURE OUTPUT ${generated}/kernels_${target}_${unit}.cpp @ONLY CONTENT "${includes_${unit}}
+#include <gyrostat/core/packed/pack_filter.hpp>
+#include <gyrostat/core/packed/target.hpp>
+
+namespace gyrostat {
+
+extern const std::span<const PackedFilter> ${name};
+
+namespace {
+constexpr auto packed = pack_filters<targets::${head}${tail}>(
+    PluginList<${entries}>{});
+}  // namespace
+
+constinit const std::span<const PackedFilter> ${name} = packed;
+
+}  // namespace gyrostat
+")
+      list(APPEND sources ${generated}/kernels_${target}_${unit}.cpp)
+      set_source_files_properties(${generated}/kernels_${target}_${unit}.cpp PROPERTIES
+        COMPILE_OPTIONS "${kernel_options};${kernel_flags_${target}}" SKIP_PRECOMPILE_HEADERS ON)
+    endforeach()
+    set_source_files_properties(core/packed/kernels_${target}.cpp PROPERTIES
+      COMPILE_OPTIONS "${kernel_options};${kernel_flags_${target}}" SKIP_PRECOMPILE_HEADERS ON)
+    list(JOIN pointers ", " pointers)
+    string(APPEND known "static constexpr const std::span<const PackedFilter>* filters_${target}[] = {${pointers}};\n")
+  endforeach()
+  if(NOT avx2 IN_LIST targets)
+    set_source_files_properties(core/packed/kernels_avx2.cpp core/packed/kernels_avx512.cpp
+                                PROPERTIES HEADER_FILE_ONLY ON)
+  else()
+    set_source_files_properties(core/packed/kernels.cpp PROPERTIES COMPILE_DEFINITIONS GYROSTAT_X86)
+  endif()
+  file(CONFIGURE OUTPUT ${generated}/units.hpp @ONLY CONTENT "#pragma once
+
+#include <gyrostat/core/packed/kernels.hpp>
+
+namespace gyrostat {
+
+${known}
+}  // namespace gyrostat
+")
+  set(${variable} ${sources} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gyrostat/diagnosis/candidate.hpp>
+#include <gyrostat/diagnosis/next_experiment.hpp>
+#include <gyrostat/diagnosis/transfer.hpp>
+
+namespace gyrostat::gap {
+
+struct DiagnosisOptions {
+  std::uint64_t seed = 1;
+  std::vector<std::string> without;  ///< effects left out of the catalogue
+  /// Effects and random error found elsewhere, to be judged here instead of looking for causes.
+  std::optional<Scenario> claim;
+  std::size_t baseline_replicas = 100;
+  std::size_t candidate_replicas = 32;
+  std::size_t shortlist = 5;
+  int most_effects = 4;  ///< at most 2 beyond 200,000 samples, for the time it takes
+  double significance = 0.01;
+};
+
+/// A reading at which the recording leaves the simulator.
+struct Where {
+  std::string lens, channel, coordinate, unit;
+  double from, to, observed, simulated, p_adjusted;
+};
+
+/// A candidate, fitted on the train part.
+struct Cause {
+  std::string effect;
+  Scenario scenario;       ///< the baseline with the effect, both fitted
+  double log_score = 0.0;  ///< of the train part, beyond the scenario without the effect
+  double recovered = 0.0;  ///< share of the log score that a true cause would gain
+  double probability = 0.0;
+  double gap_after = 0.0;  ///< held-out
+  double closed = 0.0;
+};
+
+struct Step {
+  std::string added;
+  double gap = 0.0;  ///< held-out
+};
+
+struct Shortfall {
+  std::string effect, why;
+};
+
+/// Readings of one lens on the held-out part, for pictures.
+struct Band {
+  std::string lens, title, channel, coordinate, unit;
+  std::vector<double> at, observed, before, before_spread, after, after_spread;
+};
+
+struct Diagnosis {
+  std::size_t samples = 0;
+  double duration_s = 0.0, rate_hz = 0.0;
+  std::vector<std::string> channels;
+  Scenario baseline;
+  Scenario enriched;  ///< with every effect that was added; the baseline where none was
+  std::vector<Where> where, where_after;  ///< on the train part, before and after the effects
+  double gap_before = 0.0, gap_after = 0.0, closed = 0.0, closed_low = 0.0, closed_high = 0.0;
+  double p_before = 1.0, p_after = 1.0;  ///< of the train part
+  std::vector<Cause> causes;             ///< most probable first
+  std::string verdict = "none";
+  bool claimed = false;  ///< the causes were given, not found
+  std::vector<std::string> verdict_set;
+  std::vector<Step> steps;
+  std::vector<Shortfall> not_assessable;
+  std::vector<Transfer> transfer;
+  NextExperiment next;  ///< empty where one cause stands alone
+  std::vector<Band> bands;
+  std::vector<std::pair<std::string, double>> screening;  ///< log scores at the starts
+  std::vector<std::pair<std::string, double>> seconds;    ///< spent in each part of the work
+};
+
+/// Says what is being done, with the share that is done.
+using DiagnosisProgress = std::function<void(const std::string&, double)>;
+
+/// Diagnoses an evenly sampled series (NaN = missing). Everything that is chosen or fitted comes
+/// from the train part alone. Throws InputError for fewer than 1000 samples, or a gyro that never
+/// changes.
+Diagnosis diagnose(const Series& recording, const DiagnosisOptions& options,
+                   const DiagnosisProgress& progress = {});
+
+/// An object of any effect with its default parameters, in the catalogue's order.
+std::vector<Effect> catalogue();
+
+}  // namespace gyrostat::gap

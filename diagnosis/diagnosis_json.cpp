@@ -1,0 +1,111 @@
+#include <gyrostat/diagnosis/diagnosis_json.hpp>
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include <gyrostat/core/parameter_map.hpp>
+
+namespace gyrostat::gap {
+
+Json parameters_json(const Effect& effect) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < effect.fields().size(); ++i)
+    json[std::string(effect.fields()[i].name)] = effect.value(i);
+  return json;
+}
+
+namespace {
+
+/// JSON has no NaN.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json departures_json(const std::vector<Where>& departures) {
+  Json list = Json::array();
+  for (const auto& w : departures)
+    list.push_back({{"lens", w.lens},
+                    {"channel", w.channel},
+                    {"coordinate", w.coordinate},
+                    {"from", w.from},
+                    {"to", w.to},
+                    {"observed", w.observed},
+                    {"simulated", w.simulated},
+                    {"unit", w.unit},
+                    {"p_adjusted", w.p_adjusted}});
+  return list;
+}
+
+}  // namespace
+
+Json to_json(const Diagnosis& d) {
+  Json json;
+  json["recording"] = {{"samples", d.samples},
+                       {"duration_s", d.duration_s},
+                       {"rate_hz", d.rate_hz},
+                       {"channels", d.channels}};
+  Json parameters = Json::object();
+  for (const auto& [name, value] : parameter_values(d.baseline.random_error))
+    parameters[name] = value;
+  for (const auto& [name, value] : parameter_values(d.baseline.thermal_drift))
+    parameters[name] = value;
+  parameters["compass_noise_std_deg"] = d.baseline.compass.noise_std_deg;
+  json["baseline"] = {
+      {"effects", Json::array({"white_noise", "arima111", "thermal_drift", "compass_noise"})},
+      {"parameters", parameters}};
+  json["where"] = departures_json(d.where);
+  json["where_after"] = departures_json(d.where_after);
+  json["gap"] = {
+      {"before", d.gap_before}, {"after", d.gap_after},
+      {"closed", d.closed},     {"closed_interval", Json::array({d.closed_low, d.closed_high})},
+      {"p_before", d.p_before}, {"p_after", d.p_after}};
+  json["causes"] = Json::array();
+  for (const auto& c : d.causes)
+    json["causes"].push_back({{"effect", c.effect},
+                              {"probability", c.probability},
+                              {"gap_after", c.gap_after},
+                              {"closed", c.closed},
+                              {"log_score", c.log_score},
+                              {"recovered", c.recovered},
+                              {"parameters", parameters_json(c.scenario.effects.back())}});
+  json["verdict"] = d.verdict;
+  json["verdict_set"] = d.verdict_set;
+  json["steps"] = Json::array();
+  for (const auto& s : d.steps) json["steps"].push_back({{"added", s.added}, {"gap", s.gap}});
+  json["not_assessable"] = Json::array();
+  for (const auto& n : d.not_assessable)
+    json["not_assessable"].push_back({{"effect", n.effect}, {"why", n.why}});
+  json["transfer"] = Json::array();
+  for (const auto& t : d.transfer)
+    json["transfer"].push_back({{"filter", t.filter},
+                                {"metric", t.metric},
+                                {"unit", t.unit},
+                                {"real", number(t.real)},
+                                {"sim_before", number(t.before)},
+                                {"sim_after", number(t.after)}});
+  json["next_experiment"] = {{"what", d.next.what},
+                             {"separates", Json::array({d.next.first, d.next.second})},
+                             {"expected_power", d.next.expected_power}};
+  return json;
+}
+
+Json scenario_json(const Diagnosis& d) {
+  Json s;
+  s["duration_s"] = d.duration_s;
+  s["rate_hz"] = d.rate_hz;
+  const auto put = [](Json& into, const auto& p) {
+    for (const auto& field : p.fields()) into[std::string(field.name)] = p.*(field.member);
+  };
+  put(s["random_error"], d.enriched.random_error);
+  put(s["thermal_drift"], d.enriched.thermal_drift);
+  put(s["compass"], d.enriched.compass);
+  s["effects"] = Json::array();
+  for (const auto& any : d.enriched.effects) {
+    Json effect = {{"effect", any.id()}};
+    effect.update(parameters_json(any));
+    s["effects"].push_back(effect);
+  }
+  return {{"title", "A scenario that closes the gap of a recording"},
+          {"cells", Json::array({{{"name", "enriched"}, {"trials", 1000}, {"scenario", s}}})}};
+}
+
+}  // namespace gyrostat::gap

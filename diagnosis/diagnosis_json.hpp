@@ -1,0 +1,18 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <gyrostat/diagnosis/diagnosis.hpp>
+
+namespace gyrostat::gap {
+
+using Json = nlohmann::ordered_json;
+
+/// The diagnosis as the gap contract has it.
+Json to_json(const Diagnosis& diagnosis);
+/// A study of one cell whose scenario has the effects that were added, ready for `gyrostat run`.
+Json scenario_json(const Diagnosis& diagnosis);
+/// The parameters of an effect, by name.
+Json parameters_json(const Effect& effect);
+
+}  // namespace gyrostat::gap

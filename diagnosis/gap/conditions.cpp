@@ -1,0 +1,278 @@
+#include <gyrostat/diagnosis/gap/conditions.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include <Eigen/QR>
+
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/gap/octaves.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+constexpr std::size_t slow_points = 3000;
+constexpr std::size_t shortest_span = 64;
+constexpr std::size_t shortest_slow_span = 2;
+constexpr double warming_interval_s = 10.0;
+
+/// Maximal runs of present indices of one part.
+template <class Present, class PartOf>
+std::array<std::vector<Span>, 2> runs(std::size_t size, std::size_t shortest,
+                                      const Present& present, const PartOf& part_of) {
+  std::array<std::vector<Span>, 2> spans;
+  std::size_t first = 0;
+  while (first < size) {
+    if (!present(first)) {
+      ++first;
+      continue;
+    }
+    const Part part = part_of(first);
+    std::size_t last = first + 1;
+    while (last < size && present(last) && part_of(last) == part) ++last;
+    if (last - first >= shortest) spans[static_cast<int>(part)].push_back({first, last});
+    first = last;
+  }
+  return spans;
+}
+
+/// Straight lines over NaN, the nearest value before the first and after the last.
+void interpolate_missing(std::vector<double>& values) {
+  std::size_t last = values.size();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (is_missing(values[i])) continue;
+    const std::size_t first = last == values.size() ? 0 : last + 1;
+    const double from = last == values.size() ? values[i] : values[last];
+    for (std::size_t k = first; k < i; ++k)
+      values[k] = from + (values[i] - from) * static_cast<double>(k - first + 1) /
+                             static_cast<double>(i - first + 1);
+    last = i;
+  }
+  if (last < values.size())
+    std::fill(values.begin() + static_cast<std::ptrdiff_t>(last), values.end(), values[last]);
+}
+
+}  // namespace
+
+Conditions::Conditions(const Series& recording) : series_(recording) {
+  for (auto* channel : {&series_.temperature_C, &series_.rate_ref_dps, &series_.acc_x_mps2,
+                        &series_.acc_y_mps2, &series_.acc_z_mps2})
+    interpolate_missing(*channel);
+  const std::size_t n = series_.size();
+  interval_s_ = n > 1 ? series_.duration_s() / static_cast<double>(n - 1) : 1.0;
+  cluster_ = std::max<std::size_t>(1, n / slow_points);
+  find_spans();
+
+  slow_time_s_ = slow_means(series_.t_s);
+  if (has_temperature()) {
+    slow_temperature_C_ = slow_means(series_.temperature_C);
+    const auto lag = std::max<std::size_t>(
+        1, static_cast<std::size_t>(std::lround(warming_interval_s / slow_interval_s())));
+    slow_warming_.resize(slow_size());
+    for (std::size_t i = 0; i < slow_size(); ++i) {
+      const std::size_t from = i < lag ? 0 : i - lag;
+      slow_warming_[i] = i == 0 ? 0.0
+                                : (slow_temperature_C_[i] - slow_temperature_C_[from]) /
+                                      (slow_time_s_[i] - slow_time_s_[from]);
+    }
+  }
+  if (!series_.rate_ref_dps.empty()) {
+    const auto& rate = series_.rate_ref_dps;
+    const auto [low, high] = std::minmax_element(rate.begin(), rate.end());
+    turned_deg_.assign(n, 0.0);
+    for (std::size_t i = 1; i < n; ++i) turned_deg_[i] = turned_deg_[i - 1] + rate[i] * interval_s_;
+    if (*high - *low > 1e-3) {
+      motion_dps_s_.assign(n, 0.0);
+      for (std::size_t i = 1; i + 1 < n; ++i)
+        motion_dps_s_[i] = (rate[i + 1] - rate[i - 1]) / (2.0 * interval_s_);
+    }
+  }
+  find_drift();
+  find_walk_left();
+}
+
+Part Conditions::part_of(std::size_t sample) const {
+  const std::size_t clusters = std::max<std::size_t>(1, size() / cluster_);
+  const std::size_t at = std::min(sample / cluster_, clusters - 1);
+  return at * blocks / clusters % 4 == 2 ? Part::held_out : Part::train;
+}
+
+void Conditions::find_spans() {
+  const auto& z = series_.gyro_dps;
+  std::vector<char> present(size(), 1);
+  for (std::size_t i = 0; i < size();) {
+    if (!is_missing(z[i])) {
+      ++i;
+      continue;
+    }
+    std::size_t end = i;
+    while (end < size() && is_missing(z[end])) ++end;
+    if (i > 0 && end < size() && end - i <= bridged && part_of(i - 1) == part_of(end))
+      gaps_.push_back({i, end});
+    else
+      std::fill(present.begin() + static_cast<std::ptrdiff_t>(i),
+                present.begin() + static_cast<std::ptrdiff_t>(end), char{0});
+    i = end;
+  }
+  fast_ = runs(
+      size(), shortest_span, [&](std::size_t i) { return present[i] != 0; },
+      [&](std::size_t i) { return part_of(i); });
+  std::vector<char> whole(size() / cluster_, 1);
+  for (std::size_t i = 0; i < whole.size() * cluster_; ++i)
+    if (present[i] == 0) whole[i / cluster_] = 0;
+  slow_ = runs(
+      whole.size(), shortest_slow_span, [&](std::size_t i) { return whole[i] != 0; },
+      [&](std::size_t i) { return part_of(i * cluster_); });
+}
+
+void Conditions::find_drift() {
+  const bool regress =
+      has_temperature() &&
+      *std::max_element(slow_temperature_C_.begin(), slow_temperature_C_.end()) -
+              *std::min_element(slow_temperature_C_.begin(), slow_temperature_C_.end()) >
+          0.5;
+  drift_regressors_ =
+      Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(slow_size()), regress ? 4 : 1);
+  for (std::size_t i = 0; regress && i < slow_size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, slow_size() - 1);
+    drift_regressors_(row, 1) = slow_temperature_C_[i] - slow_temperature_C_[0];
+    drift_regressors_(row, 2) = slow_warming_[i];
+    drift_regressors_(row, 3) = (slow_temperature_C_[after] - slow_temperature_C_[before]) /
+                                (slow_time_s_[after] - slow_time_s_[before]);
+  }
+  for (const auto& span : slow_spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i) train_points_.push_back(i);
+
+  std::vector<double> rate_error = series_.gyro_dps;
+  for (std::size_t i = 0; i < series_.rate_ref_dps.size(); ++i)
+    rate_error[i] -= series_.rate_ref_dps[i];
+  bridge(rate_error);
+  const RatioLikelihood likelihood(train_points_, train_regressors(),
+                                   train_values(slow_means(rate_error)));
+  level_.emplace(train_points_, likelihood.most_likely());
+  const Eigen::MatrixXd white = level_->innovations_of_columns(train_regressors());
+  drift_fit_ = white.transpose();
+  if (!regress) return;
+  const Eigen::MatrixXd normal = white.transpose() * white;
+  drift_fit_ = normal.completeOrthogonalDecomposition().pseudoInverse() * white.transpose();
+}
+
+Eigen::VectorXd Conditions::train_values(const std::vector<double>& slow) const {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(train_points_.size()));
+  for (std::size_t k = 0; k < train_points_.size(); ++k)
+    values[static_cast<Eigen::Index>(k)] = slow[train_points_[k]];
+  return values;
+}
+
+Eigen::MatrixXd Conditions::train_regressors() const {
+  const Eigen::Index columns = drift_regressors_.cols() - 1;
+  Eigen::MatrixXd chosen(static_cast<Eigen::Index>(train_points_.size()), columns);
+  for (std::size_t k = 0; k < train_points_.size(); ++k)
+    chosen.row(static_cast<Eigen::Index>(k)) =
+        drift_regressors_.row(static_cast<Eigen::Index>(train_points_[k])).tail(columns);
+  return chosen;
+}
+
+Eigen::VectorXd Conditions::drift_of(const std::vector<double>& slow) const {
+  const Eigen::VectorXd values = train_values(slow);
+  Eigen::VectorXd coefficients(drift_regressors_.cols());
+  coefficients.tail(drift_fit_.rows()) = drift_fit_ * level_->innovations(values);
+  coefficients[0] = (values - train_regressors() * coefficients.tail(drift_fit_.rows())).mean();
+  return coefficients;
+}
+
+std::vector<double> Conditions::drift(const Eigen::VectorXd& coefficients) const {
+  const Eigen::VectorXd values = drift_regressors_ * coefficients;
+  return {values.begin(), values.end()};
+}
+
+/// By a hundred random walks with unit steps from cluster to cluster.
+void Conditions::find_walk_left() {
+  constexpr std::uint32_t walks = 100;
+  const auto& spans = slow_spans(Part::train);
+  walk_left_.assign(octave_count(spans), 0.0);
+  std::vector<double> walk(slow_size());
+  for (std::uint32_t k = 0; k < walks; ++k) {
+    NormalStream(1, k, "walk_left").fill(0, walk);
+    std::partial_sum(walk.begin(), walk.end(), walk.begin());
+    const auto drift_there = drift(drift_of(walk));
+    std::transform(walk.begin(), walk.end(), drift_there.begin(), walk.begin(), std::minus<>());
+    const auto left = octaves(walk, spans);
+    for (std::size_t level = 0; level < left.size(); ++level) {
+      const auto m = static_cast<double>(left[level].cluster);
+      walk_left_[level] += left[level].mean_square / ((2.0 * m * m + 1.0) / (3.0 * m)) / walks;
+    }
+  }
+}
+
+void Conditions::bridge(std::vector<double>& values) const {
+  for (const auto& gap : gaps_) {
+    const double before = values[gap.first - 1];
+    const double step = (values[gap.last] - before) / static_cast<double>(gap.size() + 1);
+    for (std::size_t i = gap.first; i < gap.last; ++i)
+      values[i] = before + step * static_cast<double>(i - gap.first + 1);
+  }
+}
+
+std::vector<double> Conditions::slow_means(const std::vector<double>& values) const {
+  std::vector<double> means(size() / cluster_);
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = k * cluster_; i < (k + 1) * cluster_; ++i)
+      if (!is_missing(values[i])) {
+        sum += values[i];
+        ++count;
+      }
+    means[k] = count > 0 ? sum / static_cast<double>(count) : no_value;
+  }
+  return means;
+}
+
+Series on_grid(const Series& series, std::string_view place) {
+  const std::size_t n = series.size();
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < n; ++i) intervals.push_back(series.t_s[i] - series.t_s[i - 1]);
+  if (intervals.empty()) return series;
+  auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  const double step = *middle;
+
+  std::vector<std::size_t> index(n, 0);
+  for (std::size_t i = 1; i < n; ++i) {
+    const double steps = (series.t_s[i] - series.t_s[i - 1]) / step;
+    const double whole = std::round(steps);
+    if (whole < 1.0 || std::abs(steps - whole) > 0.3)
+      throw InputError(
+          std::string(place) + " line " + std::to_string(i + 2),
+          "t_s = " + std::to_string(series.t_s[i]) + " s: sampled unevenly, " +
+              std::to_string(steps) + " intervals of " + std::to_string(step) +
+              " s after the sample before it; a whole number, give or take 0.3, is allowed");
+    index[i] = index[i - 1] + static_cast<std::size_t>(whole);
+  }
+  const std::size_t size = index.back() + 1;
+  if (size == n) return series;
+  if (size / 50 > n)
+    throw InputError(place, "fewer than one sample in fifty is there; at least 2 % are needed");
+  Series grid;
+  for (const auto& channel : channels) {
+    const auto& from = series.*channel.values;
+    if (from.empty()) continue;
+    auto& to = grid.*channel.values;
+    to.assign(size, no_value);
+    for (std::size_t i = 0; i < n; ++i) to[index[i]] = from[i];
+    if (channel.values == &Series::gyro_dps || channel.values == &Series::heading_deg) continue;
+    for (std::size_t i = 1; i < n; ++i)  // what the sensor went through is continuous
+      for (std::size_t k = index[i - 1] + 1; k < index[i]; ++k)
+        to[k] = from[i - 1] + (from[i] - from[i - 1]) * static_cast<double>(k - index[i - 1]) /
+                                  static_cast<double>(index[i] - index[i - 1]);
+  }
+  return grid;
+}
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,84 @@
+#include <gyrostat/diagnosis/next_experiment.hpp>
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <gyrostat/diagnosis/gap/scoring.hpp>
+#include <gyrostat/diagnosis/simulator.hpp>
+#include <gyrostat/generators/environment/motion/list.hpp>
+#include <gyrostat/generators/environment/temperature/list.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+constexpr std::size_t replicas = 24;
+constexpr std::size_t samples = 20000;  // of each imagined recording: its rate follows
+
+struct Proposal {
+  std::string what;
+  Scenario conditions;
+};
+
+std::vector<Proposal> proposals(const Scenario& like, double recorded_s) {
+  const auto still = temperature::QuietRoom{.start_C = 25.0, .end_C = 25.0};
+  const auto make = [&](std::string what, double duration_s, const Temperature& temperature,
+                        const Motion& motion) {
+    Scenario s = like;
+    s.effects.clear();
+    s.sampling = {duration_s,
+                  std::min(like.sampling.rate_hz, static_cast<double>(samples) / duration_s)};
+    s.temperature = temperature;
+    s.motion = motion;
+    return Proposal{std::move(what), s};
+  };
+  const double hour = 3600.0;
+  return {make(fmt::format("static at constant temperature for {:.3g} h", 4.0 * recorded_s / hour),
+               4.0 * recorded_s, still, motion::Stationary{}),
+          make("static, temperature cycles of 20 min between 23 and 57 °C for 2 h", 2 * hour,
+               temperature::Cycle{23.0, 57.0, 1200.0}, motion::Stationary{}),
+          make("static, temperature cycles of 2 h between 23 and 57 °C for 4 h", 4 * hour,
+               temperature::Cycle{23.0, 57.0, 2 * hour}, motion::Stationary{}),
+          make("rate table, +-80 dps in 32 s swings, for 20 min", 1200.0, still,
+               motion::Sinusoidal{80.0, 1.0 / 32.0}),
+          make("turns on the spot: 30 dps, rest, -30 dps, rest, in 60 s, for 20 min", 1200.0, still,
+               motion::RateTable{30.0, 60.0})};
+}
+
+double power(const Scenario& conditions, const Scenario& first, const Scenario& second,
+             std::uint64_t seed) {
+  Series imagined;
+  synthesise(conditions, {seed, 0}, imagined);
+  const Simulator simulator(imagined, seed);
+  const auto a = simulator.ensemble(first, 0, replicas)[0];
+  const auto b = simulator.ensemble(second, 0, replicas)[0];
+  const Ensemble yardstick(simulator.instrument(Part::train), a, {});
+  double right = 0.0;
+  for (std::size_t k = 0; k < replicas; ++k) {
+    const auto number = static_cast<std::uint32_t>(1000 + k);
+    for (const bool is_first : {true, false}) {
+      const auto seen = simulator.readings(simulator.replica(is_first ? first : second, number))[0];
+      const Scoring scoring(yardstick, seen);
+      const double gain = scoring.of(a).value - scoring.of(b).value;
+      right += (gain > 0.0) == is_first ? 1.0 : 0.0;
+    }
+  }
+  return right / (2.0 * replicas);
+}
+
+}  // namespace
+
+NextExperiment next_experiment(const Scenario& first, const Scenario& second, double recorded_s,
+                               std::uint64_t seed) {
+  NextExperiment best{.what = "",
+                      .first = std::string(first.effects.back().id()),
+                      .second = std::string(second.effects.back().id())};
+  for (const auto& proposal : proposals(first, recorded_s))
+    if (const double p = power(proposal.conditions, first, second, seed); p > best.expected_power) {
+      best.expected_power = p;
+      best.what = proposal.what;
+    }
+  return best;
+}
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <gyrostat/diagnosis/simulator.hpp>
+
+namespace gyrostat::gap {
+
+/// What a filter shows on the recording, and what the simulator promises of it before and after the
+/// effects were added, by a metric that needs no truth.
+struct Transfer {
+  std::string filter, metric, unit;
+  double real, before, after;
+};
+
+/// Runs the filters of both studies over the recording and over `replicas` of either scenario, with
+/// the parameters that the baseline gives them: standard deviation of the innovations, NIS, Allan
+/// deviation of the compensated rate, and the range of the heading integrated from it where there
+/// is a compass. At most two minutes' worth of samples go through the random-error filters.
+std::vector<Transfer> transfer(const Simulator& simulator, const Series& recording,
+                               const Scenario& before, const Scenario& after, std::size_t replicas);
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,208 @@
+#include <gyrostat/experiments/findings/ranking.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include <gyrostat/analysis/metric_type.hpp>
+#include <gyrostat/analysis/statistics/all_pairs.hpp>
+#include <gyrostat/analysis/statistics/mean_ranks.hpp>
+#include <gyrostat/analysis/statistics/streamed.hpp>
+#include <gyrostat/analysis/statistics/tail_mean.hpp>
+#include <gyrostat/core/outcome.hpp>
+#include <gyrostat/experiments/findings/ranking_words.hpp>
+#include <gyrostat/experiments/run/stopping.hpp>
+
+namespace gyrostat {
+namespace {
+
+struct RankedMetric {
+  std::size_t index;
+  std::string id, unit;
+  bool by_size;  ///< of the value, whatever its sign
+};
+
+/// Small is good of errors and of the logarithmic score; the other metrics are no errors.
+RankedMetric metric_of(const Cell& cell, const std::string& name) {
+  RankedMetric metric{.index = 0,
+                      .id = name.empty() ? std::string(judging_metric(cell)) : name,
+                      .unit = "",
+                      .by_size = false};
+  metric.index = metric_named(metric.id, "--metric");
+  metric.unit = std::string(metric_types()[metric.index].unit);
+  std::vector<std::string> allowed;
+  for (const auto& type : metric_types())
+    if (type.goal == Goal::small || type.goal == Goal::near_zero) allowed.push_back(type.id);
+  if (std::find(allowed.begin(), allowed.end(), metric.id) == allowed.end())
+    throw InputError("--metric", fmt::format("small is not good of '{}'; allowed: {}", metric.id,
+                                             fmt::join(allowed, ", ")));
+  metric.by_size = metric_types()[metric.index].goal == Goal::near_zero;
+  return metric;
+}
+
+/// Everything that is learnt of a cell's trials while they pass by.
+struct Streams {
+  std::vector<StreamedSummary> summaries;
+  std::vector<StreamedTailMean> tails;
+  std::vector<bool> summary_open, tail_open;
+  RankStatistics ranks;
+  std::optional<AllPairs> pairs;
+  std::vector<std::size_t> diverged, broken_down;
+  std::size_t trials = 0;
+
+  explicit Streams(std::size_t methods)
+      : summaries(methods),
+        tails(methods),
+        summary_open(methods, true),
+        tail_open(methods, true),
+        ranks(methods),
+        diverged(methods),
+        broken_down(methods) {}
+};
+
+void count_failures(Streams& s, std::size_t method, const Outcome& outcome) {
+  s.broken_down[method] += outcome.broke_down();
+  s.diverged[method] += outcome.diverged();
+}
+
+Streams stream(const Cell& cell, const TrialSource& trials, const RankedMetric& metric) {
+  const std::size_t methods = cell.methods.size();
+  Streams s(methods);
+  std::vector<double> values(methods);
+  bool more = true;
+  for (int pass = 0; more; ++pass) {
+    trials([&](bool /*calibrated*/, std::span<const double> numbers) {
+      const TrialOutcomes outcomes(numbers, methods);
+      for (std::size_t m = 0; m < methods; ++m) {
+        const double value = outcomes[m].metric(metric.index);
+        values[m] = metric.by_size ? std::abs(value) : value;
+        if (s.summary_open[m]) s.summaries[m].add(values[m]);
+        if (s.tail_open[m]) s.tails[m].add(values[m]);
+        if (pass == 0) count_failures(s, m, outcomes[m]);
+      }
+      if (pass == 0) {
+        ++s.trials;
+        s.ranks.add(values);
+      } else if (pass <= 2) {
+        s.pairs->add(values);
+      }
+    });
+    more = pass < 2;
+    for (std::size_t m = 0; m < methods; ++m) {
+      if (s.summary_open[m]) s.summary_open[m] = s.summaries[m].another_pass();
+      if (s.tail_open[m]) s.tail_open[m] = s.tails[m].another_pass();
+      more = more || s.summary_open[m] || s.tail_open[m];
+    }
+    if (pass == 0)
+      s.pairs.emplace(methods, comparisons_of_looks(cell, s.trials));
+    else if (pass <= 2)
+      s.pairs->another_pass();
+  }
+  return s;
+}
+
+/// Maximal sets of methods of which no two are separable (Bron and Kerbosch, CACM 16, 1973).
+void extend(const std::vector<std::vector<bool>>& alike, const std::vector<std::size_t>& group,
+            std::vector<std::size_t> candidates, std::vector<std::size_t> done,
+            std::vector<std::vector<std::size_t>>& groups) {
+  if (candidates.empty() && done.empty() && group.size() > 1) groups.push_back(group);
+  while (!candidates.empty()) {
+    const auto m = candidates.front();
+    const auto like = [&](const std::vector<std::size_t>& all) {
+      std::vector<std::size_t> some;
+      for (const auto other : all)
+        if (other != m && alike[m][other]) some.push_back(other);
+      return some;
+    };
+    auto larger = group;
+    larger.push_back(m);
+    extend(alike, larger, like(candidates), like(done), groups);
+    candidates.erase(candidates.begin());
+    done.push_back(m);
+  }
+}
+
+std::vector<std::vector<std::size_t>> groups_of(const CellRanking& ranking) {
+  const std::size_t n = ranking.methods.size();
+  std::vector<std::vector<bool>> alike(n, std::vector<bool>(n));
+  for (const auto& pair : ranking.pairs)
+    alike[pair.better][pair.worse] = alike[pair.worse][pair.better] = !pair.difference.separable;
+  std::vector<std::size_t> all(n);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<std::vector<std::size_t>> groups;
+  extend(alike, {}, all, {}, groups);
+  return groups;
+}
+
+TableCell out_of(std::size_t count, std::size_t total) {
+  return fmt::format("{}/{}", count, total);
+}
+
+}  // namespace
+
+CellRanking rank_cell(const Cell& cell, const TrialSource& trials, const std::string& name) {
+  const auto metric = metric_of(cell, name);
+  const auto s = stream(cell, trials, metric);
+  CellRanking ranking{.cell = cell.name,
+                      .metric = metric.id,
+                      .unit = metric.unit,
+                      .trials = s.trials,
+                      .methods = {},
+                      .not_separable = {},
+                      .sentences = {},
+                      .pairs = {}};
+  const auto mean = [&](std::size_t m) {
+    const double value = s.summaries[m].summary().mean;
+    return std::isnan(value) ? HUGE_VAL : value;
+  };
+  std::vector<std::size_t> order(cell.methods.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return mean(a) < mean(b); });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto m = order[i];
+    const auto& summary = s.summaries[m].summary();
+    const auto& tail = s.tails[m].tail();
+    ranking.methods.push_back({cell.methods[m].id, summary.mean, summary.half_width_95,
+                               s.ranks.mean_rank(m), tail.value, summary.worst, tail.low, tail.high,
+                               s.diverged[m], s.broken_down[m], summary.missing});
+  }
+  for (std::size_t better = 0; better < order.size(); ++better)
+    for (std::size_t worse = better + 1; worse < order.size(); ++worse)
+      ranking.pairs.push_back({better, worse, s.pairs->difference(order[worse], order[better])});
+  if (s.trials > 0) ranking.share_worse = 1.0 - std::pow(0.05, 1.0 / static_cast<double>(s.trials));
+  ranking.critical_difference = s.ranks.critical_difference();
+  ranking.friedman_p = s.ranks.friedman_p();
+  ranking.not_separable = groups_of(ranking);
+  ranking.sentences = ranking_sentences(cell, ranking);
+  return ranking;
+}
+
+Table ranking_table(const CellRanking& ranking) {
+  const auto& u = ranking.unit;
+  Table table{.title = fmt::format("{}: ranking by {}", ranking.cell, ranking.metric),
+              .columns = {{"method", ""},
+                          {"mean", u},
+                          {"± 95 %", u},
+                          {"mean rank", "1"},
+                          {"CVaR95", u},
+                          {"from", u},
+                          {"to", u},
+                          {"worst", u},
+                          {"diverged", ""},
+                          {"broke down", ""}},
+              .notes = ranking.sentences};
+  for (const auto& m : ranking.methods)
+    table.rows.push_back({m.method, cell(m.mean), cell(m.half_width), cell(m.mean_rank),
+                          cell(m.cvar95), cell(m.cvar95_low), cell(m.cvar95_high), cell(m.worst),
+                          out_of(m.diverged, ranking.trials),
+                          out_of(m.broken_down, ranking.trials)});
+  table.notes.push_back(
+      fmt::format("CVaR95: mean of the worst 5 % of trials, with its 95 % interval; worst: fewer "
+                  "than {:.2g} % of all "
+                  "trials are worse than it, with 95 % confidence",
+                  100.0 * ranking.share_worse));
+  return table;
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <gyrostat/core/table.hpp>
+#include <gyrostat/experiments/findings/cell_summary.hpp>
+
+namespace gyrostat {
+
+/// A method's place in a cell, by the judging metric.
+struct RankedMethod {
+  std::string method;
+  double mean = no_value, half_width = no_value;  ///< of the metric's mean, 95 %
+  double mean_rank = no_value;                    ///< over trials, 1 is best, ties share
+  double cvar95 = no_value;                       ///< mean of the worst 5 % of trials
+  double worst = no_value;
+  double cvar95_low = no_value, cvar95_high = no_value;  ///< 95 % interval; none below 200 trials
+  std::size_t diverged = 0, broken_down = 0;             ///< trials, which stay in the mean
+  std::size_t missing = 0;                               ///< trials without a value; they rank last
+};
+
+/// Two methods of a ranking; the difference is that of `worse` minus `better`.
+struct RankedPair {
+  std::size_t better = 0, worse = 0;  ///< indices into `methods`, by their means
+  PairedDifference difference;        ///< simultaneous over all pairs
+};
+
+/// Which filter wins a cell and how sure that is; the oracle and `none` are ranked beside the
+/// others. A metric with a sign is ranked by its size, and small is good.
+struct CellRanking {
+  std::string cell, metric, unit;
+  std::size_t trials = 0;
+  std::vector<RankedMethod> methods;      ///< by mean, best first
+  double critical_difference = no_value;  ///< of mean ranks (Nemenyi)
+  std::vector<std::vector<std::size_t>>
+      not_separable;                   ///< maximal groups, as indices into `methods`
+  std::vector<std::string> sentences;  ///< plain ones, the most important first
+  std::vector<RankedPair> pairs;
+  double friedman_p = no_value;  ///< of mean ranks so different where all methods are alike
+  double share_worse =
+      no_value;  ///< with 95 % confidence, fewer trials than this are worse than `worst`
+};
+
+/// The metric is the judging metric where `metric` is empty. A few passes over the trials, in
+/// memory that does not grow with them. Throws InputError for a metric of which small is not good.
+CellRanking rank_cell(const Cell& cell, const TrialSource& trials, const std::string& metric = "");
+
+/// One row a method, best first, with the sentences as notes.
+Table ranking_table(const CellRanking& ranking);
+
+}  // namespace gyrostat

@@ -1,0 +1,199 @@
+#include <gyrostat/experiments/findings/report/report.hpp>
+
+#include <algorithm>
+#include <set>
+
+#include <tbb/global_control.h>
+
+#include <gyrostat/experiments/findings/report/assets.hpp>
+#include <gyrostat/experiments/findings/report/cell_section.hpp>
+#include <gyrostat/experiments/findings/report/design_sections.hpp>
+#include <gyrostat/experiments/findings/report/run_times.hpp>
+#include <gyrostat/experiments/findings/sensitivity_words.hpp>
+#include <gyrostat/experiments/study/address.hpp>
+#include <gyrostat/results/render/html.hpp>
+
+namespace gyrostat {
+namespace {
+
+constexpr std::size_t most_cells = 6;
+
+/// Cells shown in full: those asked for, or the first few that do not serve a design alone, and of
+/// many made from one, as "ramp[phi=0.5]", only the first.
+std::vector<std::size_t> chosen_cells(const Study& study, const std::vector<std::string>& names) {
+  std::vector<std::size_t> chosen;
+  for (const auto& name : names)
+    chosen.push_back(
+        static_cast<std::size_t>(&cell_named(study, name, "--cell") - study.cells.data()));
+  std::set<std::string> families;
+  for (std::size_t c = 0; names.empty() && c < study.cells.size() && chosen.size() < most_cells;
+       ++c) {
+    if (serves_a_design(study, c)) continue;
+    const auto& name = study.cells[c].name;
+    if (families.insert(name.substr(0, name.find('['))).second) chosen.push_back(c);
+  }
+  return chosen;
+}
+
+std::string head(const Study& study, const Manifest& manifest) {
+  std::uint64_t finished = 0;
+  for (const auto& cell : manifest.cells) finished += std::min(cell.finished, cell.trials);
+  const auto title = study.title.empty() ? study.name() : study.title;
+  return fmt::format(
+      "<a class=\"skip\" href=\"#main\">To the results</a>\n<header>\n<h1>{}</h1>\n<p "
+      "class=\"note\">Study {}, "
+      "{} cells, {} of {} trials finished; seed {}, digest <code>{}</code></p>\n<p class=\"note "
+      "hint\" hidden>Pictures: "
+      "drag to zoom, double-click to see all. By keyboard: arrows go from point to point, + − 0 "
+      "zoom, Shift and arrows "
+      "move, Enter copies the command that replays an outlier.</p>\n</header>\n",
+      escaped(title), escaped(study.name()), study.cells.size(), finished, study.trials(),
+      study.seed, escaped(manifest.digest));
+}
+
+/// What matters in each design; the most important sentence of every cell, those shown in full as
+/// links.
+std::string in_short(const Study& study, const std::vector<CellRanking>& rankings,
+                     const std::vector<std::size_t>& chosen,
+                     const std::vector<DesignSensitivities>& designs) {
+  constexpr std::size_t most = 200;
+  std::string out =
+                  "<section aria-labelledby=\"short\"><h2 id=\"short\">In short</h2>\n<ul "
+                  "class=\"sentences\">\n",
+              rest;
+  for (std::size_t d = 0; d < designs.size(); ++d)
+    if (const auto sentence = sensitivity_sentence(designs[d].front()); !sentence.empty())
+      out += fmt::format("<li><b><a href=\"#design-{}\">{}</a></b>: {}</li>\n", d,
+                         escaped(designs[d].front().design), escaped(sentence));
+  std::size_t others = 0;
+  for (std::size_t c = 0; c < study.cells.size(); ++c) {
+    const bool full = std::find(chosen.begin(), chosen.end(), c) != chosen.end();
+    if (!full && serves_a_design(study, c)) continue;
+    if (!full && ++others > most) continue;
+    const auto& sentences = rankings[c].sentences;
+    const auto name =
+        full ? fmt::format("<a href=\"#cell-{}\">{}</a>", c, escaped(study.cells[c].name))
+             : escaped(study.cells[c].name);
+    (full ? out : rest) +=
+        fmt::format("<li><b>{}</b>: {}</li>\n", name,
+                    escaped(sentences.empty() ? "no finished trials" : sentences[0]));
+  }
+  out += "</ul>\n";
+  if (!rest.empty())
+    out += fmt::format(
+        "<details><summary>{} other cells</summary>\n<ul class=\"sentences\">\n{}</ul>\n<p "
+        "class=\"note\">{}gyrostat "
+        "report DIR --cell NAME shows one of them in full.</p></details>\n",
+        others, rest, others > most ? fmt::format("These are the first {}. ", most) : "");
+  return out + "</section>\n";
+}
+
+std::string failures(const Store& store, const Manifest& manifest) {
+  constexpr std::size_t most = 30;
+  std::string rows;
+  std::size_t count = 0;
+  store.for_each_failure([&](const Failure& failure) {
+    if (++count > most) return;
+    const auto& cell = manifest.cells.at(failure.cell);
+    rows += fmt::format(
+        "<tr><td class=\"text\"><code>gyrostat replay {}</code></td><td "
+        "class=\"text\">{}</td></tr>\n",
+        escaped(
+            address_text(manifest.name, cell.name, failure.trial, cell.methods.at(failure.method))),
+        escaped(failure.reason));
+  });
+  if (count == 0) return "";
+  return fmt::format(
+      "<section aria-labelledby=\"failures\"><h2 id=\"failures\">Failures</h2>\n<p>{} outcomes are "
+      "in quarantine: "
+      "the method threw, or left out steps. They stay in every mean that they have a value "
+      "for.{}</p>\n<div class=\"scroll\" "
+      "tabindex=\"0\" role=\"group\" aria-label=\"Failures\"><table><thead><tr><th>replay</th><th "
+      "class=\"text\">why</th>"
+      "</tr></thead>\n<tbody>{}</tbody></table></div></section>\n",
+      count,
+      count > most
+          ? fmt::format(" The first {} are here; gyrostat status DIR --failures has all.", most)
+          : "",
+      rows);
+}
+
+/// What the page is drawn by, with its licence. Without it the pictures stay as they are.
+std::string script() {
+  if (std::string_view(uplot_script).empty()) return "";
+  return fmt::format("<script>\n{}\n</script>\n<script>\n{}</script>\n", uplot_script,
+                     report_script);
+}
+
+std::string foot(const Store& store) {
+  std::string builds;
+  for (const auto& session : store.sessions()) {
+    const auto build = fmt::format("{} ({}, {})", session.build.version, session.build.compiler,
+                                   session.build.flags);
+    if (session.trials > 0 && builds.find(build) == std::string::npos)
+      builds += (builds.empty() ? "" : "; ") + build;
+  }
+  auto out = fmt::format(
+      "<footer><h2>About this page</h2>\n<p class=\"note\">Outcomes by gyrostat {}.</p>\n",
+      escaped(builds));
+  if (!std::string_view(uplot_script).empty())
+    out += fmt::format(
+        "<details><summary>Licences</summary><p class=\"note\">Charts: "
+        "µPlot.</p><pre>{}</pre></details>\n",
+        escaped(uplot_licence));
+  return out + "</footer>\n";
+}
+
+}  // namespace
+
+std::string report_page(const Study& study, const Store& store, const std::filesystem::path& folder,
+                        const ReportOptions& options) {
+  std::optional<tbb::global_control> limit;
+  if (options.threads > 0)
+    limit.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
+  const auto manifest = store.manifest();
+  const MethodColours colours(study);
+  const auto sweeps = sweeps_of(study);
+  const auto chosen = chosen_cells(study, options.cells);
+  const auto designs = by_design(study, store);
+  const auto times = run_times(folder / "log.jsonl");
+
+  std::vector<CellSummary> summaries;
+  std::vector<CellRanking> rankings;
+  for (std::uint32_t c = 0; c < study.cells.size(); ++c) {
+    const auto trials = trials_of(study.cells[c], store, c);
+    summaries.push_back(summarise_cell(study.cells[c], trials));
+    const bool is_seen =
+        !serves_a_design(study, c) || std::find(chosen.begin(), chosen.end(), c) != chosen.end();
+    rankings.push_back(is_seen ? rank_cell(study.cells[c], trials) : CellRanking{});
+  }
+
+  std::string body = head(study, manifest) + "<main id=\"main\" tabindex=\"-1\">\n" +
+                     in_short(study, rankings, chosen, designs);
+  body += sweep_sections(study, sweeps, summaries, colours);
+  body += sensitivity_sections(designs, colours);
+  for (const std::size_t c : chosen) {
+    if (summaries[c].finished == 0) continue;
+    const auto prepared = prepare_cell(study.cells[c], study.seed, options.threads);
+    const auto replay =
+        std::min(options.replay.value_or(trials_to_replay(study.cells[c])), study.cells[c].trials);
+    const auto replayed = replay > 0 ? replay_trials(prepared, study.seed, replay) : Replayed{};
+    const auto values = cell_values(study.cells[c], store, static_cast<std::uint32_t>(c));
+    const CellView view{study,
+                        study.cells[c],
+                        colours,
+                        summaries[c],
+                        values,
+                        best_first(study.cells[c], summaries[c]),
+                        fmt::format("cell-{}", c)};
+    const auto measured = times.find(study.cells[c].name);
+    body +=
+        cell_section(view, rankings[c], prepared, replayed,
+                     measured == times.end() ? std::map<std::string, double>() : measured->second);
+  }
+  body += failures(store, manifest) + "</main>\n" + foot(store) + script();
+  return html_page(fmt::format("{}: gyrostat report", study.name()),
+                   std::string(uplot_style) + report_style, body);
+}
+
+}  // namespace gyrostat

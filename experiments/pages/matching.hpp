@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <gyrostat/analysis/search/box_search.hpp>
+#include <gyrostat/core/table.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
+#include <gyrostat/experiments/study/study.hpp>
+
+namespace gyrostat {
+
+/// A published number that a scenario should reproduce.
+struct MatchTarget {
+  std::string cell, method;
+  std::size_t metric = 0;
+  double value = 0.0;
+  double tolerance = 1.0;  ///< what counts as one unit of deviation
+};
+
+/// The search for the scenario behind published results, by simulated moments: free scenario
+/// parameters so that the means over trials of stated metrics come near stated values.
+struct Match {
+  std::string title;
+  Json study;  ///< the study as JSON, with paths free to be set in every cell
+  std::string study_path;
+  std::vector<std::pair<std::string, SearchRange>> free;  ///< path within a cell → bounds
+  std::vector<MatchTarget> targets;
+  std::uint32_t trials = 20;
+  int evaluations = 200;
+  int rounds = 2;  ///< each tunes the methods at the scenario found so far, then searches on
+};
+
+struct MatchResult {
+  std::vector<double> values;   ///< of the free parameters
+  std::vector<double> reached;  ///< of the targets, mean over fresh trials
+  std::vector<double> half_widths;
+  std::vector<double> spreads;  ///< standard deviation over trials: what one experiment may show
+  double objective = 0.0;       ///< sum of squared deviations in tolerances
+  Json study;                   ///< the study at the values found, tuned values fixed
+};
+
+Match read_match(const std::string& path);
+
+/// Runs the search. Trials of the final judgement are fresh. Progress goes to `log`.
+MatchResult run_match(const Match& match, std::ostream& log, const std::atomic<bool>& stop);
+
+std::vector<Table> match_tables(const Match& match, const MatchResult& result);
+
+}  // namespace gyrostat

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+
+#include <gyrostat/experiments/run/trial.hpp>
+#include <gyrostat/experiments/run/tuning.hpp>
+
+namespace gyrostat {
+
+/// What came out of a cell. Trials that were not run (after an interrupt) are absent.
+struct CellResult {
+  Calibration calibration;
+  std::vector<TunedMethod> tuned;  ///< one a method, empty values where nothing was to be tuned
+  std::vector<std::optional<Record>> trials;  ///< by trial number
+  std::vector<double> nanoseconds_per_step;   ///< one a method, its metrics included
+
+  std::size_t finished() const;
+};
+
+/// A metric of a method in every finished trial.
+std::vector<double> metric_values(const CellResult& result, std::size_t method, std::size_t metric);
+
+struct RunOptions {
+  int threads = 0;                          ///< 0: as many as the machine has
+  const std::atomic<bool>* stop = nullptr;  ///< once true, running trials finish and no more start
+  std::uint32_t lanes = default_lanes();    ///< trials side by side; changes no byte of the result
+  std::function<void(std::size_t finished)> progress;  ///< called from any thread
+};
+
+/// A cell with its calibration, and with tuned values fixed.
+struct PreparedCell {
+  Cell cell;
+  Calibration calibration;
+  std::vector<TunedMethod> tuned;  ///< one a method, empty values where nothing was to be tuned
+};
+
+/// Calibrates, and tunes where methods ask for it.
+PreparedCell prepare_cell(const Cell& cell, std::uint64_t seed, int threads);
+
+/// Runs those trials of the cell that are `wanted`, on oneTBB, and hands each to `take`, from any
+/// thread. A trial's noise is addressed by its number, so no record depends on the number of
+/// threads. Returns nanoseconds per step of each method, metrics included; NaN where nothing ran.
+std::vector<double> run_trials(const PreparedCell& prepared, std::uint64_t seed,
+                               const RunOptions& options,
+                               const std::function<bool(std::uint32_t trial)>& wanted,
+                               const std::function<void(std::uint32_t trial, Record&&)>& take);
+
+/// Prepares a cell and runs all of its trials; each writes its own slot. Throws what a trial threw.
+CellResult run_cell(const Cell& cell, std::uint64_t seed, const RunOptions& options);
+
+}  // namespace gyrostat

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gyrostat/core/outcome.hpp>
+#include <gyrostat/core/track.hpp>
+#include <gyrostat/experiments/study/study.hpp>
+
+namespace gyrostat {
+
+/// A trial counts as diverged where its bias RMSE is above so many times that of no compensation.
+inline constexpr double divergence_ratio = 3.0;
+
+/// One trial: every method on the same signal.
+struct Record {
+  std::vector<double> numbers{};  ///< of all methods, in the cell's order, as the store has them
+  std::vector<std::string> thrown{};  ///< by method: what it threw; empty where it did not
+  bool calibration_converged = true;
+
+  Outcome of(std::size_t method) const { return TrialOutcomes(numbers, thrown.size())[method]; }
+};
+
+/// Buffers that a thread reuses from trial to trial, and the time that each method took there.
+struct Workspace {
+  Series series;
+  Series denoised;
+  Series calibration_series;
+  Track track;
+  std::vector<double> seconds;  ///< one a method
+  std::vector<double> steps;
+};
+
+/// The signal of trial `trial` of a cell into `series`.
+void make_trial(const Cell& cell, std::uint64_t seed, std::uint32_t trial, Series& series);
+
+/// What the methods' output is judged against: the series, with its rate denoised in `buffer` where
+/// the cell asks for that.
+const Series& judged_series(const Cell& cell, const Series& series, Series& buffer);
+
+/// Runs the method over the series into `track`.
+void track_method(const Method& method, const ParameterMap& told, const Series& series,
+                  Track& track);
+
+/// The numbers of an Outcome: what a track over `series` comes to, judged against `judged`.
+std::vector<double> judge_track(const Series& series, const Series& judged, const Track& track);
+
+/// Noise of signals that the trials of a study never see: for calibration and tuning.
+Noise calibration_noise(std::uint64_t seed, std::uint32_t trial);
+
+/// What the method is told for this signal, before its own overrides.
+ParameterMap told_parameters(const Cell& cell, const Method& method, const Calibration& calibration,
+                             const Series& series);
+
+/// The calibration signal of trial `trial`, of the same scenario under other noise. The calibration
+/// for the whole cell is that of trial 0.
+Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t trial,
+                           Series& buffer);
+
+/// Trials that this machine runs best side by side: as many as its widest registers hold.
+std::uint32_t default_lanes();
+
+/// The numbers of trials that may run side by side.
+inline constexpr std::array<std::uint32_t, 4> possible_lanes = {1, 2, 4, 8};
+
+/// Trials of a cell side by side, each with the bits that it has alone: filters that pack trials
+/// run over all of them at once, where there are kernels for so many and all signals are as long.
+/// `shared` is used unless the cell calibrates each trial. What a method throws is its outcome;
+/// what signal or calibration throw is the outcome of all. Only a lack of memory is thrown on.
+/// Seconds and steps of each method are counted in the first workspace.
+std::vector<Record> run_trials_together(const Cell& cell, const Calibration& shared,
+                                        std::uint64_t seed, std::span<const std::uint32_t> trials,
+                                        std::vector<Workspace>& workspaces);
+
+/// One of them.
+Record run_trial(const Cell& cell, const Calibration& shared, std::uint64_t seed,
+                 std::uint32_t trial, std::vector<Workspace>& workspaces);
+
+}  // namespace gyrostat
