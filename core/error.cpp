@@ -33,6 +33,11 @@ std::size_t distance(std::string_view name, std::string_view candidate) {
 
 }  // namespace
 
+std::string sample_place(std::string_view file, std::size_t first_row, std::size_t index) {
+  return first_row == 0 ? std::string(file) + ": row " + std::to_string(index + 1)
+                        : std::string(file) + ":" + std::to_string(first_row + index);
+}
+
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
   const auto nearest = std::min_element(
       candidates.begin(), candidates.end(),

@@ -16,6 +16,10 @@ class InputError : public std::runtime_error {
                            std::string(problem)) {}
 };
 
+/// Where sample `index` of a file stands: "file:line" where its sample 0 is in line `first_row`,
+/// "file: row n" where the file has no lines (0).
+std::string sample_place(std::string_view file, std::size_t first_row, std::size_t index);
+
 /// The candidate with the smallest edit distance to `name`; empty when there are no candidates.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 

@@ -35,11 +35,6 @@ constexpr double largest_interval_error = 0.1;
 
 bool is_nan(double value) { return std::isnan(value); }
 
-std::string at_sample(std::string_view place, std::size_t first_row, std::ptrdiff_t index) {
-  return first_row == 0 ? fmt::format("{}: row {}", place, index + 1)
-                        : fmt::format("{}:{}", place, first_row + static_cast<std::size_t>(index));
-}
-
 std::string gyro_name(std::string_view axis) {
   return axis.empty() ? "gyro_dps" : fmt::format("gyro_{}_dps", axis);
 }
@@ -94,7 +89,8 @@ struct Source {
   std::string unit() const { return std::string(column.unit ? column.unit->name : channel.unit); }
   std::string name() const { return fmt::format("column '{}'", printable(column.name)); }
   [[noreturn]] void fail(std::ptrdiff_t sample, const std::string& problem) const {
-    throw InputError(at_sample(place, first_row, sample), name() + ": " + problem);
+    throw InputError(sample_place(place, first_row, static_cast<std::size_t>(sample)),
+                     name() + ": " + problem);
   }
 };
 
@@ -242,7 +238,7 @@ void require_uniform(const Series& series, std::string_view place, std::size_t f
   if (first == intervals.end()) return;
   const auto sample = first - intervals.begin() + 1;
   throw InputError(
-      at_sample(place, first_row, sample),
+      sample_place(place, first_row, static_cast<std::size_t>(sample)),
       fmt::format("column 't_s': '{}' comes {:.6g} s after the sample before it; allowed: {:.6g} s,"
                   " the median interval, within {:g} % ({} of {} intervals are not)",
                   t_s[static_cast<std::size_t>(sample)], *first, *middle,

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/normal.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <ceres/jet.h>
 
 #include <gyrostat/analysis/fits/arima_innovations.hpp>
 #include <gyrostat/analysis/fits/arima_likelihood.hpp>
+#include <gyrostat/analysis/statistics/distributions.hpp>
 
 namespace gyrostat {
 namespace {
@@ -216,7 +216,7 @@ double ArimaIntervals::end(Parameter parameter, double limit, double reach) cons
 }
 
 double ArimaIntervals::reach(double confidence) const {
-  const double normal = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
+  const double normal = normal_quantile(0.5 + 0.5 * confidence);
   return std::max(normal, 1.001 * std::sqrt(std::max(0.0, needed_)));
 }
 

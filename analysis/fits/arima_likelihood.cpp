@@ -8,10 +8,10 @@
 #include <vector>
 
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <ceres/ceres.h>
 
 #include <gyrostat/analysis/fits/arima_innovations.hpp>
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/core/error.hpp>
 
 namespace gyrostat {
@@ -273,9 +273,8 @@ ArimaFit fit_arima_likelihood(std::span<const double> rate_dps) {
   if (is_identified(whole)) return whole;
   for (const auto& variant : simpler) {
     const ArimaFit fit = descend(rate_dps, variant);
-    const boost::math::chi_squared chance(variant.held());
     const double loss = 2.0 * (whole.objective - fit.objective);
-    if (fit.converged && is_identified(fit) && loss < boost::math::quantile(chance, 0.95))
+    if (fit.converged && is_identified(fit) && loss < chi_squared_quantile(0.95, variant.held()))
       return fit;
   }
   return whole;

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <ceres/ceres.h>
 
 #include <gyrostat/analysis/spectra/allan.hpp>
 #include <gyrostat/analysis/spectra/arima_haar.hpp>
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/numerics/linear.hpp>
 #include <gyrostat/core/random.hpp>
@@ -216,7 +216,7 @@ ArimaFit fit_arima_moments(std::span<const double> rate_dps) {
     }
 
   const auto quantile_of = [](double degrees) {
-    return quantile(boost::math::chi_squared(degrees), significance);
+    return chi_squared_quantile(significance, degrees);
   };
   const bool is_walk = walk_misfit - misfit < quantile_of(2.0);
   if (is_walk) best = walk;

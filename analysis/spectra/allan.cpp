@@ -6,8 +6,7 @@
 #include <numeric>
 #include <string>
 
-#include <boost/math/distributions/chi_squared.hpp>
-
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/core/error.hpp>
 
 namespace gyrostat {
@@ -161,9 +160,8 @@ std::vector<AllanPoint> overlapping_allan_deviation(std::span<const double> rate
     const double power_law_edf = equivalent_degrees_of_freedom(alpha, n, m);
     const bool is_told = n >= enough_clusters * m && deviation > 0.0;
     const double edf = is_told ? degrees_of_freedom_of(differences, m) : power_law_edf;
-    const boost::math::chi_squared chi_squared(edf);
     const auto bound = [&](double probability) {
-      return deviation * std::sqrt(edf / quantile(chi_squared, probability));
+      return deviation * std::sqrt(edf / chi_squared_quantile(probability, edf));
     };
     points.push_back({length / rate_hz, deviation, bound(0.5 + confidence / 2.0),
                       bound(0.5 - confidence / 2.0), edf, m, power_law_edf});
@@ -201,8 +199,7 @@ std::vector<double> without_spikes(std::span<const double> rate) {
 std::vector<double> robust_allan_variances(std::span<const double> rate,
                                            std::span<const std::size_t> clusters) {
   constexpr double cut = 16.0;
-  const double expected = cdf(boost::math::chi_squared(3), cut) +
-                          cut * cdf(complement(boost::math::chi_squared(1), cut));
+  const double expected = chi_squared_cdf(cut, 3) + cut * chi_squared_upper_tail(cut, 1);
   const auto phase = phase_of(rate, clusters);
   std::vector<double> variances;
   for (const std::size_t m : clusters) {

@@ -12,11 +12,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/special_functions/digamma.hpp>
-#include <boost/math/special_functions/trigamma.hpp>
 #include <boost/math/tools/roots.hpp>
 
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/numerics/linear.hpp>
 
@@ -234,8 +232,8 @@ class Fit {
           gains_.col(j).array() * (rest + 3.0 * squares[0] / points_[j].tau_s);
       const double edf =
           points_[j].power_law_edf * measure.dot(as_white.square().matrix()) / product(j, j);
-      target_[j] = log_variance_[j] - boost::math::digamma(0.5 * edf) + std::log(0.5 * edf);
-      scale[j] = std::sqrt(boost::math::trigamma(0.5 * edf) / product(j, j));
+      target_[j] = log_variance_[j] - digamma(0.5 * edf) + std::log(0.5 * edf);
+      scale[j] = std::sqrt(trigamma(0.5 * edf) / product(j, j));
     }
     const Eigen::MatrixXd covariance = scale.asDiagonal() * product * scale.asDiagonal();
     whitener_ = covariance.llt().matrixL().solve(Eigen::MatrixXd::Identity(size(), size()));
@@ -259,8 +257,7 @@ int degrees_of_freedom(const Fit& fit) {
 
 bool adequate(const Fit& fit) {
   const int degrees = degrees_of_freedom(fit);
-  return degrees < 1 ||
-         fit.best().chi_square <= quantile(boost::math::chi_squared(degrees), adequacy);
+  return degrees < 1 || fit.best().chi_square <= chi_squared_quantile(adequacy, degrees);
 }
 
 Solution most_plausible(const Fit& fit) {

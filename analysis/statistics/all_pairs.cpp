@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/students_t.hpp>
 
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
@@ -58,8 +58,7 @@ bool AllPairs::another_pass() {
     const double error = pair.error();
     alike += error <= too_alike * widest && error > rounding * (widest + std::abs(pair.mean));
   }
-  const boost::math::students_t t(trials - 1.0);
-  const double tail = boost::math::cdf(boost::math::complement(t, most[draws - beyond]));
+  const double tail = student_t_upper_tail(most[draws - beyond], trials - 1.0);
   comparisons_ = std::clamp(0.025 / tail + looks_ * alike, looks_, comparisons_);
   return false;
 }

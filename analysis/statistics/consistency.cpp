@@ -2,25 +2,20 @@
 
 #include <cmath>
 
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/normal.hpp>
-
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/analysis/statistics/skewed_mean.hpp>
 
 namespace gyrostat {
 
-using boost::math::complement;
-using boost::math::quantile;
-
 Acceptance mean_square_bounds(double degrees, double alpha) {
   if (!(degrees > 0.0)) return {};
-  const boost::math::chi_squared chi(degrees);
-  return {quantile(chi, alpha / 2.0) / degrees, quantile(complement(chi, alpha / 2.0)) / degrees};
+  return {chi_squared_quantile(alpha / 2.0, degrees) / degrees,
+          chi_squared_upper_quantile(alpha / 2.0, degrees) / degrees};
 }
 
 Acceptance chi_squared_bound(double degrees, double alpha) {
   if (!(degrees > 0.0)) return {};
-  return {0.0, quantile(complement(boost::math::chi_squared(degrees), alpha))};
+  return {0.0, chi_squared_upper_quantile(alpha, degrees)};
 }
 
 Acceptance trial_mean_bounds(const Running& over_trials, double expected, double alpha) {
@@ -31,7 +26,7 @@ Acceptance trial_mean_bounds(const Running& over_trials, double expected, double
 
 Acceptance correlation_bounds(double count, double alpha) {
   if (!(count > 0.0)) return {};
-  const double bound = quantile(complement(boost::math::normal(), alpha / 2.0)) / std::sqrt(count);
+  const double bound = normal_upper_quantile(alpha / 2.0) / std::sqrt(count);
   return {-bound, bound};
 }
 

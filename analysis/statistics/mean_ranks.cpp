@@ -1,3 +1,4 @@
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/analysis/statistics/mean_ranks.hpp>
 
 #include <algorithm>
@@ -5,7 +6,6 @@
 #include <numbers>
 #include <numeric>
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/tools/roots.hpp>
 
 namespace gyrostat {
@@ -75,8 +75,7 @@ double RankStatistics::friedman_p() const {
   for (const double sum : sums_) between += (sum - middle) * (sum - middle);
   const double within = all_squares_ - n * k * (k + 1.0) * (k + 1.0) / 4.0;
   if (!(within > 0.0)) return 1.0;  // every trial is one tie
-  const boost::math::chi_squared chi(k - 1.0);
-  return boost::math::cdf(boost::math::complement(chi, (k - 1.0) * between / within));
+  return chi_squared_upper_tail((k - 1.0) * between / within, k - 1.0);
 }
 
 }  // namespace gyrostat

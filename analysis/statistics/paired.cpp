@@ -4,8 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include <boost/math/distributions/normal.hpp>
-
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/analysis/statistics/skewed_mean.hpp>
 
 namespace gyrostat {
@@ -31,9 +30,7 @@ PairedDifference paired_difference(const Running& differences, double family) {
                       : result.mean == 0.0 ? 1.0
                                            : 0.0;
   if (result.mean != 0.0) {
-    const boost::math::normal normal;
-    const double errors = boost::math::quantile(boost::math::complement(normal, tail)) +
-                          boost::math::quantile(normal, 0.8);
+    const double errors = normal_upper_quantile(tail) + normal_quantile(0.8);
     const double ratio = errors * error * std::sqrt(n) / result.mean;
     result.trials_needed = std::max(2.0, std::ceil(ratio * ratio));
   }

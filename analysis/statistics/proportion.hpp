@@ -3,13 +3,13 @@
 #include <cmath>
 #include <utility>
 
-#include <boost/math/distributions/normal.hpp>
+#include <gyrostat/analysis/statistics/distributions.hpp>
 
 namespace gyrostat {
 
 /// Confidence interval of a probability after `hits` of `count` > 0 trials (Wilson, JASA 22, 1927).
 inline std::pair<double, double> wilson_interval(double hits, double count, double confidence) {
-  const double z = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
+  const double z = normal_quantile(0.5 + 0.5 * confidence);
   const double p = hits / count;
   const double centre = (p + z * z / (2.0 * count)) / (1.0 + z * z / count);
   const double half =

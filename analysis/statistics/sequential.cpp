@@ -1,9 +1,9 @@
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/analysis/statistics/sequential.hpp>
 
 #include <cmath>
 #include <numbers>
 
-#include <boost/math/distributions/normal.hpp>
 #include <boost/math/tools/roots.hpp>
 
 namespace gyrostat {
@@ -56,8 +56,7 @@ std::vector<std::uint32_t> look_counts(std::uint32_t first, std::uint32_t last) 
 std::vector<double> sequential_bounds(std::span<const std::uint32_t> counts, double alpha) {
   std::vector<double> bounds;
   if (counts.empty()) return bounds;
-  bounds.push_back(
-      boost::math::quantile(boost::math::complement(boost::math::normal(), alpha / 4.0)));
+  bounds.push_back(normal_upper_quantile(alpha / 4.0));
   Continuing going(bounds[0], normal_density);
   for (std::size_t k = 1; k < counts.size(); ++k) {
     const double spent = alpha / static_cast<double>((k + 1) * (k + 2));

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include <boost/math/distributions/students_t.hpp>
-
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/analysis/statistics/running.hpp>
 
 namespace gyrostat {
@@ -30,8 +29,7 @@ class HallTransformation {
 /// How far below and above the mean of n > 1 values its interval by Hall's transformation ends; the
 /// truth lies beyond each end with probability `tail`. Student's own where values are not skewed.
 inline std::pair<double, double> skewed_mean_reach(const Running& values, double tail) {
-  const boost::math::students_t t(values.count - 1.0);
-  const double z = boost::math::quantile(boost::math::complement(t, tail));
+  const double z = student_t_upper_quantile(tail, values.count - 1.0);
   const HallTransformation hall(values.skewness(), values.count);
   return {values.error() * hall.statistic(z), -values.error() * hall.statistic(-z)};
 }
@@ -45,10 +43,9 @@ inline std::pair<double, double> skewed_mean_interval(const Running& values, dou
 /// Probability of a mean that far from 0 were it 0, two-sided: twice the `tail` of the interval
 /// that ends at 0.
 inline double skewed_mean_p(const Running& values) {
-  const boost::math::students_t t(values.count - 1.0);
   const HallTransformation hall(values.skewness(), values.count);
   const double student = hall.student(values.mean / values.error());
-  return 2.0 * boost::math::cdf(boost::math::complement(t, std::abs(student)));
+  return 2.0 * student_t_upper_tail(std::abs(student), values.count - 1.0);
 }
 
 }  // namespace gyrostat

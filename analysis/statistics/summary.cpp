@@ -4,8 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include <boost/math/distributions/students_t.hpp>
-
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/analysis/statistics/skewed_mean.hpp>
 
 namespace gyrostat {
@@ -20,11 +19,6 @@ double quantile(std::span<const double> sorted, double p) {
 }
 
 }  // namespace
-
-double student_t_quantile(double confidence, double degrees_of_freedom) {
-  const boost::math::students_t t(degrees_of_freedom);
-  return boost::math::quantile(t, 0.5 + confidence / 2.0);
-}
 
 double half_width_95(const Running& values) {
   if (values.count < 2.0) return no_value;

@@ -25,9 +25,6 @@ struct Summary {
 /// beyond the order of summation.
 Summary summarise(std::span<const double> values);
 
-/// Two-sided critical value of Student's t with `degrees_of_freedom` >= 1.
-double student_t_quantile(double confidence, double degrees_of_freedom);
-
 /// Distance from the mean of the farther end of its 95 % interval (`skewed_mean_reach`): ± as
 /// much is right at both ends, one-sided. No value for fewer than two values.
 double half_width_95(const Running& values);

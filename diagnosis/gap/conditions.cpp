@@ -234,7 +234,7 @@ std::vector<double> Conditions::slow_means(const std::vector<double>& values) co
   return means;
 }
 
-Series on_grid(const Series& series, std::string_view place) {
+Series on_grid(const Series& series, std::string_view place, std::size_t first_row) {
   const std::size_t n = series.size();
   std::vector<double> intervals;
   for (std::size_t i = 1; i < n; ++i) intervals.push_back(series.t_s[i] - series.t_s[i - 1]);
@@ -249,7 +249,7 @@ Series on_grid(const Series& series, std::string_view place) {
     const double whole = std::round(steps);
     if (whole < 1.0 || std::abs(steps - whole) > 0.3)
       throw InputError(
-          std::string(place) + " line " + std::to_string(i + 2),
+          sample_place(place, first_row, i),
           "t_s = " + std::to_string(series.t_s[i]) + " s: sampled unevenly, " +
               std::to_string(steps) + " intervals of " + std::to_string(step) +
               " s after the sample before it; a whole number, give or take 0.3, is allowed");

@@ -1,3 +1,4 @@
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/diagnosis/gap/ensemble.hpp>
 
 #include <algorithm>
@@ -5,7 +6,6 @@
 #include <numbers>
 
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/normal.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -148,15 +148,14 @@ std::vector<Departure> Ensemble::departures(const Eigen::VectorXd& readings, dou
   const Eigen::VectorXd z = deviations(readings);
   std::vector<Departure> found;
   const double n = static_cast<double>(replica_largest_.size());
-  const boost::math::normal normal;
   for (Eigen::Index i = 0; i < z.size(); ++i) {
     const double size = std::abs(z[i]);
     const auto beyond = replica_largest_.end() -
                         std::lower_bound(replica_largest_.begin(), replica_largest_.end(), size);
     double p = (static_cast<double>(beyond) + 1.0) / (n + 1.0);
     if (beyond == 0)
-      p = std::max(1e-300, std::min(p, 2.0 * static_cast<double>(z.size()) *
-                                           boost::math::cdf(complement(normal, size))));
+      p = std::max(1e-300,
+                   std::min(p, 2.0 * static_cast<double>(z.size()) * normal_upper_tail(size)));
     if (p <= level) found.push_back({i, z[i], p});
   }
   return found;

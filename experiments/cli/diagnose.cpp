@@ -38,7 +38,7 @@ int run(DiagnoseArguments& arguments, Console& console) {
   for (const auto& out : {arguments.json_out, arguments.html_out, arguments.scenario_out})
     if (!out.empty()) require_writable(out, file);
   const auto read = arguments.recording.read_all(console.log);
-  const Series series = cut(gap::on_grid(read.series, file), arguments.span.from_s,
+  const Series series = cut(gap::on_grid(read.series, file, read.first_row), arguments.span.from_s,
                             arguments.span.to_s, file + ": --from, --to");
   const auto diagnosis = about(file, [&] {
     return gap::diagnose(series, arguments.options, [&](const std::string& what, double share) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -94,7 +95,11 @@ struct RecordingOption {
   Series read(std::ostream& log, const SpanOption& span = {}) const {
     const auto recording = read_all(log);
     Series series = cut(recording.series, span.from_s, span.to_s, file + ": --from, --to");
-    require_uniform(series, file, recording.first_row);
+    const auto& t_s = recording.series.t_s;
+    const auto before = std::lower_bound(t_s.begin(), t_s.end(), series.t_s.front()) - t_s.begin();
+    const auto first_row =
+        recording.first_row == 0 ? 0 : recording.first_row + static_cast<std::size_t>(before);
+    require_uniform(series, file, first_row);
     return series;
   }
 

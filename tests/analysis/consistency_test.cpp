@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/analysis/statistics/summary.hpp>
 #include <gyrostat/core/random.hpp>
 
@@ -33,7 +34,7 @@ TEST(TrialMeanBounds, AreStudentsOwnWithoutSkewness) {
   Running running;
   for (const double v : {-2.0, -1.0, 0.0, 1.0, 2.0}) running.add(v);
   const auto bounds = trial_mean_bounds(running, 1.0, 0.05);
-  const double half_width = student_t_quantile(0.95, 4.0) * std::sqrt(2.5 / 5.0);
+  const double half_width = student_t_two_sided(0.95, 4.0) * std::sqrt(2.5 / 5.0);
   EXPECT_NEAR(bounds.high - 1.0, half_width, 1e-6);
   EXPECT_NEAR(1.0 - bounds.low, half_width, 1e-6);
 }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/analysis/statistics/skewed_mean.hpp>
 #include <gyrostat/analysis/statistics/summary.hpp>
 #include <gyrostat/core/random.hpp>
@@ -87,21 +88,21 @@ TEST(Summary, DoesNotDependOnTheOrder) {
 
 /// Abramowitz and Stegun (1964), table 26.10, two-sided.
 TEST(StudentT, QuantilesAreThoseOfTheTables) {
-  EXPECT_NEAR(student_t_quantile(0.95, 1), 12.706, 5e-4);
-  EXPECT_NEAR(student_t_quantile(0.95, 2), 4.303, 5e-4);
-  EXPECT_NEAR(student_t_quantile(0.95, 10), 2.228, 5e-4);
-  EXPECT_NEAR(student_t_quantile(0.95, 30), 2.042, 5e-4);
-  EXPECT_NEAR(student_t_quantile(0.95, 120), 1.980, 5e-4);
-  EXPECT_NEAR(student_t_quantile(0.99, 5), 4.032, 5e-4);
-  EXPECT_NEAR(student_t_quantile(0.95, 1e9), 1.959964, 1e-6);
+  EXPECT_NEAR(student_t_two_sided(0.95, 1), 12.706, 5e-4);
+  EXPECT_NEAR(student_t_two_sided(0.95, 2), 4.303, 5e-4);
+  EXPECT_NEAR(student_t_two_sided(0.95, 10), 2.228, 5e-4);
+  EXPECT_NEAR(student_t_two_sided(0.95, 30), 2.042, 5e-4);
+  EXPECT_NEAR(student_t_two_sided(0.95, 120), 1.980, 5e-4);
+  EXPECT_NEAR(student_t_two_sided(0.99, 5), 4.032, 5e-4);
+  EXPECT_NEAR(student_t_two_sided(0.95, 1e9), 1.959964, 1e-6);
 }
 
 /// One degree of freedom is Cauchy's distribution, two have a closed form too.
 TEST(StudentT, QuantilesOfOneAndTwoDegreesAreAnalytic) {
   for (const double confidence : {0.5, 0.9, 0.95, 0.99}) {
-    EXPECT_NEAR(student_t_quantile(confidence, 1), std::tan(0.5 * std::numbers::pi * confidence),
+    EXPECT_NEAR(student_t_two_sided(confidence, 1), std::tan(0.5 * std::numbers::pi * confidence),
                 1e-9);
-    EXPECT_NEAR(student_t_quantile(confidence, 2),
+    EXPECT_NEAR(student_t_two_sided(confidence, 2),
                 confidence * std::sqrt(2.0 / (1.0 - confidence * confidence)), 1e-10);
   }
 }
@@ -135,8 +136,8 @@ TEST(SkewedMean, ItsIntervalEndsAtZeroWhereItsProbabilityIsTwiceTheTail) {
 TEST(SkewedMean, IsStudentsWhereNothingIsSkewed) {
   const Running values{.count = 50.0, .mean = 1.0, .squares = 60.0, .cubes = 0.0};
   const auto [low, high] = skewed_mean_interval(values, 0.025);
-  EXPECT_NEAR(high - 1.0, student_t_quantile(0.95, 49.0) * values.error(), 1e-12);
-  EXPECT_NEAR(1.0 - low, student_t_quantile(0.95, 49.0) * values.error(), 1e-12);
+  EXPECT_NEAR(high - 1.0, student_t_two_sided(0.95, 49.0) * values.error(), 1e-12);
+  EXPECT_NEAR(1.0 - low, student_t_two_sided(0.95, 49.0) * values.error(), 1e-12);
 }
 
 // Covered or not is binomial; at 5 standard errors each check fails falsely at 6e-7.

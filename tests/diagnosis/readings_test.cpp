@@ -161,12 +161,17 @@ TEST(OnGrid, TimesBetweenTheGridAreRefusedWithTheirLine) {
     s.t_s.push_back(t);
     s.gyro_dps.push_back(t);
   }
-  try {
-    on_grid(s, "x.csv");
-    FAIL();
-  } catch (const InputError& mistake) {
-    EXPECT_THAT(mistake.what(), testing::HasSubstr("x.csv line 5"));
-  }
+  const auto message = [&](std::size_t first_row) -> std::string {
+    try {
+      on_grid(s, "x.csv", first_row);
+    } catch (const InputError& mistake) {
+      return mistake.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(message(2), testing::StartsWith("x.csv:5: "));
+  EXPECT_THAT(message(9), testing::StartsWith("x.csv:12: "));
+  EXPECT_THAT(message(0), testing::StartsWith("x.csv: row 4: "));
 }
 
 // Newcombe, Statistics in Medicine 17, 1998, table I: 81 of 263 gives 0.2553 to 0.3662.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/experiments/findings/report/cell_charts.hpp>
 
 namespace gyrostat {
@@ -58,7 +59,7 @@ Chart allan_chart(const CellView& v, const Replayed& r) {
     for (std::size_t i = 0; i < r.tau_s.size(); ++i) {
       const double variance = method.allan_variance[i], error = method.allan_error[i];
       const double half =
-          r.trials > 1 ? student_t_quantile(0.95, r.trials - 1.0) * error : no_value;
+          r.trials > 1 ? student_t_two_sided(0.95, r.trials - 1.0) * error : no_value;
       line.y.push_back(std::sqrt(variance));
       line.y_low.push_back(std::sqrt(std::max(variance - half, 0.05 * variance)));
       line.y_high.push_back(std::sqrt(variance + half));

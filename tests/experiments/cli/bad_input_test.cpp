@@ -123,6 +123,15 @@ TEST(BadInput, TimeGoingBackwardsIsNamedByLine) {
   expect_recording_refused(with_line(5, "0.02,1"), {"rec.csv:5", "'t_s'", "'0.02'"});
 }
 
+/// The line is the file's own, whatever stands above the samples and from where on they are read.
+TEST(BadInput, UnevenSamplingIsNamedByTheLineOfTheFile) {
+  const TestFolder folder;
+  folder.write("rec.csv", "# a logger\n# of somebody\n\n" + with_line(505, "5.0355,0.1"));
+  expect_refused(folder, {"diagnose", "rec.csv"}, {"rec.csv:508: ", "5.03"});
+  expect_refused(folder, {"fit", "rec.csv"}, {"rec.csv:508: ", "5.0355"});
+  expect_refused(folder, {"fit", "rec.csv", "--from", "2"}, {"rec.csv:508: ", "5.0355"});
+}
+
 TEST(BadInput, UnevenSamplingIsNamedByLineAndInterval) {
   expect_recording_refused(with_line(5, "0.037,1"),
                            {"rec.csv:5", "'t_s'", "'0.037'", "0.017 s", "0.01 s"});
