@@ -57,8 +57,14 @@ def example(kind, entry):
     return None
 
 
+def header_of(folder, stem):
+    """The plug-in's header; that of its family where it is a member, as pit_3 of pit."""
+    header = f"{folder}/{stem}.hpp"
+    return header if (ROOT / header).exists() else f"{folder}/{stem.rpartition('_')[0]}.hpp"
+
+
 def page(kind, one, folder, entry):
-    header = f"{folder}/{entry['id']}.hpp"
+    header = header_of(folder, entry["id"])
     facts = [f"{one}", f"[`{header}`](../../../{header})"]
     if entry.get("stage"):
         facts.append(f"acts at the stage *{entry['stage']}*")
@@ -67,7 +73,7 @@ def page(kind, one, folder, entry):
     if "unit" in entry and entry["unit"] not in ("", "1"):
         facts.append(f"in {entry['unit']}")
     lines = [f"# {entry['id']}", "", entry["title"][:1].upper() + entry["title"][1:] + ".", "",
-             " · ".join(facts), "", docstring(ROOT / header, entry["id"]), ""]
+             " · ".join(facts), "", docstring(ROOT / header, Path(header).stem), ""]
     if entry["parameters"]:
         lines += ["| parameter | unit | range | default | meaning |", "| --- | --- | --- | ---: | --- |"]
         for p in entry["parameters"]:
