@@ -1,6 +1,6 @@
 #include <gyrostat/experiments/blind/blind_check.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
-#include <gyrostat/experiments/study/study.hpp>
+#include <gyrostat/experiments/study/scenario_reading.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -43,13 +43,15 @@ BlindCheck read_blind_check(const std::string& path) {
   for (const auto& [value, place] : object.list("durations_s"))
     durations_s.push_back(JsonObject::checked_number(*value, place, ranges::positive, "s"));
 
+  FittedRecordings fits;
   std::vector<std::pair<std::string, BlindCase>> bare;
   if (!object.has("scenarios")) throw InputError(path, "\"scenarios\" is missing");
   for (const auto& [name, value] : json.at("scenarios").items()) {
     const std::string place = fmt::format("{}: scenarios.{}", path, name);
-    BlindCase c{.effects = {},
-                .strength = "",
-                .scenario = read_scenario({value, place}, fs::path(path).parent_path().string())};
+    BlindCase c{
+        .effects = {},
+        .strength = "",
+        .scenario = read_scenario({value, place}, fs::path(path).parent_path().string(), fits)};
     c.has_motion = value.contains("motion");
     bare.emplace_back(name, c);
     check.cases.push_back(c);

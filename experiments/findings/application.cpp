@@ -117,7 +117,7 @@ void apply_methods(const std::vector<Method>& methods, const Series& series, std
   }
   std::vector<std::string> left_out;
   for (const auto& method : methods) {
-    const auto& filter = method.type(method.id);
+    const auto& filter = method.type();
     const auto missing = missing_channels(filter.needs, series);
     if (!missing.empty()) {
       left_out.push_back(

@@ -49,7 +49,7 @@ void track_together(const Method& method, std::span<const ParameterMap> told,
   std::vector<double> parameters;
   std::vector<Lane> io;
   for (std::size_t l = 0; l < lanes; ++l) {
-    const auto values = field_values(method.type(method.id), told[l], method.overrides);
+    const auto values = field_values(method.type(), told[l], method.overrides);
     parameters.resize(values.size() * lanes);
     for (std::size_t f = 0; f < values.size(); ++f) parameters[f * lanes + l] = values[f];
     io.push_back(lane_of(workspaces[l].series, workspaces[l].track));

@@ -44,7 +44,7 @@ const Series& judged_series(const Cell& cell, const Series& series, Series& buff
 
 void track_method(const Method& method, const ParameterMap& told, const Series& series,
                   Track& track) {
-  run_filter(method.type(method.id), told, method.overrides, series, track);
+  run_filter(method.type(), told, method.overrides, series, track);
 }
 
 std::vector<double> judge_track(const Series& series, const Series& judged, const Track& track) {

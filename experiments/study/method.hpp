@@ -21,9 +21,10 @@ struct Method {
   std::map<std::string, SearchRange> tune;  ///< parameters to be tuned, with their bounds
 
   /// Of its filter; throws InputError at `place` where there is none of that name.
-  const FilterType& type(std::string_view place = "filter") const {
+  const FilterType& type(std::string_view place) const {
     return filter_types().named(filter, place);
   }
+  const FilterType& type() const { return type(id); }
   const Role& role() const { return type().role; }
 };
 

@@ -85,7 +85,4 @@ Study read_study(const std::string& path);
 /// `mistakes` are those already known.
 Study parse_study(const Json& json, const std::string& path, Mistakes mistakes = {});
 
-/// A scenario from its JSON, as a study's "scenario" has it.
-Scenario read_scenario(JsonObject object, const std::string& folder);
-
 }  // namespace gyrostat

@@ -7,17 +7,16 @@
 #include <string>
 #include <thread>
 
-#include <gyrostat/experiments/cli/verbs.hpp>
+namespace gyrostat {
 
-namespace gyrostat::cli {
-
-/// One flag for all that ends a run in good order: Ctrl-C, an hour of the day, too many failures.
+/// One flag for all that ends a run in good order: an interrupt, an hour of the day, too many
+/// failures.
 class Stopper {
  public:
-  Stopper(const Console& console, std::optional<std::time_t> until)
-      : watch_([this, &console, until](const std::stop_token& end) {
+  explicit Stopper(const std::atomic<bool>& interrupt, std::optional<std::time_t> until = {})
+      : watch_([this, &interrupt, until](const std::stop_token& end) {
           while (!end.stop_requested() && !stop_) {
-            if (console.stop)
+            if (interrupt)
               stop("stopped early");
             else if (until && std::time(nullptr) >= *until)
               stop("stopped at the hour that was set");
@@ -41,4 +40,4 @@ class Stopper {
   std::jthread watch_;
 };
 
-}  // namespace gyrostat::cli
+}  // namespace gyrostat

@@ -1,0 +1,69 @@
+#include <gyrostat/experiments/findings/run_tables.hpp>
+
+#include <fmt/format.h>
+
+#include <gyrostat/experiments/findings/error_tables.hpp>
+#include <gyrostat/experiments/findings/ranking.hpp>
+#include <gyrostat/experiments/findings/sensitivity.hpp>
+#include <gyrostat/experiments/run/outcome_file.hpp>
+#include <gyrostat/recordings/atomic_file.hpp>
+#include <gyrostat/results/render/render.hpp>
+
+namespace gyrostat {
+namespace {
+
+void add_cell(const Cell& cell, const Store& store, const RanCell& ran, RunTables& all) {
+  const TrialSource trials = [&](const auto& visit) {
+    store.for_each_trial(ran.index, cell.trials, [&](const Store::TrialView& trial) {
+      visit(trial.calibrated, trial.outcomes);
+    });
+  };
+  const auto summary = summarise_cell(cell, trials);
+  if (cell.needs_calibration())
+    all.tables.push_back(calibration_table(cell, ran.prepared.calibration, summary));
+  if (auto tuning = tuning_table(cell, ran.prepared.tuned); !tuning.rows.empty())
+    all.tables.push_back(std::move(tuning));
+  auto errors = error_tables(cell, summary);
+  if (ran.stopped_by)
+    errors.front().notes.push_back(
+        fmt::format("stopped by its rule after {} trials: {}", cell.trials, *ran.stopped_by));
+  for (auto& table : errors) all.tables.push_back(std::move(table));
+  if (cell.methods.size() > 1) all.tables.push_back(ranking_table(rank_cell(cell, trials)));
+  if (!ran.nanoseconds_per_step.empty())
+    all.timings.push_back(timing_table(cell, ran.nanoseconds_per_step));
+}
+
+void add_designs(Study study, const Store& store, RunTables& all) {
+  std::erase_if(study.designs, [](const Design& design) { return !design.is_sampled(); });
+  if (study.designs.empty()) return;
+  const auto found = sensitivities(study, store);
+  for (auto& table : sensitivity_tables(found, study)) all.tables.push_back(std::move(table));
+  all.points = point_tables(found, study);
+}
+
+}  // namespace
+
+std::vector<Table> RunTables::with_points(std::size_t most) const {
+  auto all = tables;
+  for (const auto& table : points)
+    if (table.rows.size() <= most) all.push_back(table);
+  return all;
+}
+
+RunTables run_tables(const Study& study, const Store& store, const std::vector<RanCell>& ran) {
+  RunTables all;
+  for (const auto& cell : ran) add_cell(study.cells[cell.index], store, cell, all);
+  add_designs(study, store, all);
+  return all;
+}
+
+void write_results(const std::filesystem::path& folder, const Store& store,
+                   const RunTables& tables) {
+  constexpr std::size_t most_rows = 1000000;
+  const auto all = tables.with_points(most_rows);
+  write_outcomes(folder / "outcomes.csv.gz", store);
+  write_atomically(folder / "tables.json", render(all, Format::json));
+  write_atomically(folder / "tables.md", render(all, Format::markdown));
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,97 @@
+#include <gyrostat/experiments/study/scenario_reading.hpp>
+
+#include <gyrostat/generators/environment/temperature/quiet_room.hpp>
+#include <gyrostat/generators/environment/temperature/recorded.hpp>
+
+namespace gyrostat {
+namespace {
+
+/// A plug-in chosen by the text under `chooser`, its parameters under the other keys.
+template <class Chosen>
+Chosen read_plugin(JsonObject object, const std::string& chooser) {
+  using Type = std::remove_cvref_t<decltype(std::declval<Chosen>().type())>;
+  const auto id = object.required_text(chooser);
+  Chosen chosen(Registry<Type>::all().named(id, object.place_of(chooser)));
+  object.fields(chosen);
+  object.finish();
+  return chosen;
+}
+
+Compass read_compass(JsonObject object) {
+  Compass compass;
+  object.fields(compass);
+  for (const auto& entry : object.list("disturbances"))
+    object.attempt([&] {
+      JsonObject disturbance = object.at(*entry.first, entry.second);
+      disturbance.fields(compass.disturbances.emplace_back());
+      disturbance.finish();
+    });
+  object.finish();
+  return compass;
+}
+
+/// Sets random error, thermal drift, rate and temperature from a fit to a recording.
+void read_recorded(JsonObject object, const std::string& folder, FittedRecordings& fits,
+                   Scenario& scenario) {
+  const RecordingSource source(object, folder);
+  const double from_s = object.number("from_s", 0.0, ranges::non_negative, "s");
+  const double to_s = object.number("to_s", 1e12, ranges::positive, "s");
+  const auto method = object.named("fit", "likelihood", fit_method_named);
+  object.finish();
+
+  const auto& [span, fit] = fits.of(source, from_s, to_s, method, object.place());
+  if (!fit.random_error.converged)
+    throw InputError(object.place(), "the fit to the recording " + fit.random_error.message);
+  scenario.random_error = fit.random_error.parameters;
+  scenario.sampling.rate_hz = span->rate_hz();
+  scenario.thermal_drift = {};
+  if (fit.thermal) {
+    scenario.thermal_drift = fit.thermal->parameters;
+    scenario.temperature = temperature::Recorded{span};
+  } else {
+    scenario.thermal_drift.c_dps = fit.mean_dps;
+    scenario.temperature = temperature::QuietRoom{.start_C = 25.0, .end_C = 25.0};
+  }
+}
+
+}  // namespace
+
+Scenario read_scenario(JsonObject object, const std::string& folder, FittedRecordings& fits) {
+  Scenario scenario;
+  const bool recording_read = object.with_child("from_recording", [&](JsonObject& recorded) {
+    read_recorded(recorded, folder, fits, scenario);
+  });
+  object.fields(scenario.sampling);
+  const auto nested = [&](const std::string& key, auto& parameters) {
+    object.with_child(key, [&](JsonObject& child) {
+      child.fields(parameters);
+      child.finish();
+    });
+  };
+  nested("random_error", scenario.random_error);
+  nested("thermal_drift", scenario.thermal_drift);
+  object.with_child("temperature", [&](JsonObject& temperature) {
+    if (temperature.text("profile", "") != "recorded")
+      scenario.temperature = read_plugin<Temperature>(temperature, "profile");
+    else if (recording_read && !scenario.temperature.as<temperature::Recorded>())
+      throw InputError(temperature.place(),
+                       "'recorded' needs a \"from_recording\" with temperature in this scenario");
+  });
+  object.with_child("motion", [&](JsonObject& motion) {
+    scenario.motion = read_plugin<Motion>(motion, "profile");
+  });
+  object.with_child("acceleration", [&](JsonObject& acceleration) {
+    scenario.acceleration = read_plugin<Acceleration>(acceleration, "profile");
+  });
+  object.with_child("compass",
+                    [&](JsonObject& compass) { scenario.compass = read_compass(compass); });
+  for (const auto& entry : object.list("effects"))
+    object.attempt([&] {
+      scenario.effects.push_back(
+          read_plugin<Effect>(object.at(*entry.first, entry.second), "effect"));
+    });
+  object.finish();
+  return scenario;
+}
+
+}  // namespace gyrostat
