@@ -6,12 +6,14 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/model_fit.hpp>
 
 namespace gyrostat::gap {
 namespace {
 
 constexpr std::size_t screening_replicas = 8;
+constexpr int fit_iterations = 3;
 
 bool same_walk(const Arima111<double>& a, const Arima111<double>& b) {
   return a.phi == b.phi && a.delta1_dps == b.delta1_dps && a.delta2_dps == b.delta2_dps;
@@ -84,8 +86,10 @@ Contender Contest::judged(const std::string& effect, const Scenario& scenario, s
   c.before = added_.empty() ? c.baseline : score_of(added_.back().replicas, replicas);
   c.most_gain = most_gain;
   for (const auto& any : scenario.effects) {
-    c.misnamed = c.misnamed || !is_what_it_is_called(any, simulator_.conditions());
-    c.parameters += free_parameters(any).size();
+    const auto* cause = cause_types().find(any.id());
+    if (cause == nullptr) continue;  // claimed, but not in the catalogue
+    c.misnamed = c.misnamed || !cause->is_what_it_is_called(any, simulator_.conditions());
+    c.parameters += cause->free_parameters.size();
   }
   return c;
 }
@@ -99,16 +103,16 @@ double Contest::score_without(const Contender& c) const {
 }
 
 void Contest::find_starts() {
-  std::vector<Effect> assessable;
-  for (const auto& effect : catalogue()) {
+  std::vector<const CauseType*> assessable;
+  for (const auto& cause : cause_types()) {
     const auto& without = options_.without;
-    if (std::find(without.begin(), without.end(), effect.id()) == without.end() &&
-        why_not_assessable(effect, simulator_.conditions()).empty())
-      assessable.push_back(effect);
+    if (std::find(without.begin(), without.end(), cause.id) == without.end() &&
+        cause.why_not_assessable(simulator_.conditions()).empty())
+      assessable.push_back(&cause);
   }
   starts_.resize(assessable.size());
   tbb::parallel_for(std::size_t{0}, assessable.size(), [&](std::size_t k) {
-    starts_[k] = {std::string(assessable[k].id()), gap::starts(assessable[k], evidence_)};
+    starts_[k] = {std::string(assessable[k]->id), assessable[k]->starts(evidence_)};
   });
   took_("starts");
 }
@@ -146,23 +150,26 @@ std::vector<Contender> Contest::contend() {
   std::sort(best.begin(), best.end(),
             [](const auto& a, const auto& b) { return a.gain() > b.gain(); });
   const auto& leader = best.front();
-  const double least = leader.gain() - std::max(15.0, 0.4 * (leader.score.value - leader.baseline));
+  const double least = leader.gain() - std::max(thresholds::reach_of_a_fit,
+                                                thresholds::share_reach_of_a_fit *
+                                                    (leader.score.value - leader.baseline));
   std::size_t kept = 0;
   while (kept < std::min(best.size(), options_.shortlist) &&
-         (kept < 2 || best[kept].gain() > least))
+         (kept < thresholds::fewest_fitted || best[kept].gain() > least))
     ++kept;
   best.resize(kept);
   for (std::size_t k = 0; k < best.size(); ++k) {
     tell_(fmt::format("fitting {}", best[k].effect),
           0.5 + 0.4 * static_cast<double>(k) / static_cast<double>(best.size()));
     const auto& start = best[k];
-    const auto fitted = judged(start.effect,
-                               refine(simulator_, start.scenario, observed_,
-                                      scoring_.spread(start.replicas[0]), 3, fit_replicas),
-                               screening_replicas, start.most_gain, train_alone);
+    const auto fitted =
+        judged(start.effect,
+               refine(simulator_, start.scenario, observed_, scoring_.spread(start.replicas[0]),
+                      fit_iterations, fit_replicas),
+               screening_replicas, start.most_gain, train_alone);
     const auto& better = fitted.gain() > start.gain() ? fitted : start;
     best[k] = judged(better.effect, better.scenario, options_.candidate_replicas, better.most_gain);
-    best[k].idle = best[k].score.value - score_without(best[k]) < needed_gain_of_gap;
+    best[k].idle = best[k].score.value - score_without(best[k]) < thresholds::gain_of_gap;
   }
   std::sort(best.begin(), best.end(), [](const auto& a, const auto& b) {
     return a.gain() - a.score.penalty(a.parameters) > b.gain() - b.score.penalty(b.parameters);

@@ -5,15 +5,15 @@
 #include <utility>
 #include <vector>
 
-#include <gyrostat/diagnosis/candidate.hpp>
 #include <gyrostat/diagnosis/diagnosis.hpp>
+#include <gyrostat/diagnosis/evidence.hpp>
 #include <gyrostat/diagnosis/gap/scoring.hpp>
+#include <gyrostat/diagnosis/start.hpp>
+#include <gyrostat/diagnosis/thresholds.hpp>
 
 namespace gyrostat::gap {
 
 inline constexpr std::size_t fit_replicas = 3;
-/// Nats of log score that name a cause where the gap is significant.
-inline constexpr double needed_gain_of_gap = 4.0;
 
 /// A start, or what became of it, with its replicas' readings and its score.
 struct Contender {
@@ -29,7 +29,8 @@ struct Contender {
   bool idle = false;       ///< without it, the rest as fitted foretells the recording as well
 
   double gain() const {
-    return std::min(score.value - before, most_gain) - (misnamed || idle ? 1e6 : 0.0);
+    return std::min(score.value - before, most_gain) -
+           (misnamed || idle ? thresholds::disqualified : 0.0);
   }
 };
 

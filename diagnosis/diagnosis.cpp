@@ -9,18 +9,18 @@
 #include <fmt/format.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/contest.hpp>
 #include <gyrostat/diagnosis/gap/ensemble.hpp>
 #include <gyrostat/diagnosis/gap/scoring.hpp>
 #include <gyrostat/diagnosis/model_fit.hpp>
+#include <gyrostat/diagnosis/thresholds.hpp>
 
 namespace gyrostat::gap {
 namespace {
 
 constexpr std::size_t fewest_samples = 1000;
-constexpr double needed_recovery = 0.6;  ///< less, and the cause is unknown
-constexpr double needed_gain = 8.0;      ///< of log score, to name a cause where nothing stands out
-constexpr double member_probability = 0.05;
+constexpr std::size_t transfer_replicas = 6;
 
 /// Of each log score among all of them and `none`, the score of there being nothing.
 std::vector<double> probabilities(const std::vector<double>& scores, double none) {
@@ -88,15 +88,15 @@ void Work::describe(const Series& recording) {
   result_.rate_hz = simulator_.conditions().rate_hz();
   for (const auto& channel : channels)
     if (!(recording.*channel.values).empty()) result_.channels.emplace_back(channel.name);
-  for (const auto& effect : catalogue())
-    if (auto why = why_not_assessable(effect, simulator_.conditions()); !why.empty())
-      result_.not_assessable.push_back({std::string(effect.id()), std::move(why)});
+  for (const auto& cause : cause_types())
+    if (auto why = cause.why_not_assessable(simulator_.conditions()); !why.empty())
+      result_.not_assessable.push_back({std::string(cause.id), std::move(why)});
 }
 
 std::vector<Where> Work::departures_of(const Ensemble& ensemble) const {
   std::vector<Where> found;
   const auto& instrument = simulator_.instrument(Part::train);
-  for (const auto& departure : ensemble.departures(observed_[0], 0.05)) {
+  for (const auto& departure : ensemble.departures(observed_[0], thresholds::departure)) {
     const auto lens = std::find_if(
         instrument.lenses().begin(), instrument.lenses().end(), [&](const LensView& l) {
           return departure.reading >= l.first && departure.reading < l.first + l.count;
@@ -151,11 +151,12 @@ void Work::attribute() {
   std::vector<double> scores;
   for (const auto& c : ranked) scores.push_back(c.gain() - c.score.penalty(c.parameters));
   const bool significant = result_.p_before <= options_.significance;
-  const bool gained =
-      !ranked.empty() && scores.front() > (significant ? needed_gain_of_gap : needed_gain);
+  const bool gained = !ranked.empty() &&
+                      scores.front() > (significant ? thresholds::gain_of_gap : thresholds::gain);
   if (!gained) {
-    result_.verdict = significant ? "unknown" : "none";
-    if (result_.verdict == "unknown") result_.verdict_set = {"unknown"};
+    if (!significant) return;
+    result_.verdict = Verdict::unknown();
+    result_.verdict_set = {Verdict::unknown()};
     return;
   }
   const auto shares = probabilities(scores, -std::numeric_limits<double>::infinity());
@@ -163,26 +164,27 @@ void Work::attribute() {
     keep(ranked[k], scores[k], ranked[k].baseline, shares[k]);
   contest_->add(ranked.front());
   const double by_chance =
-      static_cast<double>(catalogue().size()) * std::exp(-scores.front() / Scoring::temperature);
+      static_cast<double>(cause_types().size()) * std::exp(-scores.front() / Scoring::temperature);
   result_.p_before = std::min(result_.p_before, by_chance);
 
   // More effects, while the log score gains what a true cause would. In a long recording, where
   // trying takes time, only while something is seen to be left.
-  const bool is_long = result_.samples > 200'000;
-  const int most = is_long ? std::min(options_.most_effects, 2) : options_.most_effects;
+  const bool is_long = result_.samples > thresholds::long_recording;
+  const int most = is_long ? std::min(options_.most_effects, thresholds::most_effects_of_long)
+                           : options_.most_effects;
   while (static_cast<int>(contest_->added().size()) < most) {
     const auto& last = contest_->added().back();
-    if (is_long && last.score.deficit() < 4.0) break;
+    if (is_long && last.score.deficit() < thresholds::deficit_of_a_miss) break;
     const auto next = contest_->contend();
     if (next.empty()) break;
     std::vector<double> gains;
     for (const auto& c : next)
       gains.push_back(c.gain() - c.score.penalty(c.parameters - last.parameters));
-    if (gains.front() < std::max(needed_gain, 0.12 * (last.score.expected - last.score.value)))
-      break;
+    const double lack = last.score.expected - last.score.value;
+    if (gains.front() < std::max(thresholds::gain, thresholds::share_of_lack * lack)) break;
     const auto likely = probabilities(gains, 0.0);
     for (std::size_t k = 0; k < next.size(); ++k)
-      if (k == 0 || likely[k] >= member_probability)
+      if (k == 0 || likely[k] >= thresholds::member_probability)
         keep(next[k], gains[k], next[k].before, likely[k]);
     contest_->add(next.front());
   }
@@ -190,17 +192,20 @@ void Work::attribute() {
   result_.enriched = final.scenario;
   const double share = recovered(final, final.baseline);
   see_what_is_left();
-  const bool misses = final.score.deficit() > 4.0 || result_.p_after < 0.1 * options_.significance;
-  const bool unexplained = share < needed_recovery && misses;
-  result_.verdict = unexplained ? "unknown" : result_.causes.front().effect;
+  const bool misses = final.score.deficit() > thresholds::deficit_of_a_miss ||
+                      result_.p_after < thresholds::strictness_after * options_.significance;
+  const bool unexplained = share < thresholds::recovery && misses;
+  result_.verdict =
+      unexplained ? Verdict::unknown() : Verdict::cause(result_.causes.front().effect);
   if (unexplained)
     for (auto& cause : result_.causes) cause.probability *= std::clamp(share, 0.0, 1.0);
   auto& set = result_.verdict_set;
+  if (unexplained) set.push_back(Verdict::unknown());
   for (const auto& cause : result_.causes)
-    if (cause.probability >= member_probability &&
-        std::find(set.begin(), set.end(), cause.effect) == set.end())
-      set.push_back(cause.effect);
-  if (unexplained) result_.verdict_set.insert(result_.verdict_set.begin(), "unknown");
+    if (const auto member = Verdict::cause(cause.effect);
+        cause.probability >= thresholds::member_probability &&
+        std::find(set.begin(), set.end(), member) == set.end())
+      set.push_back(member);
 }
 
 /// The claimed effects, one after another, beside the claimed random error.
@@ -215,10 +220,10 @@ void Work::judge_claim() {
                                    std::numeric_limits<double>::infinity()));
     const auto& c = contest_->added().back();
     keep(c, c.gain(), c.before, 1.0);
-    result_.verdict_set.push_back(name);
+    result_.verdict_set.push_back(Verdict::cause(name));
   }
   result_.enriched = scenario;
-  result_.verdict = contest_->added().front().effect;
+  result_.verdict = Verdict::cause(contest_->added().front().effect);
   result_.claimed = true;
   see_what_is_left();
 }
@@ -236,7 +241,7 @@ void Work::measure_shrinkage() {
   const auto before = held_out_scoring_->of(baseline_replicas_[1]);
   const auto truth = added.empty() ? before : held_out_scoring_->of(added.back().replicas[1]);
   result_.gap_before = result_.gap_after = gap_of(before, truth);
-  result_.steps.push_back({"", result_.gap_before});
+  result_.enrichments.push_back({"", result_.gap_before});
   const auto closed = [&](double to) {
     return result_.gap_before > 0.0 ? 1.0 - to / result_.gap_before : 0.0;
   };
@@ -246,8 +251,8 @@ void Work::measure_shrinkage() {
   }
   if (added.empty()) return;
   for (const auto& c : added)
-    result_.steps.push_back({c.effect, gap_of(held_out_scoring_->of(c.replicas[1]), truth)});
-  result_.gap_after = result_.steps.back().gap;
+    result_.enrichments.push_back({c.effect, gap_of(held_out_scoring_->of(c.replicas[1]), truth)});
+  result_.gap_after = result_.enrichments.back().gap;
   result_.closed = closed(result_.gap_after);
   const auto interval = bootstrap_closed(instrument, before, truth, truth, options_.seed);
   result_.closed_low = interval[0];
@@ -273,8 +278,7 @@ void Work::keep_bands() {
               .after_spread = {}};
     for (Eigen::Index i = lens.first; i < lens.first + lens.count; ++i) {
       const auto& at = instrument.at()[static_cast<std::size_t>(i)];
-      const bool open = at.to > 1e8;  // "so much and more"
-      band.at.push_back(open ? at.from : 0.5 * (at.from + at.to));
+      band.at.push_back(at.is_open() ? at.from : 0.5 * (at.from + at.to));
       band.observed.push_back(observed_[1][i]);
       band.before.push_back(held_out_->mean()[i]);
       band.before_spread.push_back(held_out_->spread()[i]);
@@ -289,7 +293,7 @@ void Work::keep_bands() {
 void Work::look_ahead() {
   std::vector<const Cause*> rivals;
   for (const auto& cause : result_.causes)
-    if (cause.scenario.effects.size() == 1 && cause.probability >= member_probability)
+    if (cause.scenario.effects.size() == 1 && cause.probability >= thresholds::member_probability)
       rivals.push_back(&cause);
   if (rivals.size() < 2) return;
   tell("looking for the next experiment", 0.95);
@@ -309,8 +313,8 @@ Diagnosis Work::run() {
   keep_bands();
   took("shrinkage");
   tell("running the filters", 0.92);
-  result_.transfer =
-      transfer(simulator_, evidence_.recording, result_.baseline, result_.enriched, 6);
+  result_.transfer = transfer(simulator_, evidence_.recording, result_.baseline, result_.enriched,
+                              transfer_replicas);
   took("transfer");
   look_ahead();
   took("next experiment");
@@ -322,7 +326,7 @@ Diagnosis Work::run() {
 
 std::vector<Effect> catalogue() {
   std::vector<Effect> all;
-  for (const auto& type : effect_types()) all.emplace_back(type);
+  for (const auto& cause : cause_types()) all.push_back(cause.effect());
   return all;
 }
 

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <gyrostat/diagnosis/candidate.hpp>
 #include <gyrostat/diagnosis/next_experiment.hpp>
 #include <gyrostat/diagnosis/transfer.hpp>
+#include <gyrostat/diagnosis/verdict.hpp>
+#include <gyrostat/generators/scenario.hpp>
 
 namespace gyrostat::gap {
 
@@ -20,7 +20,7 @@ struct DiagnosisOptions {
   std::size_t baseline_replicas = 100;
   std::size_t candidate_replicas = 32;
   std::size_t shortlist = 5;
-  int most_effects = 4;  ///< at most 2 beyond 200,000 samples, for the time it takes
+  int most_effects = 4;  ///< fewer in a long recording (thresholds.hpp)
   double significance = 0.01;
 };
 
@@ -41,9 +41,10 @@ struct Cause {
   double closed = 0.0;
 };
 
-struct Step {
-  std::string added;
-  double gap = 0.0;  ///< held-out
+/// The simulator with one more effect.
+struct Enrichment {
+  std::string added;  ///< nothing for the baseline
+  double gap = 0.0;   ///< held-out
 };
 
 struct Shortfall {
@@ -66,10 +67,10 @@ struct Diagnosis {
   double gap_before = 0.0, gap_after = 0.0, closed = 0.0, closed_low = 0.0, closed_high = 0.0;
   double p_before = 1.0, p_after = 1.0;  ///< of the train part
   std::vector<Cause> causes;             ///< most probable first
-  std::string verdict = "none";
-  bool claimed = false;  ///< the causes were given, not found
-  std::vector<std::string> verdict_set;
-  std::vector<Step> steps;
+  Verdict verdict = Verdict::none();
+  bool claimed = false;                 ///< the causes were given, not found
+  std::vector<Verdict> verdict_set;     ///< what the recording cannot rule out
+  std::vector<Enrichment> enrichments;  ///< of the baseline, one after another
   std::vector<Shortfall> not_assessable;
   std::vector<Transfer> transfer;
   NextExperiment next;  ///< empty where one cause stands alone
@@ -87,7 +88,8 @@ using DiagnosisProgress = std::function<void(const std::string&, double)>;
 Diagnosis diagnose(const Series& recording, const DiagnosisOptions& options,
                    const DiagnosisProgress& progress = {});
 
-/// An object of any effect with its default parameters, in the catalogue's order.
+/// Every effect that may be named as a cause, with its default parameters, in the catalogue's
+/// order.
 std::vector<Effect> catalogue();
 
 }  // namespace gyrostat::gap

@@ -67,10 +67,11 @@ Json to_json(const Diagnosis& d) {
                               {"log_score", c.log_score},
                               {"recovered", c.recovered},
                               {"parameters", parameters_json(c.scenario.effects.back())}});
-  json["verdict"] = d.verdict;
-  json["verdict_set"] = d.verdict_set;
+  json["verdict"] = d.verdict.text();
+  json["verdict_set"] = Json::array();
+  for (const auto& verdict : d.verdict_set) json["verdict_set"].push_back(verdict.text());
   json["steps"] = Json::array();
-  for (const auto& s : d.steps) json["steps"].push_back({{"added", s.added}, {"gap", s.gap}});
+  for (const auto& e : d.enrichments) json["steps"].push_back({{"added", e.added}, {"gap", e.gap}});
   json["not_assessable"] = Json::array();
   for (const auto& n : d.not_assessable)
     json["not_assessable"].push_back({{"effect", n.effect}, {"why", n.why}});

@@ -17,20 +17,26 @@ std::string parameters_in_words(const Effect& effect) {
 
 std::string others_of(const Diagnosis& d) {
   std::vector<std::string> others;
-  for (const auto& name : d.verdict_set)
-    if (name != d.verdict) others.push_back(name);
+  for (const auto& verdict : d.verdict_set)
+    if (verdict != d.verdict) others.push_back(verdict.text());
   return fmt::format("{}", fmt::join(others, ", "));
+}
+
+std::string claimed_effects(const Diagnosis& d) {
+  std::vector<std::string> effects;
+  for (const auto& verdict : d.verdict_set) effects.push_back(verdict.text());
+  return fmt::format("{}", fmt::join(effects, ", then "));
 }
 
 }  // namespace
 
 std::string in_words(const Diagnosis& d, const std::string& name) {
   std::string text = fmt::format("{}: {:.0f} s at {:.4g} Hz. ", name, d.duration_s, d.rate_hz);
-  if (d.verdict == "none")
+  if (d.verdict.is_none())
     return text +
            fmt::format("No gap: the simulator makes recordings like this one (p = {:.2g}).\n",
                        d.p_before);
-  if (d.verdict == "unknown") {
+  if (d.verdict.is_unknown()) {
     text += fmt::format(
         "The recording leaves the simulator (p = {:.2g}), and no effect of the catalogue explains "
         "it.",
@@ -44,16 +50,14 @@ std::string in_words(const Diagnosis& d, const std::string& name) {
       " On the held-out part the gap goes from {:.3g} to {:.3g}: {:.0f} % closed (95 %: {:.0f} to "
       "{:.0f} %).",
       d.gap_before, d.gap_after, 100.0 * d.closed, 100.0 * d.closed_low, 100.0 * d.closed_high);
-  if (d.claimed)
-    return text + fmt::format("Claimed: {}.{}\n", fmt::join(d.verdict_set, ", then "), gap);
+  if (d.claimed) return text + fmt::format("Claimed: {}.{}\n", claimed_effects(d), gap);
   const auto& cause = d.causes.front();
   text += fmt::format(
       "The recording leaves the simulator (p = {:.2g}). Cause: {} ({}; probability {:.2f}).",
       d.p_before, cause.effect, parameters_in_words(cause.scenario.effects.back()),
       cause.probability);
-  if (d.steps.size() > 2)
-    for (std::size_t k = 2; k < d.steps.size(); ++k)
-      text += fmt::format(" Then: {}.", d.steps[k].added);
+  for (std::size_t k = 2; k < d.enrichments.size(); ++k)
+    text += fmt::format(" Then: {}.", d.enrichments[k].added);
   if (const auto others = others_of(d); !others.empty())
     text += fmt::format(" This recording cannot rule out: {}.", others);
   text += gap;
@@ -90,8 +94,8 @@ std::vector<Table> diagnosis_tables(const Diagnosis& d, const std::string& name)
                            parameters_in_words(c.scenario.effects.back())});
   Table steps{.title = name + ": the gap on the held-out part, step by step",
               .columns = {{"added", ""}, {"gap", "spreads"}}};
-  for (const auto& s : d.steps)
-    steps.rows.push_back({s.added.empty() ? "(baseline)" : s.added, s.gap});
+  for (const auto& e : d.enrichments)
+    steps.rows.push_back({e.added.empty() ? "(baseline)" : e.added, e.gap});
   Table promises{.title = name + ": what the study promises, and what the recording shows",
                  .columns = {{"filter", ""},
                              {"metric", ""},

@@ -12,7 +12,5 @@ namespace gyrostat::gap {
 std::string in_words(const Diagnosis& diagnosis, const std::string& name);
 /// Where, causes, steps, transfer and what cannot be assessed.
 std::vector<Table> diagnosis_tables(const Diagnosis& diagnosis, const std::string& name);
-/// The same with a picture of each lens, as one HTML page that needs nothing else.
-std::string diagnosis_page(const Diagnosis& diagnosis, const std::string& name);
 
 }  // namespace gyrostat::gap

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
+#include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/gap/allan_components.hpp>
 
 namespace gyrostat::gap {
@@ -60,9 +61,10 @@ std::vector<Dial> noise_dials(const Conditions& conditions, Noises noises) {
 
 void add_effect_dials(const Scenario& scenario, std::vector<Dial>& dials) {
   for (std::size_t k = 0; k < scenario.effects.size(); ++k) {
-    if (is_deterministic(scenario.effects[k])) continue;
-    const auto free = free_parameters(scenario.effects[k]);
     const auto& effect = scenario.effects[k];
+    const auto& cause = cause_types().named(effect.id(), "effects");
+    if (cause.is_deterministic()) continue;
+    const auto& free = cause.free_parameters;
     for (std::size_t f = 0; f < effect.fields().size(); ++f) {
       const auto& field = effect.fields()[f];
       if (std::find(free.begin(), free.end(), field.name) == free.end()) continue;

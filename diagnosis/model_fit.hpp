@@ -1,6 +1,7 @@
 #pragma once
 
-#include <gyrostat/diagnosis/candidate.hpp>
+#include <gyrostat/diagnosis/simulator.hpp>
+#include <gyrostat/diagnosis/start.hpp>
 
 namespace gyrostat::gap {
 

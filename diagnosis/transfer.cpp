@@ -9,6 +9,7 @@
 #include <gyrostat/analysis/calibration.hpp>
 #include <gyrostat/core/filter_type.hpp>
 #include <gyrostat/core/track.hpp>
+#include <gyrostat/diagnosis/simulator.hpp>
 #include <gyrostat/generators/true_parameters.hpp>
 
 namespace gyrostat::gap {

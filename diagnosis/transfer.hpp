@@ -1,8 +1,13 @@
 #pragma once
 
-#include <gyrostat/diagnosis/simulator.hpp>
+#include <string>
+#include <vector>
+
+#include <gyrostat/generators/scenario.hpp>
 
 namespace gyrostat::gap {
+
+class Simulator;
 
 /// What a filter shows on the recording, and what the simulator promises of it before and after the
 /// effects were added, by a metric that needs no truth.

@@ -20,15 +20,15 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-struct Range {
+struct ChannelRange {
   std::string_view channel;
   double lowest, highest;
   bool whole = false;
 };
-constexpr std::array ranges = {
-    Range{"gyro_dps", -1e5, 1e5},         Range{"rate_ref_dps", -1e5, 1e5},
-    Range{"temperature_C", -273.15, 1e3}, Range{"heading_deg", -180, 180},
-    Range{"mag_valid", 0, 1, true},
+constexpr std::array channel_ranges = {
+    ChannelRange{"gyro_dps", -1e5, 1e5},         ChannelRange{"rate_ref_dps", -1e5, 1e5},
+    ChannelRange{"temperature_C", -273.15, 1e3}, ChannelRange{"heading_deg", -180, 180},
+    ChannelRange{"mag_valid", 0, 1, true},
 };
 constexpr std::array<std::string_view, 4> axes = {"", "x", "y", "z"};
 constexpr double largest_interval_error = 0.1;
@@ -107,8 +107,8 @@ void require_increasing(const std::vector<double>& t_s, const Source& source) {
 
 /// Values and bounds are in the file's unit.
 void require_range(const std::vector<double>& values, const Source& source) {
-  const auto range = std::ranges::find(ranges, source.channel.name, &Range::channel);
-  if (range == ranges.end()) return;
+  const auto range = std::ranges::find(channel_ranges, source.channel.name, &ChannelRange::channel);
+  if (range == channel_ranges.end()) return;
   const auto* unit = source.column.unit;
   const double lowest = unit ? unit->from_own(range->lowest) : range->lowest;
   const double highest = unit ? unit->from_own(range->highest) : range->highest;

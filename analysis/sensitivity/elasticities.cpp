@@ -61,16 +61,16 @@ Estimate ratio(const Pairs& pairs, Resampler& resampler) {
 
 }  // namespace
 
-std::vector<Elasticity> elasticities(const Outputs& outputs, std::span<const Span> spans,
+std::vector<Elasticity> elasticities(const Outputs& outputs, std::span<const Excursion> excursions,
                                      Resampler& resampler) {
   std::vector<Elasticity> all;
-  for (std::size_t p = 0; p < spans.size(); ++p) {
-    const auto& span = spans[p];
+  for (std::size_t p = 0; p < excursions.size(); ++p) {
+    const auto& excursion = excursions[p];
     const std::size_t low = 1 + 2 * p, high = low + 1;
     Pairs pairs;
     for (const auto t : common_trials(outputs, {0, low, high})) {
-      pairs.above.push_back(span.base * (outputs.at(high, t) - outputs.at(low, t)) /
-                            (span.high - span.low));
+      pairs.above.push_back(excursion.base * (outputs.at(high, t) - outputs.at(low, t)) /
+                            (excursion.high - excursion.low));
       pairs.below.push_back(outputs.at(0, t));
     }
     Elasticity elasticity;

@@ -11,14 +11,14 @@ namespace gyrostat {
 
 /// One-at-a-time around a base: what the parameter is at the base and at its two ends; the
 /// logarithms of these where its scale is logarithmic, with 1 in place of the base.
-struct Span {
+struct Excursion {
   double base = 1.0, low = 0.0, high = 1.0;
 };
 
 /// The elasticity x/y dy/dx of each parameter of `one_at_a_time`: the slope between the two ends,
 /// times the parameter over the output at the base. Trials that have all three points are
 /// resampled. Parameters are not named.
-std::vector<Elasticity> elasticities(const Outputs& outputs, std::span<const Span> spans,
+std::vector<Elasticity> elasticities(const Outputs& outputs, std::span<const Excursion> excursions,
                                      Resampler& resampler);
 
 /// mu* and sigma of each parameter of `morris_trajectories`, trial noise taken out: of the variance

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -14,12 +15,15 @@ namespace gyrostat::gap {
 
 /// What stretch of its coordinate a reading stands for.
 struct Interval {
+  static constexpr double no_end = 1e9;  ///< "so much and more"
+
   double from, to;
+  bool is_open() const { return to == no_end; }
 };
 
 /// A lens is bound to the conditions of a recording and one part of it, which fixes its `at`; it is
-/// absent (`at` empty) where the recording does not hold what it looks at. `read` then writes one
-/// number for each interval.
+/// absent (`at` empty) where the recording does not hold what it looks at. `read(scene, out)`
+/// writes one number for each interval.
 struct Lens {
   Lens(const Conditions& seen, Part seen_part) : conditions(&seen), part(seen_part) {}
 
@@ -66,7 +70,7 @@ class Bins {
 
   /// Mean of `value(index)` over each bin into `out`, missing values passed over.
   template <class Value>
-  void means(const Value& value, double* out) const {
+  void means(const Value& value, std::span<double> out) const {
     std::vector<double> sums(at_.size(), 0.0);
     std::vector<double> counts(at_.size(), 0.0);
     for (const auto [index, bin] : entries_) {

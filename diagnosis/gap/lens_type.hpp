@@ -42,10 +42,8 @@ LensType describe_lens(std::string_view id) {
       .at = [](const std::any& lens) -> const std::vector<Interval>& {
         return std::any_cast<L>(&lens)->at;
       },
-      .read =
-          [](const std::any& lens, const Scene& scene, std::span<double> readings) {
-            std::any_cast<L>(&lens)->read(scene, readings.data());
-          }};
+      .read = [](const std::any& lens, const Scene& scene,
+                 std::span<double> readings) { std::any_cast<L>(&lens)->read(scene, readings); }};
 }
 
 }  // namespace gyrostat::gap

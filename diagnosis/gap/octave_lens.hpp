@@ -19,7 +19,7 @@ struct OctaveLens : Lens {
 
  protected:
   template <class Value>
-  void read_each(const Scene& scene, double* out, const Value& value) const {
+  void read_each(const Scene& scene, std::span<double> out, const Value& value) const {
     for (std::size_t k = 0; k < at.size(); ++k)
       out[k] = value(k < fast_ ? of(scene.octaves)[k] : of(scene.slow_octaves)[k - fast_]);
   }

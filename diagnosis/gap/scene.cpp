@@ -114,7 +114,7 @@ void Scene::reduce_rate(const Conditions& conditions, const Series& series) {
 }
 
 Scene::Scene(const Conditions& conditions, const Series& series, std::span<const Part> of)
-    : recorded_dps_(&series.gyro_dps) {
+    : recorded_dps(series.gyro_dps) {
   const bool rate = !series.gyro_dps.empty();
   const bool heading = conditions.has_heading() && !series.heading_deg.empty();
   if (rate) reduce_rate(conditions, series);

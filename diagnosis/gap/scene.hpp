@@ -17,7 +17,7 @@ struct Scene {
   Scene(const Conditions& conditions, const Series& series, std::span<const Part> of = parts);
 
   std::vector<double> rate_error_dps;  ///< gyro minus reference rate and drift, short gaps bridged
-  const std::vector<double>& recorded_dps() const { return *recorded_dps_; }
+  std::span<const double> recorded_dps;   ///< as recorded; the series outlives its scene
   std::vector<double> slow_dps;           ///< its cluster means
   Eigen::VectorXd drift;                  ///< what was taken out, Conditions::drift_of()
   std::vector<double> heading_error_deg;  ///< without its mean; NaN where the compass is not valid
@@ -29,8 +29,6 @@ struct Scene {
 
  private:
   void reduce_rate(const Conditions& conditions, const Series& series);
-
-  const std::vector<double>* recorded_dps_;  ///< the series outlives its scene
 };
 
 }  // namespace gyrostat::gap

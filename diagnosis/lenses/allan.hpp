@@ -12,7 +12,7 @@ struct Allan : OctaveLens {
 
   using OctaveLens::OctaveLens;
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
     read_each(scene, out, [](const Octave& octave) { return level(0.5 * octave.mean_square); });
   }
 };

@@ -28,10 +28,10 @@ struct BiasOverTemperature : Lens {
     }
   }
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
     const auto value = [&](std::size_t i) { return scene.slow_dps[i]; };
     rising_.means(value, out);
-    falling_.means(value, out + rising_.at().size());
+    falling_.means(value, out.subspan(rising_.at().size()));
   }
 
  private:

@@ -32,7 +32,8 @@ struct ErrorOverAcceleration : Lens {
     }
   }
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
+    auto reading = out.begin();
     for (const auto& acceleration : axes_) {
       double product = 0.0, square = 0.0;
       for (const auto& span : slow_spans())
@@ -40,7 +41,7 @@ struct ErrorOverAcceleration : Lens {
           product += acceleration[i] * scene.slow_dps[i];
           square += acceleration[i] * acceleration[i];
         }
-      *out++ = product / square;
+      *reading++ = product / square;
     }
   }
 

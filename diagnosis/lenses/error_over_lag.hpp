@@ -26,7 +26,8 @@ struct ErrorOverLag : Lens {
     }
   }
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
+    auto reading = out.begin();
     const auto& motion = conditions->motion_dps_s();
     for (const std::size_t lag : lags_) {
       double product = 0.0, square = 0.0, sum = 0.0, accelerations = 0.0, count = 0.0;
@@ -39,7 +40,7 @@ struct ErrorOverLag : Lens {
           square += a * a;
           count += 1.0;
         }
-      *out++ = square > 0.0 ? (product - sum * accelerations / count) / square : 0.0;
+      *reading++ = square > 0.0 ? (product - sum * accelerations / count) / square : 0.0;
     }
   }
 

@@ -18,7 +18,7 @@ struct ErrorOverRate : Lens {
     if (at.size() < 3) at.clear();
   }
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
     bins_.means([&](std::size_t i) { return scene.rate_error_dps[i]; }, out);
     double mean = 0.0;  // the bias over time is another lens's
     for (std::size_t b = 0; b < at.size(); ++b) mean += out[b] / static_cast<double>(at.size());

@@ -18,10 +18,10 @@ struct Exceedances : Lens {
   Exceedances(const Conditions& seen, Part seen_part) : Lens(seen, seen_part) {
     if (octave_count(spans()) == 0) return;
     for (std::size_t k = 0; k < beyond.size(); ++k)
-      at.push_back({beyond[k], k + 1 < beyond.size() ? beyond[k + 1] : 1e9});
+      at.push_back({beyond[k], k + 1 < beyond.size() ? beyond[k + 1] : Interval::no_end});
   }
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
     std::vector<double> steps;
     for (const auto& span : spans())
       for (std::size_t i = span.first + 1; i < span.last; ++i)

@@ -19,8 +19,10 @@ struct HeadingAllan : Lens {
     }
   }
 
-  void read(const Scene& scene, double* out) const {
-    for (const auto& octave : of(scene.heading_octaves)) *out++ = level(0.5 * octave.mean_square);
+  void read(const Scene& scene, std::span<double> out) const {
+    auto reading = out.begin();
+    for (const auto& octave : of(scene.heading_octaves))
+      *reading++ = level(0.5 * octave.mean_square);
   }
 };
 

@@ -15,7 +15,7 @@ struct HeadingNoise : Lens {
     if (seen.has_heading()) at.assign(2, {0.0, 0.0});
   }
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
     double square = 0.0, fourth = 0.0, count = 0.0;
     for (const auto& span : spans())
       for (std::size_t i = span.first + 1; i < span.last; ++i) {

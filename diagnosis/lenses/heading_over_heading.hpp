@@ -20,7 +20,7 @@ struct HeadingOverHeading : Lens {
     if (at.size() < 3) at.clear();
   }
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
     bins_.means([&](std::size_t i) { return scene.heading_error_deg[i]; }, out);
   }
 

@@ -24,7 +24,8 @@ struct HeadingOverLag : Lens {
     if (energy_ == 0.0) at.clear();
   }
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
+    auto reading = out.begin();
     const auto& rate = conditions->series().rate_ref_dps;
     for (const std::size_t lag : lags_) {
       double product = 0.0;
@@ -32,7 +33,7 @@ struct HeadingOverLag : Lens {
         for (std::size_t i = span.first + lag; i < span.last; ++i)
           if (!is_missing(scene.heading_error_deg[i]))
             product += rate[i - lag] * scene.heading_error_deg[i];
-      *out++ = product / energy_;
+      *reading++ = product / energy_;
     }
   }
 

@@ -18,7 +18,7 @@ struct HeadingOverTime : Lens {
     at = bins_.at();
   }
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
     bins_.means([&](std::size_t i) { return scene.slow_heading_deg[i]; }, out);
   }
 

@@ -21,9 +21,10 @@ struct HeadingTails : Lens {
       }
   }
 
-  void read(const Scene& scene, double* out) const {
-    for (const auto& octave : of(scene.heading_octaves)) *out++ = level(octave.kurtosis);
-    for (const auto& octave : of(scene.heading_octaves)) *out++ = level(octave.level_kurtosis);
+  void read(const Scene& scene, std::span<double> out) const {
+    auto reading = out.begin();
+    for (const auto& octave : of(scene.heading_octaves)) *reading++ = level(octave.kurtosis);
+    for (const auto& octave : of(scene.heading_octaves)) *reading++ = level(octave.level_kurtosis);
   }
 };
 

@@ -13,7 +13,7 @@ struct IncrementTails : OctaveLens {
 
   using OctaveLens::OctaveLens;
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
     read_each(scene, out, [](const Octave& octave) { return level(octave.kurtosis); });
   }
 };

@@ -20,12 +20,12 @@ struct Lattice : Lens {
     if (octave_count(spans()) > 0) at.assign(3, {0.0, 0.0});
   }
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
     std::vector<double> values;
     double pairs = 0.0, triples = 0.0, count = 0.0;
     for (const auto& span : spans())
       for (std::size_t i = span.first + 2; i < span.last; ++i) {
-        const auto& z = scene.recorded_dps();
+        const auto& z = scene.recorded_dps;
         const bool pair = z[i] == z[i - 1];
         pairs += pair ? 1.0 : 0.0;
         triples += pair && z[i] == z[i - 2] ? 1.0 : 0.0;

@@ -19,8 +19,9 @@ struct Levels : Lens {
     }
   }
 
-  void read(const Scene& scene, double* out) const {
-    for (const auto& octave : of(scene.slow_octaves)) *out++ = level(octave.level_kurtosis);
+  void read(const Scene& scene, std::span<double> out) const {
+    auto reading = out.begin();
+    for (const auto& octave : of(scene.slow_octaves)) *reading++ = level(octave.level_kurtosis);
   }
 };
 

@@ -20,9 +20,10 @@ struct Lines : Lens {
     add(fast_, spectrum_resolution_hz(spans(), seen.rate_hz()));
   }
 
-  void read(const Scene& scene, double* out) const {
-    out = peaks(slow_, of(scene.slow_spectra).density, out);
-    peaks(fast_, of(scene.spectra).density, out);
+  void read(const Scene& scene, std::span<double> out) const {
+    const auto slow = slow_.bins.size();
+    peaks(slow_, of(scene.slow_spectra).density, out.first(slow));
+    peaks(fast_, of(scene.spectra).density, out.subspan(slow));
   }
 
  private:
@@ -31,16 +32,16 @@ struct Lines : Lens {
       at.push_back({resolution_hz * static_cast<double>(bins.first),
                     resolution_hz * static_cast<double>(bins.last)});
   }
-  static double* peaks(const Bands& bands, const std::vector<double>& density, double* out) {
+  static void peaks(const Bands& bands, const std::vector<double>& density, std::span<double> out) {
+    auto reading = out.begin();
     for (const auto& [first, last] : bands.bins) {
       double sum = 0.0, highest = 0.0;
       for (std::size_t k = first; k < last; ++k) {
         sum += density[k];
         highest = std::max(highest, density[k]);
       }
-      *out++ = level(highest * static_cast<double>(last - first) / std::max(sum, 1e-300));
+      *reading++ = level(highest * static_cast<double>(last - first) / std::max(sum, 1e-300));
     }
-    return out;
   }
   Bands slow_, fast_;
 };

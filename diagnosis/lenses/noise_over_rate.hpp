@@ -20,7 +20,7 @@ struct NoiseOverRate : Lens {
     if (at.size() < 3) at.clear();
   }
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
     const auto& e = scene.rate_error_dps;
     bins_.means(
         [&](std::size_t i) {

@@ -20,7 +20,7 @@ struct NoiseOverTemperature : Lens {
     at = bins_.at();
   }
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
     const auto& e = scene.rate_error_dps;
     bins_.means(
         [&](std::size_t i) {

@@ -19,12 +19,13 @@ struct Spectrum : Lens {
                     resolution * static_cast<double>(bins.last)});
   }
 
-  void read(const Scene& scene, double* out) const {
+  void read(const Scene& scene, std::span<double> out) const {
+    auto reading = out.begin();
     const auto& density = of(scene.spectra).density;
     for (const auto& [first, last] : bands_.bins) {
       double sum = 0.0;
       for (std::size_t k = first; k < last; ++k) sum += density[k];
-      *out++ = level(sum / static_cast<double>(last - first));
+      *reading++ = level(sum / static_cast<double>(last - first));
     }
   }
 

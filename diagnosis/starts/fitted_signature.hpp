@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gyrostat/diagnosis/signature.hpp>
+#include <gyrostat/diagnosis/starts/rest.hpp>
 
 namespace gyrostat::gap {
 

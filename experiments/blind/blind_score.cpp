@@ -9,6 +9,7 @@
 
 #include <gyrostat/analysis/statistics/proportion.hpp>
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/verdict.hpp>
 #include <gyrostat/experiments/blind/blind_labels.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
 
@@ -69,14 +70,18 @@ struct Tally {
   }
 };
 
-struct Calibration {
+/// How often causes of a stated probability are right, and the sum of what was stated.
+struct Reliability {
   Share right;
   double stated = 0;
 };
 
 std::string name_of(const BlindLabel& label) {
-  return label.effects.empty() ? "none" : fmt::format("{}", fmt::join(label.effects, " + "));
+  return label.effects.empty() ? Verdict::none().text()
+                               : fmt::format("{}", fmt::join(label.effects, " + "));
 }
+
+Verdict verdict_in(const Json& text) { return Verdict::of(text.get<std::string>()); }
 
 std::string in_words(const Counts& named, const std::string& but = "") {
   std::vector<std::string> others;
@@ -98,9 +103,9 @@ class Score {
     auto& tally = tallies_[{label.strength, name_of(label)}];
     add_diagnosis(label, read_json(path.string()), tally);
     if (const auto without = diagnosis_of(folder, label.number, true); fs::exists(without)) {
-      const auto verdict = read_json(without.string()).at("verdict").get<std::string>();
-      tally.abstained.add(verdict == "unknown" || verdict == "none");
-      tally.named_without[verdict] += 1;
+      const auto verdict = verdict_in(read_json(without.string()).at("verdict"));
+      tally.abstained.add(verdict.is_unknown() || verdict.is_none());
+      tally.named_without[verdict.text()] += 1;
     }
   }
 
@@ -127,7 +132,7 @@ class Score {
 
   std::string title_;
   std::map<std::pair<std::string, std::string>, Tally> tallies_;  ///< strength, effects
-  std::array<Calibration, 5> calibration_{};
+  std::array<Reliability, 5> reliability_{};
   std::set<double> durations_s_;
   std::set<std::string> strengths_;
   /// Of single effects, and of none: effect, strength, duration.
@@ -136,18 +141,20 @@ class Score {
 };
 
 void Score::add_diagnosis(const BlindLabel& label, const Json& found, Tally& t) {
-  const auto verdict = found.at("verdict").get<std::string>();
-  const auto set = found.at("verdict_set").get<std::vector<std::string>>();
-  const auto is_true = [&](const std::string& name) {
-    return label.effects.empty() ? name == "none"
-                                 : std::count(label.effects.begin(), label.effects.end(), name) > 0;
+  const auto verdict = verdict_in(found.at("verdict"));
+  const auto is_true = [&](const Verdict& said) {
+    return label.effects.empty() ? said.is_none()
+                                 : std::any_of(label.effects.begin(), label.effects.end(),
+                                               [&](const auto& e) { return said.names(e); });
   };
+  std::vector<Verdict> set;
+  for (const auto& member : found.at("verdict_set")) set.push_back(verdict_in(member));
   const bool right = is_true(verdict);
   t.first.add(right);
   t.covered.add(right || std::any_of(set.begin(), set.end(), is_true));
-  t.named[verdict] += 1;
-  t.unknown += verdict == "unknown";
-  t.none += verdict == "none";
+  t.named[verdict.text()] += 1;
+  t.unknown += verdict.is_unknown();
+  t.none += verdict.is_none();
   t.members += static_cast<double>(std::max<std::size_t>(set.size(), 1));
   t.closed.push_back(found.at("gap").at("closed").get<double>());
   if (label.effects.size() == 2) {
@@ -162,9 +169,9 @@ void Score::add_diagnosis(const BlindLabel& label, const Json& found, Tally& t) 
   for (const auto& cause : found.at("causes")) {
     if (label.effects.empty()) break;
     const double stated = cause.at("probability").get<double>();
-    auto& bin = calibration_[std::min<std::size_t>(4, static_cast<std::size_t>(5.0 * stated))];
+    auto& bin = reliability_[std::min<std::size_t>(4, static_cast<std::size_t>(5.0 * stated))];
     bin.stated += stated;
-    bin.right.add(is_true(cause.at("effect").get<std::string>()));
+    bin.right.add(is_true(verdict_in(cause.at("effect"))));
   }
 }
 
@@ -173,7 +180,8 @@ Table Score::aims() const {
   for (const auto& [key, t] : tallies_) {
     const auto& [strength, effects] = key;
     const bool pair = effects.find(" + ") != std::string::npos;
-    totals[effects == "none" ? "none" : pair ? "two effects, " + strength : strength] += t;
+    const bool is_none = Verdict::of(effects).is_none();
+    totals[is_none ? effects : pair ? "two effects, " + strength : strength] += t;
   }
   Table table{.title = title_,
               .columns = {{"recordings", ""},
@@ -222,8 +230,8 @@ Table Score::left_out() const {
 Table Score::calibration() const {
   Table table{.title = title_ + ": are the probabilities right?",
               .columns = {{"stated", ""}, {"causes", ""}, {"mean stated", "1"}, {"right", ""}}};
-  for (std::size_t k = 0; k < calibration_.size(); ++k) {
-    const auto& c = calibration_[k];
+  for (std::size_t k = 0; k < reliability_.size(); ++k) {
+    const auto& c = reliability_[k];
     const double from = 0.2 * static_cast<double>(k);
     table.rows.push_back({fmt::format("{:.1f} to {:.1f}", from, from + 0.2), c.right.count,
                           cell(c.right.count > 0 ? c.stated / c.right.count : no_value),

@@ -168,7 +168,7 @@ void morris(Table& table, const Case& c, std::size_t parameters, std::size_t tra
 
 /// Around the middle of [1, 2]^3, of x1 x2^2 + x3.
 void one_at_a_time_case(Table& table, const Case& c, std::uint32_t repeats, std::uint64_t seed) {
-  const std::vector<Span> spans(3, Span{1.5, 1.0, 2.0});
+  const std::vector<Excursion> excursions(3, Excursion{1.5, 1.0, 2.0});
   const auto points = one_at_a_time({0.5, 0.5, 0.5});
   std::vector<double> truths;
   for (std::size_t p = 0; p < 3; ++p)
@@ -177,7 +177,7 @@ void one_at_a_time_case(Table& table, const Case& c, std::uint32_t repeats, std:
   repeat(tallies, repeats, [&](std::uint32_t r) {
     Resampler resampler(seed + r, "coverage");
     std::vector<Estimate> estimates;
-    for (const auto& e : elasticities(simulate(c, points, seed, r), spans, resampler))
+    for (const auto& e : elasticities(simulate(c, points, seed, r), excursions, resampler))
       estimates.push_back(e.value);
     return estimates;
   });

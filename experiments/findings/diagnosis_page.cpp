@@ -1,3 +1,5 @@
+#include <gyrostat/experiments/findings/diagnosis_page.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -115,7 +117,8 @@ std::string diagnosis_page(const Diagnosis& d, const std::string& name) {
   std::string page = fmt::format("<h1>{}</h1><p>{}</p>", escaped(name), escaped(in_words(d, name)));
   std::vector<std::pair<std::string, double>> probabilities, steps;
   for (const auto& c : d.causes) probabilities.emplace_back(c.effect, c.probability);
-  for (const auto& s : d.steps) steps.emplace_back(s.added.empty() ? "(baseline)" : s.added, s.gap);
+  for (const auto& e : d.enrichments)
+    steps.emplace_back(e.added.empty() ? "(baseline)" : e.added, e.gap);
   page += "<div class=\"grid\">";
   if (!probabilities.empty()) page += bars("probability of each cause", probabilities);
   page += bars("gap on the held-out part, spreads", steps) + "</div>";

@@ -73,13 +73,14 @@ double number_of(const Json& value) { return value.is_number() ? value.get<doubl
 void estimate(const Design& design, const Outputs& outputs, Resampler& resampler, Sensitivity& s) {
   const std::size_t parameters = design.parameters.size();
   if (design.kind == DesignKind::one_at_a_time) {
-    std::vector<Span> spans;
+    std::vector<Excursion> excursions;
     for (std::size_t p = 0; p < parameters; ++p) {
       const auto& [from, to] = std::tie(design.parameters[p].from, design.parameters[p].to);
-      spans.push_back(design.parameters[p].logarithmic ? Span{1.0, std::log(from), std::log(to)}
-                                                       : Span{design.base[p], from, to});
+      excursions.push_back(design.parameters[p].logarithmic
+                               ? Excursion{1.0, std::log(from), std::log(to)}
+                               : Excursion{design.base[p], from, to});
     }
-    s.elasticities = elasticities(outputs, spans, resampler);
+    s.elasticities = elasticities(outputs, excursions, resampler);
     for (std::size_t p = 0; p < parameters; ++p) s.elasticities[p].parameter = s.parameters[p];
   }
   if (design.kind == DesignKind::morris) {

@@ -18,14 +18,14 @@ bool begins_with(std::string_view path, std::string_view part) {
   return path.starts_with(part) && (path.size() == part.size() || path[part.size()] == '.');
 }
 
-/// How much of `rest` the step takes, and where it leads.
-struct Step {
+/// One part of a path: where it leads, and how many characters of the path it takes.
+struct PathPart {
   Json* to;
   std::size_t length;
 };
 
-Step into_list(Json& list, std::string_view rest, const std::string& path,
-               const std::string& place) {
+PathPart into_list(Json& list, std::string_view rest, const std::string& path,
+                   const std::string& place) {
   const std::string part(rest.substr(0, rest.find('.')));
   const bool is_index = !part.empty() && part.find_first_not_of("0123456789") == std::string::npos;
   if (is_index && part.size() < 6 && std::stoul(part) < list.size())
@@ -40,8 +40,8 @@ Step into_list(Json& list, std::string_view rest, const std::string& path,
                                       path, list.size()));
 }
 
-Step step_into(Json& json, std::string_view rest, const std::string& path,
-               const std::string& place) {
+PathPart step_into(Json& json, std::string_view rest, const std::string& path,
+                   const std::string& place) {
   if (json.is_array()) return into_list(json, rest, path, place);
   if (!json.is_object() && !json.is_null())
     throw InputError(place,

@@ -224,7 +224,7 @@ TEST(ElementaryEffects, AStepWithoutTrialsIsLeftOut) {
 TEST(Elasticities, OfAPowerAreItsExponentOnALogarithmicScale) {
   // y = x^3 e^noise at x = 1, 1 +- 1 %: a small span, on which the power is a line in the
   // logarithm.
-  const std::vector<Span> spans = {{1.0, std::log(0.99), std::log(1.01)}};
+  const std::vector<Excursion> excursions = {{1.0, std::log(0.99), std::log(1.01)}};
   Outputs outputs(3, 50);
   const NormalStream noise(3, 0, "noise");
   for (std::size_t t = 0; t < 50; ++t) {
@@ -233,17 +233,17 @@ TEST(Elasticities, OfAPowerAreItsExponentOnALogarithmicScale) {
       outputs.at(i, t) = common * std::pow(std::array{1.0, 0.99, 1.01}[i], 3);
   }
   Resampler resampler(3, "test");
-  const auto all = elasticities(outputs, spans, resampler);
+  const auto all = elasticities(outputs, excursions, resampler);
   EXPECT_NEAR(all[0].value.value, 3.0, 1e-3);
   EXPECT_LT(all[0].value.high - all[0].value.low, 1e-9);  // the noise is the same at all three
 }
 
 TEST(Elasticities, NoiseIsInTheInterval) {
-  const std::vector<Span> spans = {{2.0, 1.0, 3.0}};
+  const std::vector<Excursion> excursions = {{2.0, 1.0, 3.0}};
   const Points points = {{2.0}, {1.0}, {3.0}};
   const auto outputs = simulate([](auto x) { return 10.0 + x[0]; }, points, 100, 1.0, 0.5);
   Resampler resampler(3, "test");
-  expect_near(elasticities(outputs, spans, resampler)[0].value, 2.0 / 12.0, "elasticity");
+  expect_near(elasticities(outputs, excursions, resampler)[0].value, 2.0 / 12.0, "elasticity");
 }
 
 TEST(TrialMean, ItsSquareIsThatOfAllPairsOfDifferentTrials) {

@@ -200,8 +200,8 @@ TYPED_TEST(LensContract, ReadsFiniteNumbersWhereItLooks) {
     const typename TypeParam::type lens(conditions, part);
     ASSERT_FALSE(lens.at.empty());
     std::vector<double> readings(lens.at.size() + 1, -777.0), again = readings;
-    lens.read(scene, readings.data());
-    lens.read(scene, again.data());
+    lens.read(scene, std::span(readings).first(lens.at.size()));
+    lens.read(scene, std::span(again).first(lens.at.size()));
     for (std::size_t i = 0; i < lens.at.size(); ++i) {
       EXPECT_TRUE(std::isfinite(readings[i])) << i;
       EXPECT_LE(lens.at[i].from, lens.at[i].to);
@@ -223,8 +223,8 @@ TYPED_TEST(LensContract, DoesNotSeeTheOtherPart) {
     }
   const typename TypeParam::type lens(conditions, Part::train);
   std::vector<double> before(lens.at.size()), after(lens.at.size());
-  lens.read(Scene(conditions, s), before.data());
-  lens.read(Scene(conditions, other), after.data());
+  lens.read(Scene(conditions, s), before);
+  lens.read(Scene(conditions, other), after);
   EXPECT_EQ(before, after);
 }
 

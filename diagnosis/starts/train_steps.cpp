@@ -1,4 +1,4 @@
-#include <gyrostat/diagnosis/starts/start.hpp>
+#include <gyrostat/diagnosis/starts/train_steps.hpp>
 
 #include <algorithm>
 
@@ -14,16 +14,10 @@ double quantile(std::vector<double> values, double share) {
 
 std::vector<double> train_steps(const Evidence& e) {
   std::vector<double> steps;
-  for (const auto& span : e.simulator.conditions().spans(Part::train))
+  for (const auto& span : e.conditions().spans(Part::train))
     for (std::size_t i = span.first + 1; i < span.last; ++i)
       steps.push_back(e.scene.rate_error_dps[i] - e.scene.rate_error_dps[i - 1]);
   return steps;
-}
-
-Rest with_white(const Evidence& e, double white_std_dps) {
-  Rest rest{e.baseline.random_error, e.baseline.thermal_drift};
-  rest.random_error.measurement_noise_std_dps = white_std_dps;
-  return rest;
 }
 
 }  // namespace gyrostat::gap

@@ -3,7 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include <gyrostat/diagnosis/candidate.hpp>
+#include <gyrostat/diagnosis/evidence.hpp>
+#include <gyrostat/diagnosis/start.hpp>
 
 namespace gyrostat::gap {
 

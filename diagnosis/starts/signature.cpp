@@ -1,4 +1,4 @@
-#include <gyrostat/diagnosis/signature.hpp>
+#include <gyrostat/diagnosis/starts/signature.hpp>
 
 #include <cmath>
 
@@ -12,13 +12,13 @@ namespace {
 /// Innovations of a local level in white noise, each stretch from its first value on.
 void whiten_walk(const Evidence& evidence, std::vector<double>& values) {
   const auto& arima = evidence.baseline.random_error;
-  const auto m = static_cast<double>(evidence.simulator.conditions().cluster());
+  const auto m = static_cast<double>(evidence.conditions().cluster());
   const double white = std::pow(arima.measurement_noise_std_dps, 2) / m;
   const double walk =
       std::pow((arima.delta1_dps - arima.delta2_dps) / (1.0 - arima.phi), 2) * m + 1e-6 * white;
   const double ratio = walk / white;
   const double gain = 0.5 * (std::sqrt(ratio * ratio + 4.0 * ratio) - ratio);
-  for (const auto& span : evidence.simulator.conditions().slow_spans(Part::train)) {
+  for (const auto& span : evidence.conditions().slow_spans(Part::train)) {
     double level = values[span.first];
     for (std::size_t i = span.first; i < span.last; ++i) {
       const double innovation = values[i] - level;
@@ -38,7 +38,7 @@ Eigen::VectorXd train_only(const std::vector<double>& values, const std::vector<
 }
 
 Eigen::VectorXd reduce(const Evidence& evidence, Trace trace, std::vector<double> values) {
-  const auto& conditions = evidence.simulator.conditions();
+  const auto& conditions = evidence.conditions();
   if (trace != Trace::slow_rate) {
     Eigen::VectorXd kept = train_only(values, conditions.spans(Part::train), 1);
     kept.array() -= kept.mean();
@@ -57,7 +57,7 @@ Eigen::VectorXd reduce(const Evidence& evidence, Trace trace, std::vector<double
 }
 
 std::vector<double> trace_values(const Evidence& evidence, Trace trace, const Series& series) {
-  const auto& conditions = evidence.simulator.conditions();
+  const auto& conditions = evidence.conditions();
   if (trace == Trace::rate) return series.gyro_dps;
   if (trace == Trace::slow_rate) return conditions.slow_means(series.gyro_dps);
   return series.heading_deg;
@@ -77,7 +77,7 @@ Scenario quiet_scenario(const Evidence& evidence) {
 }  // namespace
 
 Rest rest_without(const Evidence& evidence, const Effect& effect) {
-  const auto& conditions = evidence.simulator.conditions();
+  const auto& conditions = evidence.conditions();
   Scenario quiet = quiet_scenario(evidence);
   Series without, with;
   synthesise_rate_under(quiet, conditions.series(), {}, without);
@@ -94,7 +94,7 @@ Rest rest_without(const Evidence& evidence, const Effect& effect) {
 Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
                            const std::vector<Effect>& effects) {
   Scenario quiet = quiet_scenario(evidence);
-  const auto& conditions = evidence.simulator.conditions().series();
+  const auto& conditions = evidence.conditions().series();
   Series without, with;
   synthesise_under(quiet, conditions, {}, without);
   const auto nothing = trace_values(evidence, trace, without);
@@ -116,8 +116,7 @@ Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
 Eigen::VectorXd trace_of(const Evidence& evidence, Trace trace) {
   if (trace == Trace::rate) return reduce(evidence, trace, evidence.scene.rate_error_dps);
   if (trace == Trace::heading) return reduce(evidence, trace, evidence.scene.heading_error_deg);
-  return reduce(evidence, trace,
-                evidence.simulator.conditions().slow_means(evidence.scene.rate_error_dps));
+  return reduce(evidence, trace, evidence.conditions().slow_means(evidence.scene.rate_error_dps));
 }
 
 Match match(const Eigen::MatrixXd& columns, const Eigen::VectorXd& trace) {

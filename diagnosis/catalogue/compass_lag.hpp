@@ -1,0 +1,33 @@
+#pragma once
+
+#include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
+#include <gyrostat/diagnosis/starts/needs.hpp>
+#include <gyrostat/diagnosis/starts/rest.hpp>
+#include <gyrostat/generators/effects/compass_lag.hpp>
+
+namespace gyrostat::gap {
+
+/// The heading follows turns late.
+template <>
+struct Diagnosed<effects::CompassLag> {
+  static constexpr auto signature = Signature::repeated;
+  static constexpr std::array free_parameters = {&effects::CompassLag::time_constant_s};
+
+  static std::vector<Start> starts(const Evidence& e) {
+    return cleaned(
+        e, shaped(e, Trace::heading, effects::CompassLag{}, &effects::CompassLag::time_constant_s,
+                  0.5 * e.conditions().interval_s(), 30.0));
+  }
+
+  static std::string why_not_assessable(const Conditions& c) {
+    if (auto why = needs::heading(c); !why.empty()) return why;
+    return needs::motion(c);
+  }
+
+  static bool is_what_it_is_called(const effects::CompassLag& /*effect*/, const Conditions& /*c*/) {
+    return true;
+  }
+};
+
+}  // namespace gyrostat::gap

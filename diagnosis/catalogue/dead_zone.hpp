@@ -1,0 +1,37 @@
+#pragma once
+
+#include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
+#include <gyrostat/diagnosis/starts/motion.hpp>
+#include <gyrostat/diagnosis/starts/needs.hpp>
+#include <gyrostat/diagnosis/starts/rest.hpp>
+#include <gyrostat/generators/effects/dead_zone.hpp>
+
+namespace gyrostat::gap {
+
+/// Small rates are lost, with or without their share of larger ones.
+template <>
+struct Diagnosed<effects::DeadZone> {
+  static constexpr auto signature = Signature::repeated;
+  static constexpr std::array free_parameters = {&effects::DeadZone::half_width_dps,
+                                                 &effects::DeadZone::lost_beyond};
+
+  static std::vector<Start> starts(const Evidence& e) {
+    std::vector<Start> found;
+    for (const double lost : {0.0, 1.0}) {
+      const auto effect =
+          shaped(e, Trace::rate, effects::DeadZone{.lost_beyond = lost},
+                 &effects::DeadZone::half_width_dps, 0.001 * fastest_dps(e), 0.5 * fastest_dps(e));
+      found.push_back({effect, rest_without(e, effect)});
+    }
+    return found;
+  }
+
+  static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }
+
+  static bool is_what_it_is_called(const effects::DeadZone& /*effect*/, const Conditions& /*c*/) {
+    return true;
+  }
+};
+
+}  // namespace gyrostat::gap

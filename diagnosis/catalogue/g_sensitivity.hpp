@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/starts/needs.hpp>
+#include <gyrostat/diagnosis/starts/rest.hpp>
+#include <gyrostat/generators/effects/g_sensitivity.hpp>
+
+namespace gyrostat::gap {
+
+/// The slow rate follows the acceleration along three axes.
+template <>
+struct Diagnosed<effects::GSensitivity> {
+  static constexpr auto signature = Signature::slow;
+  static constexpr std::array free_parameters = {&effects::GSensitivity::x_dps_per_mps2,
+                                                 &effects::GSensitivity::y_dps_per_mps2,
+                                                 &effects::GSensitivity::z_dps_per_mps2};
+
+  static std::vector<Start> starts(const Evidence& e) {
+    const auto columns =
+        signatures(e, Trace::slow_rate,
+                   {effects::GSensitivity{1.0, 0.0, 0.0}, effects::GSensitivity{0.0, 1.0, 0.0},
+                    effects::GSensitivity{0.0, 0.0, 1.0}});
+    const auto found = match(columns, trace_of(e, Trace::slow_rate)).amplitudes;
+    return cleaned(e, effects::GSensitivity{found[0], found[1], found[2]});
+  }
+
+  static std::string why_not_assessable(const Conditions& c) {
+    constexpr double least_change_mps2 = 0.5;
+    if (!c.has_acceleration()) return "there are no acc_x_mps2, … columns";
+    const double span = std::max(
+        {extent(c.slow_means(c.series().acc_x_mps2)),
+         c.series().acc_y_mps2.empty() ? 0.0 : extent(c.slow_means(c.series().acc_y_mps2)),
+         c.series().acc_z_mps2.empty() ? 0.0 : extent(c.slow_means(c.series().acc_z_mps2))});
+    if (span >= least_change_mps2) return {};
+    return fmt::format("the acceleration changes by {:.2g} m/s²; at least {:g} m/s² are needed",
+                       span, least_change_mps2);
+  }
+
+  static bool is_what_it_is_called(const effects::GSensitivity& /*effect*/,
+                                   const Conditions& /*c*/) {
+    return true;
+  }
+};
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/starts/needs.hpp>
+#include <gyrostat/diagnosis/starts/slow_noise.hpp>
+#include <gyrostat/generators/effects/gauss_markov.hpp>
+
+namespace gyrostat::gap {
+
+/// The hump that a correlation time leaves in the Allan variance.
+template <>
+struct Diagnosed<effects::GaussMarkov> {
+  static constexpr auto signature = Signature::none;
+  static constexpr std::array free_parameters = {&effects::GaussMarkov::std_dps,
+                                                 &effects::GaussMarkov::correlation_time_s};
+
+  static std::vector<Start> starts(const Evidence& e) {
+    return slow_noise(e, SlowComponent::gauss_markov, [](const auto& fit) {
+      return effects::GaussMarkov{fit.slow_std_dps, fit.correlation_time_s};
+    });
+  }
+
+  static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
+
+  static bool is_what_it_is_called(const effects::GaussMarkov& effect, const Conditions& c) {
+    return is_slow(effect.correlation_time_s, c);
+  }
+};
+
+}  // namespace gyrostat::gap

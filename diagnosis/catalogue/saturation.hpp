@@ -1,0 +1,30 @@
+#pragma once
+
+#include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
+#include <gyrostat/diagnosis/starts/motion.hpp>
+#include <gyrostat/diagnosis/starts/needs.hpp>
+#include <gyrostat/diagnosis/starts/rest.hpp>
+#include <gyrostat/generators/effects/saturation.hpp>
+
+namespace gyrostat::gap {
+
+/// Rates beyond a limit are cut; limits above the fastest rate cut nothing.
+template <>
+struct Diagnosed<effects::Saturation> {
+  static constexpr auto signature = Signature::repeated;
+  static constexpr std::array free_parameters = {&effects::Saturation::limit_dps};
+
+  static std::vector<Start> starts(const Evidence& e) {
+    return cleaned(e, shaped(e, Trace::rate, effects::Saturation{}, &effects::Saturation::limit_dps,
+                             0.05 * fastest_dps(e), 1.02 * fastest_dps(e)));
+  }
+
+  static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }
+
+  static bool is_what_it_is_called(const effects::Saturation& /*effect*/, const Conditions& /*c*/) {
+    return true;
+  }
+};
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
+#include <gyrostat/diagnosis/starts/needs.hpp>
+#include <gyrostat/diagnosis/starts/rest.hpp>
+#include <gyrostat/generators/effects/scale_factor.hpp>
+
+namespace gyrostat::gap {
+
+/// A share of the rate.
+template <>
+struct Diagnosed<effects::ScaleFactor> {
+  static constexpr auto signature = Signature::repeated;
+  static constexpr std::array free_parameters = {&effects::ScaleFactor::error};
+
+  static std::vector<Start> starts(const Evidence& e) {
+    return cleaned(
+        e, scaled(e, Trace::rate, effects::ScaleFactor{}, [](auto& p, double a) { p.error = a; }));
+  }
+
+  static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }
+
+  static bool is_what_it_is_called(const effects::ScaleFactor& /*effect*/,
+                                   const Conditions& /*c*/) {
+    return true;
+  }
+};
+
+}  // namespace gyrostat::gap

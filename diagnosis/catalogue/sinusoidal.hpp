@@ -1,0 +1,103 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/starts/needs.hpp>
+#include <gyrostat/diagnosis/starts/rest.hpp>
+#include <gyrostat/diagnosis/starts/spectral_peak.hpp>
+#include <gyrostat/generators/effects/scale_asymmetry.hpp>
+#include <gyrostat/generators/effects/scale_factor.hpp>
+#include <gyrostat/generators/effects/sensor_bandwidth.hpp>
+#include <gyrostat/generators/effects/sinusoidal.hpp>
+
+namespace gyrostat::gap {
+
+/// The highest peak of the spectrum; its frequency, sharpened, is that of the largest amplitude over
+/// the train part.
+template <>
+struct Diagnosed<effects::Sinusoidal> {
+  static constexpr auto signature = Signature::repeated;
+  static constexpr std::array free_parameters = {&effects::Sinusoidal::amplitude_dps,
+                                                 &effects::Sinusoidal::frequency_hz,
+                                                 &effects::Sinusoidal::phase_deg};
+
+  static std::vector<Start> starts(const Evidence& e) {
+    const auto& conditions = e.conditions();
+    std::vector<Start> found;
+    for (const bool slow : {false, true}) {
+      const auto peak = highest_peak(slow ? e.scene.slow_spectra[0] : e.scene.spectra[0]);
+      if (peak.frequency_hz <= 0.0) continue;
+      const auto& values = slow ? e.scene.slow_dps : e.scene.rate_error_dps;
+      const auto& spans = slow ? conditions.slow_spans(Part::train) : conditions.spans(Part::train);
+      const double interval_s = slow ? conditions.slow_interval_s() : conditions.interval_s();
+      const double duration_s = interval_s * static_cast<double>(values.size());
+      const double resolution =
+          slow ? e.scene.slow_spectra[0].resolution_hz : e.scene.spectra[0].resolution_hz;
+      double best = peak.frequency_hz, largest = 0.0;
+      double reach = 1.5 * resolution, step = std::max(0.3 / duration_s, resolution / 400.0);
+      for (int pass = 0; pass < 2; ++pass) {
+        const double centre = best;
+        for (double f = std::max(centre - reach, step); f <= centre + reach; f += step)
+          if (const double a = std::abs(line_at(values, spans, f, interval_s)); a > largest) {
+            largest = a;
+            best = f;
+          }
+        reach = step;
+        step /= 8.0;
+      }
+      const auto line = line_at(values, spans, best, interval_s);
+      const double half =
+          slow ? 0.5 * (conditions.slow_interval_s() - conditions.interval_s()) : 0.0;
+      const double phase = (std::arg(line) + 0.5 * std::numbers::pi) * 180.0 / std::numbers::pi -
+                           360.0 * best * half;
+      const double x = std::numbers::pi * best * interval_s;
+      const double lost = slow && x > 0.0 ? std::sin(x) / x : 1.0;
+      const effects::Sinusoidal sine{std::abs(line) / lost, best, wrap_degrees(phase)};
+      if (follows_motion(e, sine)) continue;
+      found.push_back({sine, rest_without(e, sine)});
+    }
+    return found;
+  }
+
+  static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
+
+  static bool is_what_it_is_called(const effects::Sinusoidal& /*effect*/, const Conditions& /*c*/) {
+    return true;
+  }
+
+ private:
+  /// Power and phase of `values` at a frequency over the given stretches.
+  static std::complex<double> line_at(const std::vector<double>& values,
+                                      const std::vector<Span>& spans, double frequency_hz,
+                                      double interval_s) {
+    const double angle = -2.0 * std::numbers::pi * frequency_hz * interval_s;
+    std::complex<double> sum = 0.0;
+    double count = 0.0;
+    for (const auto& span : spans) {
+      double mean = 0.0;
+      for (std::size_t i = span.first; i < span.last; ++i) mean += values[i];
+      mean /= static_cast<double>(span.size());
+      std::complex<double> turn = std::polar(1.0, angle * static_cast<double>(span.first));
+      const auto step = std::polar(1.0, angle);
+      for (std::size_t i = span.first; i < span.last; ++i, turn *= step)
+        sum += (values[i] - mean) * turn;
+      count += static_cast<double>(span.size());
+    }
+    return 2.0 * sum / count;
+  }
+
+  /// Whether the line is the motion's own, scaled, rectified or delayed.
+  static bool follows_motion(const Evidence& e, const effects::Sinusoidal& sine) {
+    if (!e.conditions().has_motion()) return false;
+    const auto motion = signatures(e, Trace::rate,
+                                   {effects::ScaleFactor{1.0}, effects::ScaleAsymmetry{1.0},
+                                    effects::SensorBandwidth{0.05 * e.conditions().rate_hz()}});
+    return match(motion, signatures(e, Trace::rate, {sine}).col(0)).unexplained < 0.5;
+  }
+};
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
+#include <gyrostat/diagnosis/starts/needs.hpp>
+#include <gyrostat/diagnosis/starts/rest.hpp>
+#include <gyrostat/generators/effects/thermal_hysteresis.hpp>
+
+namespace gyrostat::gap {
+
+/// The branches of rising and falling temperature lie apart: both must have been seen.
+template <>
+struct Diagnosed<effects::ThermalHysteresis> {
+  static constexpr auto signature = Signature::slow;
+  static constexpr std::array free_parameters = {&effects::ThermalHysteresis::amplitude_dps,
+                                                 &effects::ThermalHysteresis::width_C};
+
+  static std::vector<Start> starts(const Evidence& e) {
+    const auto& T = e.conditions().slow_temperature_C();
+    const double span =
+        *std::max_element(T.begin(), T.end()) - *std::min_element(T.begin(), T.end());
+    return cleaned(e, scaled_over(e, Trace::slow_rate, effects::ThermalHysteresis{},
+                                  &effects::ThermalHysteresis::width_C, 0.02 * span, 0.45 * span,
+                                  [](auto& p, double a) { p.amplitude_dps = a; }));
+  }
+
+  static std::string why_not_assessable(const Conditions& c) {
+    if (auto why = needs::warming(c); !why.empty()) return why;
+    const auto& T = c.slow_temperature_C();
+    double rise = 0.0, fall = 0.0, low = T.front(), high = T.front();
+    for (const double t : T) {
+      low = std::min(low, t);
+      high = std::max(high, t);
+      rise = std::max(rise, t - low);
+      fall = std::max(fall, high - t);
+    }
+    if (std::min(rise, fall) >= needs::least_warming_C) return {};
+    return fmt::format(
+        "the temperature rises by {:.2g} °C and falls by {:.2g} °C; {:g} °C each way are needed",
+        rise, fall, needs::least_warming_C);
+  }
+
+  static bool is_what_it_is_called(const effects::ThermalHysteresis& /*effect*/,
+                                   const Conditions& /*c*/) {
+    return true;
+  }
+};
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gyrostat/core/registry.hpp>
+#include <gyrostat/generators/effect.hpp>
+
+namespace gyrostat::gap {
+
+class Conditions;
+struct Evidence;
+struct Start;
+
+/// What an effect adds to a recording, seen over replicas of one scenario.
+enum class Signature {
+  none,      ///< every replica has its own: a fit to simulated readings moves the parameters
+  repeated,  ///< the same in every replica: least squares on the recording finds the parameters
+  slow,      ///< repeated, and a curve that a random walk imitates
+};
+
+/// An effect that the diagnosis may name as a cause, without its C++ type: one of the catalogue.
+struct CauseType {
+  static constexpr std::string_view kind = "cause";
+
+  std::string_view id;  ///< the effect's
+  Signature signature;
+  /// The parameters that the recording decides; the others would move nothing that the baseline
+  /// does not, or are found at the start and kept.
+  std::vector<std::string_view> free_parameters;
+  Effect (*effect)();  ///< with its default parameters
+  /// First parameters from the recording, one set or several; none where it shows nothing alike.
+  std::vector<Start> (*starts)(const Evidence& evidence);
+  /// Why the recording cannot show the effect, with how much more it would need; empty where it
+  /// can.
+  std::string (*why_not_assessable)(const Conditions& conditions);
+  /// Whether the parameters are what the effect's name says: slow errors last for more than a few
+  /// samples, a disturbance of the compass does not turn it round.
+  bool (*is_what_it_is_called)(const Effect& effect, const Conditions& conditions);
+
+  bool is_deterministic() const { return signature != Signature::none; }
+
+  static void describe_all(std::deque<CauseType>& to);
+};
+
+/// The catalogue. An effect that it lacks is simulated, and is never named.
+inline Registry<CauseType>& cause_types() { return Registry<CauseType>::all(); }
+
+}  // namespace gyrostat::gap

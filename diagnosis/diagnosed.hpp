@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <span>
+
+#include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/start.hpp>
+#include <gyrostat/diagnosis/starts/slow_signature.hpp>
+
+namespace gyrostat::gap {
+
+/// Everything that the diagnosis knows of an effect, said in catalogue/<effect>.hpp and nowhere
+/// else:
+///
+///   template <>
+///   struct Diagnosed<effects::Mine> {
+///     static constexpr auto signature = Signature::none;
+///     static constexpr std::array free_parameters = {&effects::Mine::std_dps};
+///     static std::vector<Start> starts(const Evidence& evidence);
+///     static std::string why_not_assessable(const Conditions& conditions);
+///     static bool is_what_it_is_called(const effects::Mine& effect, const Conditions& conditions);
+///   };
+///
+/// CauseType says what each of them means. There are no defaults: one that is forgotten does not
+/// compile.
+template <class E>
+struct Diagnosed;
+
+template <class E>
+concept SaysItsSignature = requires {
+  { Diagnosed<E>::signature } -> std::convertible_to<Signature>;
+};
+template <class E>
+concept SaysItsFreeParameters = requires {
+  { Diagnosed<E>::free_parameters } -> std::convertible_to<std::span<double E::*const>>;
+};
+template <class E>
+concept SaysHowItStarts = requires(const Evidence& evidence) {
+  { Diagnosed<E>::starts(evidence) } -> std::same_as<std::vector<Start>>;
+};
+template <class E>
+concept SaysWhatItNeeds = requires(const Conditions& conditions) {
+  { Diagnosed<E>::why_not_assessable(conditions) } -> std::same_as<std::string>;
+};
+template <class E>
+concept SaysWhatIsPlausible = requires(const E& effect, const Conditions& conditions) {
+  { Diagnosed<E>::is_what_it_is_called(effect, conditions) } -> std::same_as<bool>;
+};
+template <class E>
+concept Diagnosable = SaysItsSignature<E> && SaysItsFreeParameters<E> && SaysHowItStarts<E> &&
+    SaysWhatItNeeds<E> && SaysWhatIsPlausible<E>;
+
+/// The catalogue's entry of an effect. A program that has described an effect of its own has it
+/// among the causes by
+///
+///   gyrostat::gap::cause_types().add(gyrostat::gap::describe_cause<MyEffect>());
+template <Diagnosable E>
+CauseType describe_cause() {
+  using D = Diagnosed<E>;
+  std::vector<std::string_view> free;
+  for (const auto& field : E::fields())
+    if (std::ranges::find(D::free_parameters, field.member) != D::free_parameters.end())
+      free.push_back(field.name);
+  return {.id = effect_types().of(typeid(E)).id,
+          .signature = D::signature,
+          .free_parameters = std::move(free),
+          .effect = [] { return Effect(E{}); },
+          .starts =
+              [](const Evidence& evidence) {
+                if constexpr (D::signature == Signature::slow)
+                  return beside_its_own_walk(D::starts, evidence);
+                else
+                  return D::starts(evidence);
+              },
+          .why_not_assessable = D::why_not_assessable,
+          .is_what_it_is_called =
+              [](const Effect& effect, const Conditions& conditions) {
+                return D::is_what_it_is_called(*effect.as<E>(), conditions);
+              }};
+}
+
+}  // namespace gyrostat::gap

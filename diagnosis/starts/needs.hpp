@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gyrostat::gap {
+
+class Conditions;
+
+/// What effects need of a recording: each says why the recording lacks it, with how much more it
+/// would take, or nothing where it does not.
+namespace needs {
+
+/// Any recording shows the effect.
+std::string nothing(const Conditions& conditions);
+/// A temperature that changes.
+std::string warming(const Conditions& conditions);
+/// Minutes, for errors that take as long.
+std::string time(const Conditions& conditions);
+/// A reference rate that changes.
+std::string motion(const Conditions& conditions);
+std::string heading(const Conditions& conditions);
+/// A heading, and turns through most of a circle.
+std::string turns(const Conditions& conditions);
+
+inline constexpr double least_warming_C = 4.0;
+
+}  // namespace needs
+
+/// Largest less smallest value; 0 of none.
+double extent(const std::vector<double>& values);
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,44 @@
+#include <gyrostat/diagnosis/starts/spectral_peak.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <gyrostat/diagnosis/starts/train_steps.hpp>
+
+namespace gyrostat::gap {
+
+SpectralPeak highest_peak(const Spectrum& spectrum) {
+  SpectralPeak best;
+  const auto& s = spectrum.density;
+  if (s.size() < 24) return best;
+  for (std::size_t reach : {std::size_t{1}, std::size_t{4}, std::size_t{16}, std::size_t{64}}) {
+    for (std::size_t k = 3 + reach; k + reach < s.size();
+         k += std::max<std::size_t>(1, reach / 2)) {
+      const std::size_t low = k > 6 * reach ? k - 6 * reach : 1;
+      const std::size_t high = std::min(s.size(), k + 6 * reach + 1);
+      std::vector<double> around;
+      double inside = 0.0;
+      for (std::size_t j = low; j < high; ++j)
+        if (j + reach < k || j > k + reach)
+          around.push_back(s[j]);
+        else
+          inside += s[j];
+      const double floor = quantile(around, 0.5);
+      const double bins = static_cast<double>(2 * reach + 1);
+      const double excess = inside - floor * bins;
+      const double significance = excess / (floor * std::sqrt(bins));
+      if (significance <= best.excess) continue;
+      double centre = 0.0, weight = 0.0;
+      for (std::size_t j = k - reach; j <= k + reach; ++j) {
+        const double above = std::max(0.0, s[j] - floor);
+        centre += above * static_cast<double>(j);
+        weight += above;
+      }
+      best = {spectrum.resolution_hz * (weight > 0.0 ? centre / weight : static_cast<double>(k)),
+              excess * spectrum.resolution_hz, spectrum.resolution_hz * bins, significance, floor};
+    }
+  }
+  return best;
+}
+
+}  // namespace gyrostat::gap

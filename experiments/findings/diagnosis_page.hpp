@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace gyrostat::gap {
+
+struct Diagnosis;
+
+/// The diagnosis with a picture of each lens, as one HTML page that needs nothing else.
+std::string diagnosis_page(const Diagnosis& diagnosis, const std::string& name);
+
+}  // namespace gyrostat::gap
