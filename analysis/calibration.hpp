@@ -27,6 +27,18 @@ struct Calibration {
   double level_std_dps = 0.0;  ///< spread of the 10 s means about the drift
 };
 
+/// Fits a static span.
+///
+/// Example: a filter that starts from what the first minutes of a recording tell.
+///
+///   const Series recording = read_recording("REC.csv").series;
+///   const Series still = cut(recording, 0.0, 300.0, "example");
+///   const Calibration fitted = calibrate(still, FitMethod::likelihood);
+///   const ParameterMap told = parameters_from(fitted, recording.temperature_C.front());
+///   Track track;
+///   run_filter(filter_types().named("kf", "example"), told, {}, recording, track);
+///
+/// Thread safety: may run in any number of threads at once; it starts none.
 Calibration calibrate(const Series& series, FitMethod method);
 
 /// What the random error is fitted to: the rate error in dps without its fitted drift, NaN where

@@ -30,9 +30,36 @@ struct FilterType {
 inline Registry<FilterType>& filter_types() { return Registry<FilterType>::all(); }
 
 /// The description of a filter template under a name. A program that describes and adds one of its
-/// own has it in its studies:
+/// own has it in its studies, beside those of gyrostat.
 ///
-///   gyrostat::filter_types().add(gyrostat::describe_filter<MyFilter>("mine"));
+/// Example: a filter that takes the first sample for the gyro's error.
+///
+///   #include <gyrostat/core/models/no_parameters.hpp>
+///
+///   template <class T>
+///   class Hold {
+///    public:
+///     using Scalar = T;
+///     using Parameters = NoParameters<T>;
+///     static constexpr std::string_view title = "holds the first sample";
+///     static constexpr Needs needs{};
+///     static constexpr Role role{};
+///
+///     explicit Hold(const Parameters& /*none*/) {}
+///
+///     Step<T> step(const Sample<T>& sample) {
+///       if (is_missing(first_)) first_ = sample.gyro_dps;
+///       return {.estimate_dps = is_missing(first_) ? T(0.0) : first_};
+///     }
+///
+///    private:
+///     T first_{no_value};
+///   };
+///
+///   filter_types().add(describe_filter<Hold>("hold"));
+///
+/// Thread safety: `add` is for the start of a program (Registry). A filter is copied for each trial,
+/// so its own members are seen by one thread alone.
 template <template <class> class F>
 requires Filter<F<double>> FilterType describe_filter(std::string_view id) {
   using Parameters = typename F<double>::Parameters;
@@ -57,6 +84,15 @@ std::vector<double> field_values(const FilterType& filter, const ParameterMap& t
 
 /// Runs the filter over the series into `track`, whose memory is reused. Parameters that it does
 /// not have concern other filters.
+///
+/// Example: the Kalman filter by its name, with its defaults but for phi.
+///
+///   Series series;
+///   synthesise(Scenario{}, {.seed = 1, .trial = 0}, series);
+///   Track track;
+///   run_filter(filter_types().named("kf", "example"), {{"phi", 0.3}}, {}, series, track);
+///
+/// Thread safety: may run in any number of threads at once, each with a `track` of its own.
 void run_filter(const FilterType& filter, const ParameterMap& told, const ParameterMap& overrides,
                 const Series& series, Track& track);
 

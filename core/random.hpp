@@ -13,6 +13,16 @@ namespace gyrostat {
 /// 32-bit words per counter; Box-Muller turns them into four normals (largest magnitude 6.76).
 /// Both, with logarithm, sine and cosine, are NormalBlocks, whose bits are the same on every
 /// machine.
+///
+/// Example: the same deviate twice, and a block of a thousand.
+///
+///   const NormalStream noise(1, 17, "white noise");
+///   const double first = noise.normal(0);
+///   std::vector<double> block(1000);
+///   noise.fill(0, block);
+///   const bool same = block[0] == first;
+///
+/// Thread safety: it has no state but its address, so any number of threads may draw at once.
 class NormalStream {
  public:
   NormalStream(std::uint64_t seed, std::uint32_t trial, std::string_view stream);

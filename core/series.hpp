@@ -12,6 +12,18 @@ namespace gyrostat {
 
 /// A sampled gyro signal and what was recorded beside it. A channel that is absent is empty; a
 /// sample that is missing is NaN. The last channels are the simulator's truth.
+///
+/// Example: a minute at 100 Hz, and its second half.
+///
+///   Series series;
+///   for (int k = 0; k < 6000; ++k) {
+///     series.t_s.push_back(0.01 * k);
+///     series.gyro_dps.push_back(k % 2 ? 0.1 : -0.1);
+///   }
+///   const Series half = series.slice(3000, 3000);
+///
+/// Thread safety: that of its vectors. Any number of threads may read one; one that is changed
+/// belongs to a single thread.
 struct Series {
   std::vector<double> t_s;
   std::vector<double> gyro_dps;

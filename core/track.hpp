@@ -39,6 +39,18 @@ LearnedParameters learned_by(const F& filter) {
 }
 
 /// Runs `filter` over every sample of `series` into `track`, whose memory is reused.
+///
+/// Example: a filter by its type, and the rate that it leaves.
+///
+///   #include <gyrostat/core/filters/kf.hpp>
+///
+///   Series series;
+///   synthesise(Scenario{}, {.seed = 1, .trial = 0}, series);
+///   Track track;
+///   run_filter(filters::Kf<double>({Arima111<double>{.phi = 0.3}, {}}), series, track);
+///   const double compensated_dps = series.gyro_dps[10] - track.estimate_dps[10];
+///
+/// Thread safety: may run in any number of threads at once, each with a `track` of its own.
 template <Filter F>
 void run_filter(F filter, const Series& series, Track& track) {
   track.resize(series.size());

@@ -85,6 +85,17 @@ using DiagnosisProgress = std::function<void(const std::string&, double)>;
 /// Diagnoses an evenly sampled series (NaN = missing). Everything that is chosen or fitted comes
 /// from the train part alone. Throws InputError for fewer than 1000 samples, or a gyro that never
 /// changes.
+///
+/// Example: the verdict on a recording, in words.
+///
+///   #include <gyrostat/diagnosis/diagnosis_tables.hpp>
+///
+///   const Series recording = read_recording("REC.csv").series;
+///   const gap::Diagnosis diagnosis = gap::diagnose(recording, {.seed = 1});
+///   std::fputs(gap::in_words(diagnosis, "REC.csv").c_str(), stdout);
+///
+/// Thread safety: may be called from any thread; it works on all threads that oneTBB gives it, and
+/// their number changes no digit. `progress` is called by the thread that called.
 Diagnosis diagnose(const Series& recording, const DiagnosisOptions& options,
                    const DiagnosisProgress& progress = {});
 

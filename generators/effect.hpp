@@ -26,6 +26,14 @@ struct EffectType : ParametricType {
 inline Registry<EffectType>& effect_types() { return Registry<EffectType>::all(); }
 
 /// An effect with its parameters.
+///
+/// Example: an effect by its type, and the same by its name.
+///
+///   #include <gyrostat/generators/effects/quantization.hpp>
+///
+///   const Effect known = effects::Quantization{.lsb_dps = 0.01};
+///   Effect named(effect_types().named("quantization", "example"));
+///   named.value(0) = 0.01;
 class Effect : public Chosen<EffectType> {
  public:
   using Chosen::Chosen;
@@ -36,9 +44,35 @@ class Effect : public Chosen<EffectType> {
 };
 
 /// The description of an effect under a name. A program that describes and adds one of its own has
-/// it in its scenarios:
+/// it in its scenarios, beside those of gyrostat.
 ///
-///   gyrostat::effect_types().add(gyrostat::describe_effect<MyEffect>("mine"));
+/// Example: a gyro whose sign is turned for a while.
+///
+///   #include <gyrostat/generators/sampled.hpp>
+///
+///   struct Turned {
+///     double until_s = 0.0;
+///
+///     static constexpr std::string_view title = "the sign is turned";
+///     static constexpr Stage stage = Stage::transport;
+///     static constexpr std::array needs = {&Series::gyro_dps};
+///
+///     static constexpr auto fields() {
+///       using P = Turned;
+///       return std::array{Field{"until_s", &P::until_s, "s", ranges::non_negative, "its end"}};
+///     }
+///     static constexpr Turned absent() { return {}; }
+///
+///     void apply(Series& series, const Noise& /*noise*/) const {
+///       for (std::size_t i = 0; i < series.size() && series.t_s[i] < until_s; ++i)
+///         series.gyro_dps[i] = -series.gyro_dps[i];
+///     }
+///   };
+///
+///   effect_types().add(describe_effect<Turned>("turned"));
+///
+/// Thread safety: `add` is for the start of a program (Registry). `apply` is called from many
+/// threads at once, each with a series of its own, so an effect has no state but its parameters.
 template <class E>
 EffectType describe_effect(std::string_view id) {
   static constexpr auto needs = E::needs;

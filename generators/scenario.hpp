@@ -30,6 +30,16 @@ struct Sampling {
 };
 
 /// Everything that a simulated gyro signal depends on, besides its noise.
+///
+/// Example: a minute of a gyro that drifts with temperature and is quantised.
+///
+///   #include <gyrostat/generators/effects/quantization.hpp>
+///
+///   Scenario scenario;
+///   scenario.sampling = {.duration_s = 60, .rate_hz = 100};
+///   scenario.random_error = {.phi = 0.5, .delta1_dps = 2e-4, .delta2_dps = 1e-4};
+///   scenario.thermal_drift = {.a_dps_per_C = 0.002};
+///   scenario.effects.emplace_back(effects::Quantization{.lsb_dps = 0.01});
 struct Scenario {
   Sampling sampling;
   Arima111<double> random_error;
@@ -44,6 +54,14 @@ struct Scenario {
 /// The signal of `scenario` under `noise`, with its truth, into `series` (whose memory is reused):
 ///   gyro = rate_ref + thermal_bias + random_error + white noise,
 /// altered by each effect at its stage. T' of the linear drift is the derivative between samples.
+///
+/// Example: the signal of trial 17, as any other program makes it from the same seed.
+///
+///   Series series;
+///   synthesise(Scenario{}, {.seed = 1, .trial = 17}, series);
+///
+/// Thread safety: may run in any number of threads at once, each with a `series` of its own; a
+/// scenario is only read.
 void synthesise(const Scenario& scenario, const Noise& noise, Series& series);
 
 /// The errors of `scenario` under the conditions of a recording: its times, even or not,

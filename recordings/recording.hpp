@@ -25,6 +25,16 @@ struct Recording {
 /// by `axis` ("x", "y", "z"; "" takes `gyro_dps` or the only one there is). A blank cell is NaN, a
 /// column of nothing but blanks is absent. Throws InputError naming file, line, column, value and
 /// what is allowed.
+///
+/// Example: a file with names and units of its own.
+///
+///   RecordingLayout layout;
+///   layout.columns = parse_assignments("t=Time[ms],gyro=GyrZ", "example");
+///   layout.units = parse_assignments("gyro=rad/s", "example");
+///   const Recording recording = read_recording("REC.csv", "", layout);
+///   for (const auto& taken : recording.taken_as) std::puts(taken.c_str());
+///
+/// Thread safety: may run in any number of threads at once, of MATLAB files in one at a time.
 Recording read_recording(const std::filesystem::path& path, std::string_view axis = "",
                          const RecordingLayout& layout = {});
 

@@ -74,6 +74,17 @@ struct TrialRow {
 /// The outcomes of a study's finished trials, in one SQLite file with a write-ahead log. A trial is
 /// there whole or not at all, whatever ends the program. One connection writes; any number read.
 /// Every member throws StoreError.
+///
+/// Example: a number of every finished trial of a run's first cell.
+///
+///   const Store store = Store::open("runs/study");
+///   const Manifest manifest = store.manifest();
+///   store.for_each_trial(0, manifest.cells[0].trials, [](const Store::TrialView& trial) {
+///     std::printf("%u: %g\n", trial.trial, trial.outcomes[0]);
+///   });
+///
+/// Thread safety: an object belongs to one thread at a time. Others, and other processes, may open
+/// the same folder beside it to read, and see only whole trials.
 class Store {
  public:
   /// A store in a folder has this name.

@@ -9,6 +9,12 @@
 namespace gyrostat {
 
 /// What a fit of ARIMA(1,1,1) + white noise to a static recording says.
+///
+/// Example: whether a fit tells phi at all.
+///
+///   const auto tells_phi = [](const ArimaFit& fit) {
+///     return fit.converged && fit.standard_errors.phi < 0.1;
+///   };
 struct ArimaFit {
   Arima111<double> parameters;
   Arima111<double> standard_errors;

@@ -34,6 +34,15 @@ bool same(const Jet& a, const Jet& b) {
 ///   x_{k+1} = x_k + e_k + delta1 a_{k+1},  e_{k+1} = phi e_k + (phi delta1 - delta2) a_{k+1}.
 /// A flat prior of the level leaves x_0 ~ N(z_0, R), independent of e_0, which is stationary. Once
 /// the covariance has settled, value and derivatives, its gain is kept.
+///
+/// Example: their mean square over what the model says of it, 1 where the model is true.
+///
+///   double sum = 0.0, count = 0.0;
+///   const std::vector<double> z = {0.1, 0.2, 0.1, -0.1};
+///   arima_innovations(Arima111<double>{}, z, [&](double innovation, double variance) {
+///     sum += innovation * innovation / variance;
+///     ++count;
+///   });
 template <class T, class Use>
 void arima_innovations(const Arima111<T>& arima, std::span<const double> z, const Use& use) {
   std::size_t first = 0;

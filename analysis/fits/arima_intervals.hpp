@@ -13,6 +13,15 @@ namespace gyrostat {
 /// values that a likelihood-ratio test does not reject, all other parameters free (Venzon and
 /// Moolgavkar, Applied Statistics 37, 1988). Where a signal hardly tells phi from delta2 or delta1
 /// from R the likelihood is no parabola, and these hold where multiples of a standard error do not.
+///
+/// Example: the 95 % interval of phi.
+///
+///   Series series;
+///   synthesise(Scenario{}, {.seed = 1, .trial = 0}, series);
+///   const ArimaIntervals intervals(fit_arima_likelihood(series.gyro_dps), series.gyro_dps);
+///   const auto [low, high] = intervals.interval(ArimaIntervals::phi);
+///
+/// Thread safety: any number of threads may ask one at once.
 class ArimaIntervals {
  public:
   enum Parameter { phi, delta1, delta2, measurement_noise_std };

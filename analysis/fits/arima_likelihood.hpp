@@ -17,6 +17,17 @@ namespace gyrostat {
 /// random walk hides phi and theta, a signal that is all white hides R - the simplest model that
 /// the likelihood ratio does not reject (5 %) is given, the rest held at 0 with infinite standard
 /// errors. Throws InputError for fewer than 50 samples or a signal that never changes.
+///
+/// Example: phi of a simulated gyro, with its standard error.
+///
+///   Scenario scenario;
+///   scenario.random_error = {.phi = 0.5, .delta1_dps = 2e-3, .delta2_dps = 1e-3};
+///   Series series;
+///   synthesise(scenario, {.seed = 1, .trial = 0}, series);
+///   const ArimaFit fit = fit_arima_likelihood(series.gyro_dps);
+///   std::printf("%g +- %g\n", fit.parameters.phi, fit.standard_errors.phi);
+///
+/// Thread safety: may run in any number of threads at once; it starts none.
 ArimaFit fit_arima_likelihood(std::span<const double> rate_dps);
 
 /// The same with all four parameters, whether the signal tells them or not.

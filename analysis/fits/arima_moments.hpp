@@ -29,6 +29,16 @@ namespace gyrostat {
 /// Missing samples and spikes are bridged, which takes the noise of as many samples out of R.
 /// Throws InputError for fewer than 512 samples, more than 5 % of them missing, or a signal that
 /// hardly ever changes.
+///
+/// Example: a fit that spikes do not move, of every span that is long enough.
+///
+///   Series series;
+///   synthesise(Scenario{}, {.seed = 1, .trial = 0}, series);
+///   series.gyro_dps[100] = 1000.0;
+///   const ArimaFit fit = fit_arima_moments(series.gyro_dps);
+///   if (!fit.converged) std::puts(fit.message.c_str());
+///
+/// Thread safety: may run in any number of threads at once; it starts none.
 ArimaFit fit_arima_moments(std::span<const double> rate_dps);
 
 }  // namespace gyrostat

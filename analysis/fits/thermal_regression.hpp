@@ -23,6 +23,14 @@ struct ThermalFit {
 /// that wander, white noise and a random walk whose strength is averaged over. Where the
 /// temperature spans less than 1 °C, a and b are not assessable: they are 0, with infinite standard
 /// errors, and c is the mean. Throws InputError for fewer than 4 whole intervals.
+///
+/// Example: the drift of a recording with temperature, in dps at 40 °C.
+///
+///   const Series series = read_recording("REC.csv").series;
+///   const ThermalFit fit = fit_thermal_drift(series);
+///   const double at_40_C = fit.parameters.a_dps_per_C * 40.0 + fit.parameters.c_dps;
+///
+/// Thread safety: may run in any number of threads at once; it starts none.
 ThermalFit fit_thermal_drift(const Series& series, double interval_s = 10.0);
 
 /// Standard deviation, dps, of the bias measurements M that the compass of `series` gives against

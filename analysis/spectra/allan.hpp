@@ -30,6 +30,15 @@ std::vector<std::size_t> allan_clusters(std::size_t samples);
 /// Throws InputError for a sample that is missing or not finite (how to bridge a gap is the
 /// caller's choice), for a cluster outside [1, n/2], a rate of sampling <= 0, and a confidence
 /// outside (0, 1).
+///
+/// Example: a curve with its 95 % intervals.
+///
+///   Series series;
+///   synthesise(Scenario{}, {.seed = 1, .trial = 0}, series);
+///   for (const auto& p : overlapping_allan_deviation(series.gyro_dps, series.rate_hz()))
+///     std::printf("%g s: %g (%g to %g) dps\n", p.tau_s, p.deviation, p.lower, p.upper);
+///
+/// Thread safety: may run in any number of threads at once; it starts none.
 std::vector<AllanPoint> overlapping_allan_deviation(std::span<const double> rate, double rate_hz,
                                                     std::span<const std::size_t> clusters = {},
                                                     double confidence = 0.95);

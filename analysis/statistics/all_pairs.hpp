@@ -13,6 +13,17 @@ namespace gyrostat {
 /// Journal 50, 2008, sec. 3). That is narrower than Bonferroni's, for differences from one method
 /// err together. The distribution is that of 20,000 draws with the correlations of the trials,
 /// always the same draws, so the level is met within a standard error of 0.15 %.
+///
+/// Example: three methods, trial by trial.
+///
+///   const std::vector<std::vector<double>> trials = {{0.21, 0.24, 0.31}, {0.34, 0.36, 0.41}};
+///   AllPairs pairs(3);
+///   do {
+///     for (const auto& values : trials) pairs.add(values);
+///   } while (pairs.another_pass());
+///   const PairedDifference difference = pairs.difference(0, 1);
+///
+/// Thread safety: `add` and `another_pass` belong to one thread; then any number may ask.
 class AllPairs {
  public:
   /// `looks`: by how many looks at the results the level is shared.

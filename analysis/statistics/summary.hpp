@@ -23,6 +23,14 @@ struct Summary {
 
 /// Statistics of `values`; NaN entries are counted as missing. Order does not change the result
 /// beyond the order of summation.
+///
+/// Example: mean and interval of three trials, of which one has no value.
+///
+///   const std::vector<double> errors_dps = {0.02, 0.03, no_value};
+///   const Summary summary = summarise(errors_dps);
+///   std::printf("%g +- %g, %zu missing\n", summary.mean, summary.half_width_95, summary.missing);
+///
+/// Thread safety: may run in any number of threads at once.
 Summary summarise(std::span<const double> values);
 
 /// Distance from the mean of the farther end of its 95 % interval (`skewed_mean_reach`): ± as

@@ -51,31 +51,7 @@ int main(int argc, char** argv) {
                    "gyrostat"};
   program.require_subcommand(1);
   program.set_version_flag("--version", GYROSTAT_VERSION);
-  cli::add_run(program, console, exit_code);
-  cli::add_plan(program, console, exit_code);
-  cli::add_sensitivity(program, console, exit_code);
-  cli::add_status(program, console, exit_code);
-  cli::add_export(program, console, exit_code);
-  cli::add_report(program, console, exit_code);
-  cli::add_replay(program, console, exit_code);
-  cli::add_rank(program, console, exit_code);
-  cli::add_consistency(program, console, exit_code);
-  cli::add_merge(program, console, exit_code);
-  cli::add_slurm(program, console, exit_code);
-  cli::add_fit(program, console, exit_code);
-  cli::add_apply(program, console, exit_code);
-  cli::add_simulate(program, console, exit_code);
-  cli::add_allan(program, console, exit_code);
-  cli::add_match(program, console, exit_code);
-  cli::add_ledger(program, console, exit_code);
-  cli::add_coverage(program, console, exit_code);
-  cli::add_publish(program, console, exit_code);
-  cli::add_diagnose(program, console, exit_code);
-  cli::add_blind_check(program, console, exit_code);
-  cli::add_list(program, console, exit_code);
-  cli::add_validate(program, console, exit_code);
-  cli::add_schema(program, console, exit_code);
-  cli::add_completion(program, console, exit_code);
+  cli::add_verbs(program, console, exit_code);
 
   try {
     check_verb(program, argc, argv);

@@ -12,6 +12,7 @@
 #include <gyrostat/analysis/statistics/tail_mean.hpp>
 #include <gyrostat/core/outcome.hpp>
 #include <gyrostat/experiments/findings/ranking_words.hpp>
+#include <gyrostat/experiments/run/runner.hpp>
 #include <gyrostat/experiments/run/stopping.hpp>
 
 namespace gyrostat {
@@ -176,6 +177,14 @@ CellRanking rank_cell(const Cell& cell, const TrialSource& trials, const std::st
   ranking.not_separable = groups_of(ranking);
   ranking.sentences = ranking_sentences(cell, ranking);
   return ranking;
+}
+
+CellRanking rank_cell(const Cell& cell, const CellResult& result, const std::string& name) {
+  const TrialSource trials = [&](const auto& visit) {
+    for (const auto& trial : result.trials)
+      if (trial) visit(trial->calibration_converged, trial->numbers);
+  };
+  return rank_cell(cell, trials, name);
 }
 
 Table ranking_table(const CellRanking& ranking) {

@@ -8,6 +8,8 @@
 
 namespace gyrostat {
 
+struct CellResult;
+
 /// A method's place in a cell, by the judging metric.
 struct RankedMethod {
   std::string method;
@@ -44,7 +46,31 @@ struct CellRanking {
 
 /// The metric is the judging metric where `metric` is empty. A few passes over the trials, in
 /// memory that does not grow with them. Throws InputError for a metric of which small is not good.
+///
+/// Example: who wins a cell of a stored run.
+///
+///   const Study study = read_study("study.json");
+///   const Store store = Store::open("runs/study");
+///   const TrialSource trials = [&](const auto& visit) {
+///     store.for_each_trial(0, study.cells[0].trials, [&](const Store::TrialView& trial) {
+///       visit(trial.calibrated, trial.outcomes);
+///     });
+///   };
+///   const CellRanking ranking = rank_cell(study.cells[0], trials);
+///   for (const auto& sentence : ranking.sentences) std::puts(sentence.c_str());
+///
+/// Thread safety: may run in any number of threads at once, each with a source of its own.
 CellRanking rank_cell(const Cell& cell, const TrialSource& trials, const std::string& metric = "");
+
+/// The same of trials that were run in memory.
+///
+/// Example: a cell run and ranked, without a store.
+///
+///   const Cell cell = read_study("study.json").cells[0];
+///   const CellResult result = run_cell(cell, 1, {});
+///   const Table table = ranking_table(rank_cell(cell, result));
+///   std::fputs(render({&table, 1}, Format::text).c_str(), stdout);
+CellRanking rank_cell(const Cell& cell, const CellResult& result, const std::string& metric = "");
 
 /// One row a method, best first, with the sentences as notes.
 Table ranking_table(const CellRanking& ranking);

@@ -48,6 +48,19 @@ std::vector<double> run_trials(const PreparedCell& prepared, std::uint64_t seed,
                                const std::function<void(std::uint32_t trial, Record&&)>& take);
 
 /// Prepares a cell and runs all of its trials; each writes its own slot. Throws what a trial threw.
+///
+/// Example: the first cell of a study, and what its first method made of every trial.
+///
+///   #include <gyrostat/analysis/metric_type.hpp>
+///
+///   const Study study = read_study("study.json");
+///   const CellResult result = run_cell(study.cells[0], study.seed, {.threads = 4});
+///   const auto rmse = metric_values(result, 0, metric_named("bias_rmse", "example"));
+///   std::printf("%g dps in the mean\n", summarise(rmse).mean);
+///
+/// Thread safety: may be called from any thread, one call at a time, since `options.threads` limits
+/// oneTBB for the whole process while it runs. `options.progress` is called from many threads at
+/// once. Filters and effects of the program's own are added before.
 CellResult run_cell(const Cell& cell, std::uint64_t seed, const RunOptions& options);
 
 }  // namespace gyrostat

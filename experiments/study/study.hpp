@@ -79,10 +79,29 @@ const Cell& cell_named(const Study& study, const std::string& name, const std::s
 /// Reads and checks a study file; recordings it names are relative to its own folder. Throws one
 /// InputError with a line for each mistake: JSON path, value, unit, allowed range, nearest known
 /// name.
+///
+/// Example: a study from its file, or all that is wrong with it.
+///
+///   try {
+///     Study study = read_study("study.json");
+///     set_trials(study, 100);
+///   } catch (const InputError& mistakes) {
+///     std::puts(mistakes.what());
+///   }
+///
+/// Thread safety: may run in any number of threads at once. A study is a value that others only
+/// read.
 Study read_study(const std::string& path);
 
 /// The same for a study's JSON; `path` is what messages name and where recordings are looked for,
 /// `mistakes` are those already known.
+///
+/// Example: a study that the program writes itself.
+///
+///   const auto study = parse_study(Json::parse(R"({
+///     "cells": [{"name": "short", "trials": 20,
+///                "scenario": {"duration_s": 10, "rate_hz": 100}, "filters": ["none", "kf"]}]
+///   })"), "example.json");
 Study parse_study(const Json& json, const std::string& path, Mistakes mistakes = {});
 
 }  // namespace gyrostat

@@ -1,6 +1,7 @@
 #include <gyrostat/experiments/findings/report/cell_section.hpp>
 
 #include <gyrostat/experiments/findings/error_tables.hpp>
+#include <gyrostat/experiments/findings/report/picture.hpp>
 #include <gyrostat/results/render/html.hpp>
 
 namespace gyrostat {
@@ -91,13 +92,8 @@ std::string cell_section(const CellView& v, const CellRanking& ranking,
       "<p class=\"note\">{} of {} trials finished, all methods on the same signals</p>\n",
       v.summary.finished, v.cell.trials);
   out += disagreement(v, replayed) + list(ranking.sentences) + html(ranking_table(v, ranking));
-  std::vector<Chart> charts = {box_chart(v), rank_chart(v, ranking), ecdf_chart(v),
-                               convergence_chart(v)};
-  if (replayed.trials > 0)
-    for (auto* make : {error_chart, heading_chart, allan_chart})
-      charts.push_back(make(v, replayed));
-  charts.push_back(speed_chart(v, nanoseconds));
-  charts.push_back(consistency_chart(v));
+  std::vector<Chart> charts;
+  append_pictures({v, ranking, replayed, nanoseconds}, charts);
   out += "<div class=\"charts\">\n";
   for (const auto& chart : charts)
     if (!chart.marks.empty()) out += html(chart);

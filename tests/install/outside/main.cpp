@@ -9,7 +9,7 @@
 #include <gyrostat/results/render/render.hpp>
 
 /// Simulates a gyro, fits it, filters it, and prints its Allan deviation: one symbol from every
-/// library that is installed.
+/// component that it asks for.
 int main() {
   using namespace gyrostat;
   Scenario scenario;
