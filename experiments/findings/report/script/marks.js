@@ -1,7 +1,6 @@
+import {colour, shows} from './scales.js';
 
 // One drawer a kind of mark. `at` turns numbers into pixels of the canvas; `px` is one pixel of the page.
-const shows = (axis, v) => v != null && (!axis.log || v > 0);
-
 const drawLine = (c, chart, mark, at, px) => {
   const n = mark.x.length, seen = i => shows(chart.x, mark.x[i]) && shows(chart.y, mark.y[i]);
   if (mark.y_low) {
@@ -14,7 +13,7 @@ const drawLine = (c, chart, mark, at, px) => {
     c.globalAlpha = 1;
   }
   c.beginPath();
-  c.lineWidth = 1.8 * px;
+  c.lineWidth = (mark.strong ? 4 : 1.8) * px;
   c.setLineDash(mark.dashed ? [6 * px, 4 * px] : []);
   for (let i = 0, open = false; i < n; open = seen(i++)) {
     if (!seen(i)) continue;
@@ -48,7 +47,7 @@ const isDark = fill => {
   const [r, g, b] = fill.match(/\d+(\.\d+)?/g).map(Number);
   return 0.3 * r + 0.59 * g + 0.11 * b < 140;
 };
-const rgb = hex => hex[0] === '#' ? `rgb(${[1, 3, 5].map(k => parseInt(hex.slice(k, k + 2), 16))})` : hex;
+export const rgb = hex => hex[0] === '#' ? `rgb(${[1, 3, 5].map(k => parseInt(hex.slice(k, k + 2), 16))})` : hex;
 
 const drawPoint = (c, chart, mark, i, at, px, labels) => {
   const x = at.x(mark.x[i]), y = at.y(mark.y[i]), row = at.row;
@@ -56,6 +55,7 @@ const drawPoint = (c, chart, mark, i, at, px, labels) => {
     const fill = rgb(colour(mark.fills[i])), w = at.column, name = mark.labels?.[i] ?? '';
     c.fillStyle = fill;
     c.fillRect(x - w / 2 + px / 2, y - row / 2 + px / 2, w - px, row - px);
+    if (mark.strong) c.font = `bold ${c.font}`;
     if (c.measureText(name).width > w - 4 * px) return;
     c.fillStyle = isDark(fill) ? '#fff' : '#111';
     c.textAlign = 'center';
@@ -66,8 +66,13 @@ const drawPoint = (c, chart, mark, i, at, px, labels) => {
     c.globalAlpha = 0.75;
     c.fillRect(Math.min(x, at.x(0)), y - 0.36 * row, Math.abs(x - at.x(0)), 0.72 * row);
     c.globalAlpha = 1;
+    c.strokeStyle = colour('ink');
+    if (mark.labelled && mark.labels?.[i]) {
+      c.fillStyle = colour('ink');
+      c.textAlign = 'left';
+      c.fillText(mark.labels[i], Math.max(x, at.x(0)) + 5 * px, y + 4 * px);
+    }
   }
-  if (mark.kind === 'bars') c.strokeStyle = colour('ink');
   drawWhiskers(c, chart, mark, i, at, px);
   if (mark.kind === 'boxes') {
     const low = at.x(mark.x_low[i]), high = at.x(mark.x_high[i]), half = 0.32 * row;
@@ -93,7 +98,7 @@ const drawPoint = (c, chart, mark, i, at, px, labels) => {
 };
 
 // Labels go where they hit neither each other nor the rim; one that finds no place is told on hovering only.
-const drawLabels = (c, labels, box, px) => {
+export const drawLabels = (c, labels, box, px) => {
   const taken = labels.map(({x, y, reach}) => [Math.min(x - 5 * px, reach[0]), y - 4 * px, Math.max(x + 5 * px, reach[1]), y + 4 * px]);
   c.fillStyle = colour('ink');
   c.textAlign = 'left';
@@ -109,7 +114,7 @@ const drawLabels = (c, labels, box, px) => {
   }
 };
 
-const drawMark = (u, chart, mark) => {
+export const drawMark = (u, chart, mark) => {
   const c = u.ctx, px = uPlot.pxRatio, at = {x: v => u.valToPos(v, 'x', true), y: v => u.valToPos(v, 'y', true)};
   at.row = Math.abs(at.y(1) - at.y(0));
   at.column = Math.abs(at.x(1) - at.x(0));

@@ -1,6 +1,7 @@
+import {head, text} from './scales.js';
 
 // A chart's numbers, one row a point, as a table and as a file.
-const numbers = chart => {
+export const numbers = chart => {
   const value = (axis, v) => v == null ? '' : axis.names && Number.isInteger(v) ? axis.names[v] : v;
   const columns = [['series', m => i => m.name]];
   const has = key => chart.marks.some(m => m[key]?.length);
@@ -13,9 +14,9 @@ const numbers = chart => {
   return {heads: columns.map(([name]) => name), rows};
 };
 
-const csv = ({heads, rows}) => [heads, ...rows].map(row => row.map(v => /[",\n]/.test(v) ? `"${String(v).replaceAll('"', '""')}"` : v).join(',')).join('\n') + '\n';
+export const csv = ({heads, rows}) => [heads, ...rows].map(row => row.map(v => /[",\n]/.test(v) ? `"${String(v).replaceAll('"', '""')}"` : v).join(',')).join('\n') + '\n';
 
-const save = (name, words) => {
+export const save = (name, words) => {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(new Blob([words], {type: 'text/csv'}));
   link.download = name;
@@ -23,7 +24,7 @@ const save = (name, words) => {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 };
 
-const table = ({heads, rows}) => {
+export const table = ({heads, rows}) => {
   const box = document.createElement('div'), out = box.appendChild(document.createElement('table'));
   box.className = 'scroll numbers';
   box.tabIndex = 0;

@@ -1,6 +1,9 @@
+import {colour, extent, head, label, ticks} from './scales.js';
+import {drawLabels, drawMark} from './marks.js';
+import {telling} from './telling.js';
 
 // A figure of the page on a canvas: µPlot has axes, scales and zooming by the mouse, the marks are ours.
-class Plot {
+export class Plot {
   constructor(figure, chart) {
     this.figure = figure;
     this.chart = chart;
@@ -127,3 +130,5 @@ class Plot {
     }).observe(this.box);
   }
 }
+
+Object.assign(Plot.prototype, telling);

@@ -1,16 +1,14 @@
-'use strict';
-
 // Colours are custom properties of the page's style, which follow the theme.
 const probe = document.body.appendChild(document.createElement('span'));
 probe.hidden = true;
-const colour = name => {
+export const colour = name => {
   if (name[0] === '#') return name;
   probe.style.color = `var(--${name})`;
   return getComputedStyle(probe).color;
 };
 
-const text = v => v == null ? '–' : Number(v.toPrecision(4)).toString().replace('-', '−');
-const head = axis => axis.unit ? `${axis.label} [${axis.unit}]` : axis.label;
+export const text = v => v == null ? '–' : Number(v.toPrecision(4)).toString().replace('-', '−');
+export const head = axis => axis.unit ? `${axis.label} [${axis.unit}]` : axis.label;
 
 // Steps of 1, 2 or 5; on a logarithmic axis of more than a decade the decades, with 2 and 5 where there is room.
 const linearTicks = (from, to, most) => {
@@ -20,7 +18,7 @@ const linearTicks = (from, to, most) => {
   for (let k = Math.ceil(from / step); k * step <= to; ++k) all.push(Number((k * step).toPrecision(12)));
   return all;
 };
-const ticks = (axis, from, to, most) => {
+export const ticks = (axis, from, to, most) => {
   if (axis.names) return axis.names.map((_, i) => i).filter(i => i >= Math.min(from, to) && i <= Math.max(from, to));
   const span = axis.log ? Math.log10(to / from) : 0;
   if (!axis.log || span < 1) return linearTicks(from, to, most);
@@ -30,7 +28,7 @@ const ticks = (axis, from, to, most) => {
     if (e % every === 0) for (const k of within) if (k * 10 ** e >= from && k * 10 ** e <= to) all.push(Number((k * 10 ** e).toPrecision(6)));
   return all;
 };
-const label = (axis, v) => {
+export const label = (axis, v) => {
   if (axis.names) return axis.names[v] ?? '';
   const size = Math.abs(v);
   if (v === 0 || (size >= 1e-3 && size < 1e5)) return text(v);
@@ -39,13 +37,16 @@ const label = (axis, v) => {
   return `${digits === 1 ? '' : digits === -1 ? '−' : text(digits) + '·'}10${power}`;
 };
 
-// What the shown marks reach, with a rim.
-const extent = (chart, which) => {
+// Whether a number has a place on the axis.
+export const shows = (axis, v) => v != null && (!axis.log || v > 0);
+
+// What the shown marks reach, with a rim, and with room for the labels of bars.
+export const extent = (chart, which) => {
   const axis = chart[which];
   if (axis.names) return [-0.5, axis.names.length - 0.5];
   const keys = which === 'x' ? ['x', 'x_low', 'x_high', 'from', 'to'] : ['y', 'y_low', 'y_high'];
   let low = Infinity, high = -Infinity;
-  const take = v => { if (v != null && (!axis.log || v > 0)) { low = Math.min(low, v); high = Math.max(high, v); } };
+  const take = v => { if (shows(axis, v)) { low = Math.min(low, v); high = Math.max(high, v); } };
   for (const mark of chart.marks) {
     if (mark.shown === false) continue;
     for (const key of keys) (mark[key] ?? []).forEach(take);
@@ -57,5 +58,6 @@ const extent = (chart, which) => {
     return [low / rim, high * rim];
   }
   const rim = low === high ? 0.5 * Math.abs(low) || 0.5 : 0.03 * (high - low);
-  return [low - rim, high + rim];
+  const labels = which === 'x' && chart.marks.some(m => m.kind === 'bars' && m.labelled) ? 0.12 * (high - low) : 0;
+  return [low - rim, high + rim + labels];
 };

@@ -1,3 +1,6 @@
+import {copied} from './telling.js';
+import {Plot} from './plot.js';
+import {csv, numbers, save, table} from './numbers.js';
 
 const button = (words, title, does) => {
   const b = Object.assign(document.createElement('button'), {type: 'button', textContent: words, title});
@@ -6,7 +9,7 @@ const button = (words, title, does) => {
   return b;
 };
 
-const plots = new Map();
+export const plots = new Map();
 
 const make = figure => {
   if (plots.has(figure)) return;

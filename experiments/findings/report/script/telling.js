@@ -1,10 +1,11 @@
+import {shows, text} from './scales.js';
 
 // What stands under the mouse or, by the arrow keys, next: told beside the point and to screen readers.
 const live = document.body.appendChild(document.createElement('div'));
 live.className = 'sr';
 live.setAttribute('aria-live', 'polite');
 
-const copied = async words => {
+export const copied = async words => {
   try {
     await navigator.clipboard.writeText(words);
   } catch {  // no clipboard for this page: the old way
@@ -19,7 +20,8 @@ const copied = async words => {
 
 const interval = (low, high) => low == null || high == null ? '' : ` (${text(low)} to ${text(high)})`;
 
-Object.assign(Plot.prototype, {
+// Of a plot: what it tells, and what keys do.
+export const telling = {
   lines(mark, i) {
     const {x, y} = this.chart, out = [];
     const value = (axis, v, low, high) => (axis.names ? axis.names[Math.round(v)] : text(v)) + interval(low, high) + (axis.unit && axis.unit !== '1' ? ` ${axis.unit}` : '');
@@ -106,4 +108,4 @@ Object.assign(Plot.prototype, {
     copied(`gyrostat replay ${address}`);
     this.tip.append(Object.assign(document.createElement('div'), {textContent: 'copied', className: 'done'}));
   },
-});
+};
