@@ -1,4 +1,4 @@
-# The report's own script and style, and µPlot as npm put it into node_modules. Without µPlot reports are
+# The script and style of pages whose pictures move, and µPlot as npm put it into node_modules. Without µPlot reports are
 # made all the same: their pictures then stand still.
 include(${CMAKE_CURRENT_LIST_DIR}/ScriptModules.cmake)
 gyrostat_script_modules(report_script ${PROJECT_SOURCE_DIR}/experiments/findings/report/script/page.js)

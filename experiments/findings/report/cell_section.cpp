@@ -1,6 +1,7 @@
 #include <gyrostat/experiments/findings/report/cell_section.hpp>
 
 #include <gyrostat/experiments/findings/error_tables.hpp>
+#include <gyrostat/experiments/findings/report/rank_picture.hpp>
 #include <gyrostat/results/render/html.hpp>
 
 namespace gyrostat {
@@ -91,16 +92,17 @@ std::string cell_section(const CellView& v, const CellRanking& ranking,
       "<p class=\"note\">{} of {} trials finished, all methods on the same signals</p>\n",
       v.summary.finished, v.cell.trials);
   out += disagreement(v, replayed) + list(ranking.sentences) + html(ranking_table(v, ranking));
-  std::vector<Chart> charts = {box_chart(v), rank_chart(v, ranking), ecdf_chart(v),
-                               convergence_chart(v)};
+  std::vector<Picture> pictures = {box_picture(v),
+                                   rank_picture(ranking, v.colours, v.id + "-ranks"),
+                                   ecdf_picture(v), convergence_picture(v)};
   if (replayed.trials > 0)
-    for (auto* make : {error_chart, heading_chart, allan_chart})
-      charts.push_back(make(v, replayed));
-  charts.push_back(speed_chart(v, nanoseconds));
-  charts.push_back(consistency_chart(v));
-  out += "<div class=\"charts\">\n";
-  for (const auto& chart : charts)
-    if (!chart.marks.empty()) out += html(chart);
+    for (auto* make : {error_picture, heading_picture, allan_picture})
+      pictures.push_back(make(v, replayed));
+  pictures.push_back(speed_picture(v, nanoseconds));
+  pictures.push_back(consistency_picture(v));
+  out += "<div class=\"pictures\">\n";
+  for (const auto& picture : pictures)
+    if (!picture.marks.empty()) out += html(picture);
   out += "</div>\n";
   return out + worst_table(v) + tables(v, prepared) + "</section>\n";
 }

@@ -1,11 +1,11 @@
 import {colour, shows} from './scales.js';
 
 // One drawer a kind of mark. `at` turns numbers into pixels of the canvas; `px` is one pixel of the page.
-const drawLine = (c, chart, mark, at, px) => {
-  const n = mark.x.length, seen = i => shows(chart.x, mark.x[i]) && shows(chart.y, mark.y[i]);
+const drawLine = (c, picture, mark, at, px) => {
+  const n = mark.x.length, seen = i => shows(picture.x, mark.x[i]) && shows(picture.y, mark.y[i]);
   if (mark.y_low) {
     c.beginPath();
-    const inside = [...Array(n).keys()].filter(i => seen(i) && shows(chart.y, mark.y_low[i]) && shows(chart.y, mark.y_high[i]));
+    const inside = [...Array(n).keys()].filter(i => seen(i) && shows(picture.y, mark.y_low[i]) && shows(picture.y, mark.y_high[i]));
     for (const i of inside) c.lineTo(at.x(mark.x[i]), at.y(mark.y_high[i]));
     for (const i of inside.reverse()) c.lineTo(at.x(mark.x[i]), at.y(mark.y_low[i]));
     c.globalAlpha = 0.18;
@@ -25,18 +25,18 @@ const drawLine = (c, chart, mark, at, px) => {
   c.setLineDash([]);
 };
 
-const drawWhiskers = (c, chart, mark, i, at, px) => {
+const drawWhiskers = (c, picture, mark, i, at, px) => {
   const x = at.x(mark.x[i]), y = at.y(mark.y[i]);
   c.beginPath();
   c.lineWidth = 1.2 * px;
   const across = (low, high) => {
-    if (!shows(chart.x, low) || !shows(chart.x, high)) return;
+    if (!shows(picture.x, low) || !shows(picture.x, high)) return;
     c.moveTo(at.x(low), y);
     c.lineTo(at.x(high), y);
   };
   if (mark.kind !== 'boxes') across(mark.x_low?.[i], mark.x_high?.[i]);
   across(mark.from?.[i], mark.to?.[i]);
-  if (shows(chart.y, mark.y_low?.[i]) && shows(chart.y, mark.y_high?.[i])) {
+  if (shows(picture.y, mark.y_low?.[i]) && shows(picture.y, mark.y_high?.[i])) {
     c.moveTo(x, at.y(mark.y_low[i]));
     c.lineTo(x, at.y(mark.y_high[i]));
   }
@@ -49,7 +49,7 @@ const isDark = fill => {
 };
 export const rgb = hex => hex[0] === '#' ? `rgb(${[1, 3, 5].map(k => parseInt(hex.slice(k, k + 2), 16))})` : hex;
 
-const drawPoint = (c, chart, mark, i, at, px, labels) => {
+const drawPoint = (c, picture, mark, i, at, px, labels) => {
   const x = at.x(mark.x[i]), y = at.y(mark.y[i]), row = at.row;
   if (mark.kind === 'cells') {
     const fill = rgb(colour(mark.fills[i])), w = at.column, name = mark.labels?.[i] ?? '';
@@ -73,7 +73,7 @@ const drawPoint = (c, chart, mark, i, at, px, labels) => {
       c.fillText(mark.labels[i], Math.max(x, at.x(0)) + 5 * px, y + 4 * px);
     }
   }
-  drawWhiskers(c, chart, mark, i, at, px);
+  drawWhiskers(c, picture, mark, i, at, px);
   if (mark.kind === 'boxes') {
     const low = at.x(mark.x_low[i]), high = at.x(mark.x_high[i]), half = 0.32 * row;
     c.fillStyle = colour('paper');
@@ -94,7 +94,7 @@ const drawPoint = (c, chart, mark, i, at, px, labels) => {
   c.lineWidth = 1.5 * px;
   c.stroke();
   if (mark.labelled && mark.labels?.[i])
-    labels.push({x, y, name: mark.labels[i], reach: [mark.x_low, mark.x_high].map(v => shows(chart.x, v?.[i]) ? at.x(v[i]) : x)});
+    labels.push({x, y, name: mark.labels[i], reach: [mark.x_low, mark.x_high].map(v => shows(picture.x, v?.[i]) ? at.x(v[i]) : x)});
 };
 
 // Labels go where they hit neither each other nor the rim; one that finds no place is told on hovering only.
@@ -114,7 +114,7 @@ export const drawLabels = (c, labels, box, px) => {
   }
 };
 
-export const drawMark = (u, chart, mark) => {
+export const drawMark = (u, picture, mark) => {
   const c = u.ctx, px = uPlot.pxRatio, at = {x: v => u.valToPos(v, 'x', true), y: v => u.valToPos(v, 'y', true)};
   at.row = Math.abs(at.y(1) - at.y(0));
   at.column = Math.abs(at.x(1) - at.x(0));
@@ -124,11 +124,11 @@ export const drawMark = (u, chart, mark) => {
   c.clip();
   c.strokeStyle = c.fillStyle = colour(mark.colour);
   c.font = `${11.5 * px}px system-ui, sans-serif`;
-  if (mark.kind === 'line') drawLine(c, chart, mark, at, px);
+  if (mark.kind === 'line') drawLine(c, picture, mark, at, px);
   else for (let i = 0; i < mark.x.length; ++i) {
-    if (!shows(chart.x, mark.x[i]) || !shows(chart.y, mark.y[i])) continue;
+    if (!shows(picture.x, mark.x[i]) || !shows(picture.y, mark.y[i])) continue;
     c.strokeStyle = c.fillStyle = colour(mark.colour);
-    drawPoint(c, chart, mark, i, at, px, u.labels);
+    drawPoint(c, picture, mark, i, at, px, u.labels);
   }
   c.restore();
 };

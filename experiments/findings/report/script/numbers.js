@@ -1,16 +1,16 @@
 import {head, text} from './scales.js';
 
-// A chart's numbers, one row a point, as a table and as a file.
-export const numbers = chart => {
+// A picture's numbers, one row a point, as a table and as a file.
+export const numbers = picture => {
   const value = (axis, v) => v == null ? '' : axis.names && Number.isInteger(v) ? axis.names[v] : v;
   const columns = [['series', m => i => m.name]];
-  const has = key => chart.marks.some(m => m[key]?.length);
+  const has = key => picture.marks.some(m => m[key]?.length);
   for (const [key, which] of [['x', 'x'], ['x_low', 'x'], ['x_high', 'x'], ['from', 'x'], ['to', 'x'], ['y', 'y'], ['y_low', 'y'], ['y_high', 'y']])
     if (has(key)) columns.push([(key.length === 1 ? '' : {x_low: 'low ', y_low: 'low ', x_high: 'high ', y_high: 'high ', from: 'whisker from ', to: 'whisker to '}[key]) +
-      (head(chart[which]) || which), m => i => value(chart[which], m[key]?.[i])]);
+      (head(picture[which]) || which), m => i => value(picture[which], m[key]?.[i])]);
   if (has('labels')) columns.push(['label', m => i => m.labels?.[i] ?? '']);
   if (has('addresses')) columns.push(['replay', m => i => m.addresses?.[i] ?? '']);
-  const rows = chart.marks.flatMap(m => { const cells = columns.map(([, of]) => of(m)); return m.x.map((_, i) => cells.map(c => c(i))); });
+  const rows = picture.marks.flatMap(m => { const cells = columns.map(([, of]) => of(m)); return m.x.map((_, i) => cells.map(c => c(i))); });
   return {heads: columns.map(([name]) => name), rows};
 };
 

@@ -13,28 +13,28 @@ export const plots = new Map();
 
 const make = figure => {
   if (plots.has(figure)) return;
-  const chart = JSON.parse(figure.querySelector('script').textContent), plot = new Plot(figure, chart);
+  const picture = JSON.parse(figure.querySelector('script').textContent), plot = new Plot(figure, picture);
   plots.set(figure, plot);
   const tools = figure.insertBefore(document.createElement('div'), figure.querySelector('.note'));
   tools.className = 'tools';
-  const title = chart.title.toLowerCase();
+  const title = picture.title.toLowerCase();
   let shown = null;
-  const wide = !chart.x.names || !chart.y.names;
+  const wide = !picture.x.names || !picture.y.names;
   if (wide) tools.append(button('+', `Zoom in: ${title}`, () => plot.zoom(1.4)), button('−', `Zoom out: ${title}`, () => plot.zoom(1 / 1.4)),
                          button('Reset', `See all: ${title}`, () => plot.zoom()));
   const numbersButton = button('Numbers', `Numbers of: ${title}`, () => {
-    shown = shown ? (shown.remove(), null) : figure.appendChild(table(numbers(chart)));
+    shown = shown ? (shown.remove(), null) : figure.appendChild(table(numbers(picture)));
     numbersButton.setAttribute('aria-expanded', String(!!shown));
   });
   numbersButton.setAttribute('aria-expanded', 'false');
-  tools.append(numbersButton, button('CSV', `Download the numbers of: ${title}`, () => save(`${chart.id}.csv`, csv(numbers(chart)))));
+  tools.append(numbersButton, button('CSV', `Download the numbers of: ${title}`, () => save(`${picture.id}.csv`, csv(numbers(picture)))));
   figure.classList.add('live');
 };
 
 // Pictures are made when they come near; until then the page shows them as they were drawn for it.
 const near = new IntersectionObserver(entries => entries.forEach(e => { if (e.isIntersecting) { near.unobserve(e.target); make(e.target); } }),
                                       {rootMargin: '600px'});
-document.querySelectorAll('figure.chart').forEach(figure => near.observe(figure));
+document.querySelectorAll('figure.picture').forEach(figure => near.observe(figure));
 
 const dark = matchMedia('(prefers-color-scheme: dark)');
 const repaint = () => plots.forEach(plot => plot.u.redraw());

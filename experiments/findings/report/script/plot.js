@@ -4,9 +4,9 @@ import {telling} from './telling.js';
 
 // A figure of the page on a canvas: µPlot has axes, scales and zooming by the mouse, the marks are ours.
 export class Plot {
-  constructor(figure, chart) {
+  constructor(figure, picture) {
     this.figure = figure;
-    this.chart = chart;
+    this.picture = picture;
     this.box = figure.querySelector('.plot');
     this.zoomed = {x: null, y: null};
     this.view = document.createElement('div');
@@ -20,13 +20,13 @@ export class Plot {
   }
 
   size() {
-    const rows = this.chart.y.names?.length, cells = this.chart.marks.some(m => m.kind === 'cells');
+    const rows = this.picture.y.names?.length, cells = this.picture.marks.some(m => m.kind === 'cells');
     return {width: Math.max(240, this.box.clientWidth),
             height: rows ? Math.max(cells ? 220 : 90, 50 + (cells ? 34 : 28) * rows) : this.box.clientWidth < 420 ? 280 : 330};
   }
 
   axis(which) {
-    const axis = this.chart[which], y = which === 'y';
+    const axis = this.picture[which], y = which === 'y';
     const longest = y && axis.names ? Math.max(...axis.names.map(n => n.length)) : 0;
     return {
       scale: which, label: head(axis) || undefined, labelSize: 20, labelFont: '12px system-ui, sans-serif', font: '12px system-ui, sans-serif',
@@ -39,24 +39,24 @@ export class Plot {
 
   // A name that is too long for a narrow page loses its middle.
   fit(name, which) {
-    const room = which === 'y' ? (0.4 * this.box.clientWidth - 12) / 7.2 : this.chart.x.names ? 0.8 * this.box.clientWidth / this.chart.x.names.length / 6.6 : 99;
+    const room = which === 'y' ? (0.4 * this.box.clientWidth - 12) / 7.2 : this.picture.x.names ? 0.8 * this.box.clientWidth / this.picture.x.names.length / 6.6 : 99;
     return name.length <= room ? name : name.slice(0, Math.max(1, room - 5)) + '…' + name.slice(-3);
   }
 
   draw() {
-    const {chart} = this, scale = which => ({
-      time: false, distr: chart[which].log ? 3 : 1, dir: which === 'y' && chart.y.names ? -1 : 1, auto: true,
-      range: () => this.zoomed[which] ?? extent(chart, which),
+    const {picture} = this, scale = which => ({
+      time: false, distr: picture[which].log ? 3 : 1, dir: which === 'y' && picture.y.names ? -1 : 1, auto: true,
+      range: () => this.zoomed[which] ?? extent(picture, which),
     });
     this.u?.destroy();
     this.u = new uPlot({
       ...this.size(), mode: 2, pxAlign: 0, legend: {show: false}, scales: {x: scale('x'), y: scale('y')},
       axes: [this.axis('x'), this.axis('y')],
-      cursor: {drag: {x: !chart.x.names, y: !chart.y.names, uni: 20, setScale: false}, points: {show: false}, focus: {prox: -1},
+      cursor: {drag: {x: !picture.x.names, y: !picture.y.names, uni: 20, setScale: false}, points: {show: false}, focus: {prox: -1},
                bind: {dblclick: () => () => { this.zoom(); return null; }}},
-      series: [null, ...chart.marks.map(mark => ({
+      series: [null, ...picture.marks.map(mark => ({
         show: mark.shown !== false, facets: [{scale: 'x', auto: true}, {scale: 'y', auto: true}], points: {show: false},
-        stroke: () => colour(mark.colour), paths: u => { drawMark(u, chart, mark); return null; },
+        stroke: () => colour(mark.colour), paths: u => { drawMark(u, picture, mark); return null; },
       }))],
       hooks: {
         drawClear: [u => { u.labels = []; u.series.forEach(s => { s._paths = null; }); }],
@@ -64,7 +64,7 @@ export class Plot {
         setSelect: [u => this.select(u)],
         setCursor: [u => this.hover(u)],
       },
-    }, [null, ...chart.marks.map(m => [m.x, m.y])], this.view);
+    }, [null, ...picture.marks.map(m => [m.x, m.y])], this.view);
     this.view.append(this.tip);
   }
 
@@ -80,8 +80,8 @@ export class Plot {
   select(u) {
     const s = u.select;
     if (s.width < 3 && s.height < 3) return;
-    if (s.width > 0 && !this.chart.x.names) this.zoomed.x = [u.posToVal(s.left, 'x'), u.posToVal(s.left + s.width, 'x')];
-    if (s.height > 0 && !this.chart.y.names && s.height < u.over.clientHeight) this.zoomed.y = [u.posToVal(s.top + s.height, 'y'), u.posToVal(s.top, 'y')];
+    if (s.width > 0 && !this.picture.x.names) this.zoomed.x = [u.posToVal(s.left, 'x'), u.posToVal(s.left + s.width, 'x')];
+    if (s.height > 0 && !this.picture.y.names && s.height < u.over.clientHeight) this.zoomed.y = [u.posToVal(s.top + s.height, 'y'), u.posToVal(s.top, 'y')];
     u.setSelect({left: 0, top: 0, width: 0, height: 0}, false);
     this.refresh();
   }
@@ -89,11 +89,11 @@ export class Plot {
   // By a factor about the middle or about the point that is told; without a factor all is seen again.
   zoom(factor, shift = [0, 0]) {
     for (const [k, which] of ['x', 'y'].entries()) {
-      const axis = this.chart[which];
+      const axis = this.picture[which];
       if (axis.names) continue;
       if (!factor) { this.zoomed[which] = null; continue; }
       const [to, back] = axis.log ? [Math.log10, v => 10 ** v] : [v => v, v => v];
-      const s = this.u.scales[which], low = to(s.min), high = to(s.max), told = this.told && this.chart.marks[this.told.mark][which][this.told.i];
+      const s = this.u.scales[which], low = to(s.min), high = to(s.max), told = this.told && this.picture.marks[this.told.mark][which][this.told.i];
       const middle = (told != null && factor !== 1 && told >= s.min && told <= s.max ? to(told) : (low + high) / 2) + shift[k] * (high - low);
       const part = factor === 1 ? 0.5 : (middle - low) / (high - low);
       this.zoomed[which] = [back(middle - part * (high - low) / factor), back(middle + (1 - part) * (high - low) / factor)];
@@ -102,8 +102,8 @@ export class Plot {
   }
 
   choose(name) {
-    const marks = this.chart.marks, of = marks.filter(m => m.name === name), now = of[0].shown !== false;
-    if (this.chart.exclusive) marks.forEach(m => { if (m.name) m.shown = m.name === name; });
+    const marks = this.picture.marks, of = marks.filter(m => m.name === name), now = of[0].shown !== false;
+    if (this.picture.exclusive) marks.forEach(m => { if (m.name) m.shown = m.name === name; });
     else of.forEach(m => { m.shown = !now; });
     this.figure.querySelectorAll('.legend button').forEach(b =>
       b.setAttribute('aria-pressed', String(marks.some(m => m.name === b.dataset.name && m.shown !== false))));

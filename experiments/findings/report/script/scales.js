@@ -41,13 +41,13 @@ export const label = (axis, v) => {
 export const shows = (axis, v) => v != null && (!axis.log || v > 0);
 
 // What the shown marks reach, with a rim, and with room for the labels of bars.
-export const extent = (chart, which) => {
-  const axis = chart[which];
+export const extent = (picture, which) => {
+  const axis = picture[which];
   if (axis.names) return [-0.5, axis.names.length - 0.5];
   const keys = which === 'x' ? ['x', 'x_low', 'x_high', 'from', 'to'] : ['y', 'y_low', 'y_high'];
   let low = Infinity, high = -Infinity;
   const take = v => { if (shows(axis, v)) { low = Math.min(low, v); high = Math.max(high, v); } };
-  for (const mark of chart.marks) {
+  for (const mark of picture.marks) {
     if (mark.shown === false) continue;
     for (const key of keys) (mark[key] ?? []).forEach(take);
     if (mark.kind === 'bars' && which === 'x') take(0);
@@ -58,6 +58,6 @@ export const extent = (chart, which) => {
     return [low / rim, high * rim];
   }
   const rim = low === high ? 0.5 * Math.abs(low) || 0.5 : 0.03 * (high - low);
-  const labels = which === 'x' && chart.marks.some(m => m.kind === 'bars' && m.labelled) ? 0.12 * (high - low) : 0;
+  const labels = which === 'x' && picture.marks.some(m => m.kind === 'bars' && m.labelled) ? 0.12 * (high - low) : 0;
   return [low - rim, high + rim + labels];
 };

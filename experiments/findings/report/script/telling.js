@@ -23,14 +23,14 @@ const interval = (low, high) => low == null || high == null ? '' : ` (${text(low
 // Of a plot: what it tells, and what keys do.
 export const telling = {
   lines(mark, i) {
-    const {x, y} = this.chart, out = [];
+    const {x, y} = this.picture, out = [];
     const value = (axis, v, low, high) => (axis.names ? axis.names[Math.round(v)] : text(v)) + interval(low, high) + (axis.unit && axis.unit !== '1' ? ` ${axis.unit}` : '');
     if (mark.name) out.push(mark.name);
     if (mark.labels?.[i] && mark.labels[i] !== mark.name) out.push(mark.labels[i]);
     if (!x.names || mark.kind === 'cells') out.push(`${x.label}: ${value(x, mark.x[i], mark.x_low?.[i], mark.x_high?.[i])}`);
     if (mark.from) out.push(`whiskers: ${text(mark.from[i])} to ${text(mark.to[i])}`);
     if (!y.names || mark.kind === 'cells') out.push(`${y.label}: ${value(y, mark.y[i], mark.y_low?.[i], mark.y_high?.[i])}`);
-    if (this.chart.x.log && this.chart.y.log && mark.kind === 'line' && i > 0 && mark.y[i] > 0 && mark.y[i - 1] > 0)
+    if (this.picture.x.log && this.picture.y.log && mark.kind === 'line' && i > 0 && mark.y[i] > 0 && mark.y[i - 1] > 0)
       out.push(`slope: ${text(Math.log(mark.y[i] / mark.y[i - 1]) / Math.log(mark.x[i] / mark.x[i - 1]))}`);
     if (mark.addresses?.[i]) out.push(mark.addresses[i], 'click or Enter copies gyrostat replay');
     return out;
@@ -38,7 +38,7 @@ export const telling = {
 
   tell(mark, i) {
     this.told = {mark, i};
-    const m = this.chart.marks[mark], u = this.u, left = u.valToPos(m.x[i], 'x') + u.over.offsetLeft, top = u.valToPos(m.y[i], 'y') + u.over.offsetTop;
+    const m = this.picture.marks[mark], u = this.u, left = u.valToPos(m.x[i], 'x') + u.over.offsetLeft, top = u.valToPos(m.y[i], 'y') + u.over.offsetTop;
     this.tip.replaceChildren(...this.lines(m, i).map((line, k) => Object.assign(document.createElement(k ? 'div' : 'b'), {textContent: line})));
     this.tip.hidden = false;
     const room = this.box.clientWidth - this.tip.offsetWidth - 4;
@@ -54,11 +54,11 @@ export const telling = {
       return;
     }
     let best = null, least = 45;
-    this.chart.marks.forEach((mark, k) => {
+    this.picture.marks.forEach((mark, k) => {
       if (mark.shown === false) return;
       const rows = ['bars', 'boxes', 'cells'].includes(mark.kind);
       for (let i = 0; i < mark.x.length; ++i) {
-        if (!shows(this.chart.x, mark.x[i]) || !shows(this.chart.y, mark.y[i])) continue;
+        if (!shows(this.picture.x, mark.x[i]) || !shows(this.picture.y, mark.y[i])) continue;
         const dx = Math.abs(u.valToPos(mark.x[i], 'x') - left), dy = Math.abs(u.valToPos(mark.y[i], 'y') - top);
         const distance = rows && mark.kind !== 'cells' ? dy + Math.min(dx, 12) : Math.hypot(dx, dy) + (mark.name ? 0 : 10);
         if (distance < least) { least = distance; best = [k, i]; }
@@ -70,7 +70,7 @@ export const telling = {
 
   // Left and right go along a mark, up and down from one to the next.
   step(along, across) {
-    const marks = this.chart.marks, seen = marks.map((_, k) => k).filter(k => marks[k].shown !== false && marks[k].x.some(v => v != null));
+    const marks = this.picture.marks, seen = marks.map((_, k) => k).filter(k => marks[k].shown !== false && marks[k].x.some(v => v != null));
     if (!seen.length) return;
     let {mark, i} = this.told ?? {mark: seen[0], i: -1};
     if (across) {
@@ -82,7 +82,7 @@ export const telling = {
       const n = marks[mark].x.length;
       for (let k = 0; k < n; ++k) {
         i = (i + along + n) % n;
-        if (shows(this.chart.x, marks[mark].x[i]) && shows(this.chart.y, marks[mark].y[i])) break;
+        if (shows(this.picture.x, marks[mark].x[i]) && shows(this.picture.y, marks[mark].y[i])) break;
       }
     }
     this.tell(mark, i);
@@ -103,7 +103,7 @@ export const telling = {
   },
 
   copy() {
-    const address = this.told && this.chart.marks[this.told.mark].addresses?.[this.told.i];
+    const address = this.told && this.picture.marks[this.told.mark].addresses?.[this.told.i];
     if (!address) return;
     copied(`gyrostat replay ${address}`);
     this.tip.append(Object.assign(document.createElement('div'), {textContent: 'copied', className: 'done'}));

@@ -9,16 +9,16 @@
 
 namespace gyrostat {
 
-/// Of one design, its methods as one chart each of: elasticities (tornado), elementary effects
+/// Of one design, its methods as one picture each of: elasticities (tornado), elementary effects
 /// (Morris plane), Sobol' indices; those that the design allows.
-std::vector<Chart> sensitivity_charts(const std::vector<Sensitivity>& of_design,
-                                      const MethodColours& colours, const std::string& id);
+std::vector<Picture> sensitivity_pictures(const std::vector<Sensitivity>& of_design,
+                                          const MethodColours& colours, const std::string& id);
 
 /// The judging metric over one parameter as lines; over two as a map for each method and one of
 /// winners, further parameters at their first value. None where too few of the combinations were
 /// run.
-std::vector<Chart> sweep_charts(const Study& study, const Sweep& sweep,
-                                const std::vector<CellSummary>& summaries,
-                                const MethodColours& colours, const std::string& id);
+std::vector<Picture> sweep_pictures(const Study& study, const Sweep& sweep,
+                                    const std::vector<CellSummary>& summaries,
+                                    const MethodColours& colours, const std::string& id);
 
 }  // namespace gyrostat

@@ -1,10 +1,11 @@
-#include <gyrostat/results/render/chart.hpp>
+#include <gyrostat/results/pictures/picture.hpp>
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <gyrostat/results/pictures/colours.hpp>
 #include <gyrostat/results/render/html.hpp>
 
 namespace gyrostat {
@@ -29,7 +30,7 @@ Mark mark(Mark::Kind kind) {
   return m;
 }
 
-Chart chart(Mark::Kind kind) {
+Picture picture(Mark::Kind kind) {
   return {.id = "c",
           .title = "a < b",
           .note = "n",
@@ -41,28 +42,28 @@ Chart chart(Mark::Kind kind) {
 constexpr Mark::Kind kinds[] = {Mark::Kind::line, Mark::Kind::points, Mark::Kind::bars,
                                 Mark::Kind::boxes, Mark::Kind::cells};
 
-TEST(Chart, EqualNumbersGiveEqualBytes) {
-  for (const auto kind : kinds) EXPECT_EQ(html(chart(kind)), html(chart(kind)));
+TEST(Picture, EqualNumbersGiveEqualBytes) {
+  for (const auto kind : kinds) EXPECT_EQ(html(picture(kind)), html(picture(kind)));
 }
 
-TEST(Chart, DrawsNoNumberThatIsNone) {
+TEST(Picture, DrawsNoNumberThatIsNone) {
   for (const auto kind : kinds) {
-    const auto text = html(chart(kind));
+    const auto text = html(picture(kind));
     EXPECT_THAT(text, Not(HasSubstr("nan")));
     EXPECT_THAT(text, Not(HasSubstr("inf")));
   }
 }
 
-TEST(Chart, NoNameEndsTheScriptElementOrAnAttribute) {
+TEST(Picture, NoNameEndsTheScriptElementOrAnAttribute) {
   for (const auto kind : kinds) {
-    const auto text = html(chart(kind));
+    const auto text = html(picture(kind));
     EXPECT_EQ(text.find("</script>"), text.rfind("</script>"));
     EXPECT_THAT(text, Not(HasSubstr("& \"kf")));
   }
 }
 
-TEST(Chart, TheScriptHasTheNumbersAndNullForNone) {
-  const auto json = nlohmann::json::parse(chart_json(chart(Mark::Kind::points)));
+TEST(Picture, TheScriptHasTheNumbersAndNullForNone) {
+  const auto json = nlohmann::json::parse(picture_json(picture(Mark::Kind::points)));
   const auto& m = json["marks"][0];
   EXPECT_EQ(m["kind"], "points");
   EXPECT_EQ(m["name"], "</script> & \"kf\"");
@@ -71,22 +72,22 @@ TEST(Chart, TheScriptHasTheNumbersAndNullForNone) {
   EXPECT_EQ(json["y"]["names"], nlohmann::json({"one", "two"}));
 }
 
-TEST(Chart, OfNothingIsStillAPicture) {
-  EXPECT_THAT(chart_svg({}), HasSubstr("</svg>"));
-  auto log = chart(Mark::Kind::line);
+TEST(Picture, OfNothingIsStillAPicture) {
+  EXPECT_THAT(picture_svg({}), HasSubstr("</svg>"));
+  auto log = picture(Mark::Kind::line);
   log.x.logarithmic = log.y.logarithmic = true;
   log.marks[0].y = {-1.0, 0.0, NAN};
-  EXPECT_THAT(chart_svg(log), Not(HasSubstr("nan")));
+  EXPECT_THAT(picture_svg(log), Not(HasSubstr("nan")));
 }
 
-TEST(Chart, WhatIsNotShownIsNotDrawn) {
-  auto hidden = chart(Mark::Kind::points);
+TEST(Picture, WhatIsNotShownIsNotDrawn) {
+  auto hidden = picture(Mark::Kind::points);
   hidden.marks[0].shown = false;
-  EXPECT_THAT(chart_svg(chart(Mark::Kind::points)), HasSubstr("<circle"));
-  EXPECT_THAT(chart_svg(hidden), Not(HasSubstr("<circle")));
+  EXPECT_THAT(picture_svg(picture(Mark::Kind::points)), HasSubstr("<circle"));
+  EXPECT_THAT(picture_svg(hidden), Not(HasSubstr("<circle")));
 }
 
-TEST(Chart, TheRampIsAColourForEveryShareAndGreyForNone) {
+TEST(Picture, TheRampIsAColourForEveryShareAndGreyForNone) {
   for (const double share : {-1.0, 0.0, 0.3, 1.0, 2.0})
     EXPECT_EQ(ramp(share).size(), share < 0.0 ? 4U : 7U);
   EXPECT_EQ(ramp(NAN), "line");

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <gyrostat/experiments/findings/report/cell_charts.hpp>
+#include <gyrostat/experiments/findings/report/cell_pictures.hpp>
 #include <gyrostat/experiments/study/address.hpp>
 
 namespace gyrostat {
@@ -29,7 +29,7 @@ bool spans_decades(const CellValues& all) {
   return low > 0.0 && high > 10.0 * low;
 }
 
-ChartAxis metric_axis(const CellValues& all) {
+PictureAxis metric_axis(const CellValues& all) {
   return {all.title, all.unit, spans_decades(all), {}};
 }
 
@@ -48,18 +48,15 @@ bool CellView::leads(std::size_t method, std::size_t count) const {
   return false;
 }
 
-Chart box_chart(const CellView& v) {
+Picture box_picture(const CellView& v) {
   constexpr std::size_t shown_outliers = 10;
-  Chart chart{.id = v.id + "-boxes",
-              .title = "Spread over trials, and the worst of them",
-              .note = {},
-              .x = metric_axis(v.values),
-              .y = {},
-              .marks = {}};
+  Picture picture{.id = v.id + "-boxes",
+                  .title = "Spread over trials, and the worst of them",
+                  .x = metric_axis(v.values)};
   for (std::size_t row = 0; row < v.order.size(); ++row) {
     const std::size_t m = v.order[row];
     const auto& name = v.cell.methods[m].id;
-    chart.y.names.push_back(name);
+    picture.y.names.push_back(name);
     const auto values = sorted(v.values.values[m]);
     if (values.empty()) continue;
     const double y = static_cast<double>(row), q1 = quantile(values, 0.25),
@@ -77,25 +74,23 @@ Chart box_chart(const CellView& v) {
       worst.y.push_back(y);
       worst.addresses.push_back(v.address(place, m));
     }
-    chart.marks.push_back(std::move(box));
-    if (!worst.x.empty()) chart.marks.push_back(std::move(worst));
+    picture.marks.push_back(std::move(box));
+    if (!worst.x.empty()) picture.marks.push_back(std::move(worst));
   }
-  chart.note = fmt::format(
+  picture.note = fmt::format(
       "Boxes: quartiles and median of {} trials; whiskers: the farthest trials within 1.5 box "
       "lengths; "
       "dots: trials beyond, the worst {} of each method. Choose a dot to copy the command that "
       "replays it.",
       v.values.trials.size(), shown_outliers);
-  return chart;
+  return picture;
 }
 
-Chart ecdf_chart(const CellView& v) {
-  Chart chart{.id = v.id + "-ecdf",
-              .title = "Share of trials below an error",
-              .note = {},
-              .x = metric_axis(v.values),
-              .y = {"share of trials", "", false, {}},
-              .marks = {}};
+Picture ecdf_picture(const CellView& v) {
+  Picture picture{.id = v.id + "-ecdf",
+                  .title = "Share of trials below an error",
+                  .x = metric_axis(v.values),
+                  .y = {"share of trials"}};
   for (const std::size_t m : v.order) {
     const auto values = sorted(v.values.values[m]);
     if (values.empty()) continue;
@@ -110,22 +105,20 @@ Chart ecdf_chart(const CellView& v) {
       line.y.push_back((static_cast<double>(i) + 1.0) / n);
       next = i + std::max<std::size_t>(1, values.size() / 200);
     }
-    chart.marks.push_back(std::move(line));
+    picture.marks.push_back(std::move(line));
   }
-  chart.note =
+  picture.note =
       "Higher and further left is better: a curve above all others is of a method that is better "
       "in "
       "every quantile. The right end is the worst trial.";
-  return chart;
+  return picture;
 }
 
-Chart convergence_chart(const CellView& v) {
-  Chart chart{.id = v.id + "-convergence",
-              .title = "Convergence over trials",
-              .note = {},
-              .x = {"trials", "", true, {}},
-              .y = {"mean, " + v.values.title, v.values.unit, false, {}},
-              .marks = {}};
+Picture convergence_picture(const CellView& v) {
+  Picture picture{.id = v.id + "-convergence",
+                  .title = "Convergence over trials",
+                  .x = {"trials", "", true},
+                  .y = {"mean, " + v.values.title, v.values.unit}};
   for (const std::size_t m : v.order) {
     auto line = v.colours.mark(Mark::Kind::line, v.cell.methods[m].id);
     line.shown = v.leads(m, 3);
@@ -145,13 +138,13 @@ Chart convergence_chart(const CellView& v) {
       if (running.count >= next) note(), next = std::ceil(1.12 * running.count);
     }
     if (running.count >= 2.0 && line.x.back() != running.count) note();
-    if (!line.x.empty()) chart.marks.push_back(std::move(line));
+    if (!line.x.empty()) picture.marks.push_back(std::move(line));
   }
-  chart.note =
+  picture.note =
       "Running mean with its 95 % interval at that number of trials. Each interval holds for one "
       "look, not for "
       "stopping as soon as it pleases. Choose methods in the legend.";
-  return chart;
+  return picture;
 }
 
 }  // namespace gyrostat

@@ -7,10 +7,10 @@ namespace gyrostat {
 
 /// An axis of numbers, or of names: then the number i stands for names[i], from the top or the
 /// left.
-struct ChartAxis {
-  std::string label, unit;
+struct PictureAxis {
+  std::string label{}, unit{};
   bool logarithmic = false;
-  std::vector<std::string> names;
+  std::vector<std::string> names{};
 };
 
 /// What is drawn in one colour. Marks of one name are one entry of the legend; marks without a name
@@ -29,7 +29,8 @@ struct Mark {
   bool shown = true;   ///< before the reader chooses
   bool dashed = false;
   bool stepped = false;   ///< a line that keeps its value until the next point
-  bool labelled = false;  ///< labels are drawn, not only told
+  bool labelled = false;  ///< labels are drawn, not only told; those of cells always are
+  bool strong = false;    ///< a thick line, bold labels
   std::vector<double> x, y;
   std::vector<double> x_low, x_high, y_low, y_high, from, to;
   std::vector<std::string> labels;     ///< by point
@@ -38,27 +39,29 @@ struct Mark {
 };
 
 /// A picture and its numbers. NaN is no point.
-struct Chart {
-  std::string id;  ///< its anchor, and the name of its file of numbers
-  std::string title;
-  std::string note;  ///< how to read it, and of how many trials it is
-  ChartAxis x, y;
-  std::vector<Mark> marks;
+struct Picture {
+  std::string id{};  ///< its anchor, and the name of its file of numbers
+  std::string title{};
+  std::string note{};  ///< how to read it, and of how many trials it is
+  PictureAxis x{}, y{};
+  std::vector<Mark> marks{};
   bool exclusive = false;  ///< one name at a time
+  bool panels = false;     ///< as SVG, a panel for each name, under one another over the same axes
 };
 
-/// The chart as it is before anything is chosen, as SVG coloured by the page's style; the same
+/// The picture as it is before anything is chosen, as SVG coloured by the page's style; the same
 /// bytes for the same numbers.
-std::string chart_svg(const Chart& chart);
+std::string picture_svg(const Picture& picture);
 
-/// The chart for the page's script, six significant digits, as JSON that may stand in a script
+/// The same as a file that stands alone: in the colours that the style has in light, with title,
+/// legend and note.
+std::string picture_file(const Picture& picture);
+
+/// The picture for the page's script, six significant digits, as JSON that may stand in a script
 /// element.
-std::string chart_json(const Chart& chart);
+std::string picture_json(const Picture& picture);
 
-/// The figure: title, legend, SVG, note and numbers.
-std::string html(const Chart& chart);
-
-/// A colour for a share of [0, 1], dark blue to yellow; equally spaced for every eye.
-std::string ramp(double share);
+/// The figure of a page: title, legend, SVG, note and numbers.
+std::string html(const Picture& picture);
 
 }  // namespace gyrostat

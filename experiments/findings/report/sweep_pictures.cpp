@@ -2,7 +2,8 @@
 #include <cmath>
 
 #include <gyrostat/analysis/metric_type.hpp>
-#include <gyrostat/experiments/findings/report/design_charts.hpp>
+#include <gyrostat/experiments/findings/report/design_pictures.hpp>
+#include <gyrostat/results/pictures/colours.hpp>
 
 namespace gyrostat {
 namespace {
@@ -27,24 +28,23 @@ const Summary& judged(const Study& study, const std::vector<CellSummary>& summar
   return summaries[cell].of(method, judging_metric(study.cells[cell]));
 }
 
-Chart lines(const Study& study, const Sweep& sweep, const std::vector<CellSummary>& summaries,
-            const MethodColours& colours, const std::string& id) {
+Picture lines(const Study& study, const Sweep& sweep, const std::vector<CellSummary>& summaries,
+              const MethodColours& colours, const std::string& id) {
   const auto levels = sweep.levels(0);
   const bool numbers = numeric(levels);
   const std::string metric(judging_metric(study.cells[sweep.cells[0]]));
-  Chart chart{.id = id + "-sweep",
-              .title = fmt::format("Error over {}", sweep.parameters[0]),
-              .note = "Mean over trials with its 95 % interval.",
-              .x = {sweep.parameters[0], "", false, {}},
-              .y = {fmt::format("mean {}", metric),
-                    std::string(metric_types().named(metric, "report").unit),
-                    false,
-                    {}},
-              .marks = {}};
+  Picture picture{.id = id + "-sweep",
+                  .title = fmt::format("Error over {}", sweep.parameters[0]),
+                  .note = "Mean over trials with its 95 % interval.",
+                  .x = {sweep.parameters[0]},
+                  .y = {fmt::format("mean {}", metric),
+                        std::string(metric_types().named(metric, "report").unit),
+                        false,
+                        {}}};
   if (!numbers)
-    chart.x.names = levels;
+    picture.x.names = levels;
   else
-    chart.x.logarithmic = decades(std::stod(levels.front()), std::stod(levels.back()));
+    picture.x.logarithmic = decades(std::stod(levels.front()), std::stod(levels.back()));
   const auto& methods = study.cells[sweep.cells[0]].methods;
   double low = INFINITY, high = 0.0;
   for (std::size_t m = 0; m < methods.size(); ++m) {
@@ -59,10 +59,10 @@ Chart lines(const Study& study, const Sweep& sweep, const std::vector<CellSummar
         line.y_high.push_back(s.mean + s.half_width_95);
         low = std::isnan(s.mean) ? low : std::min(low, s.mean), high = std::max(high, s.mean);
       }
-    chart.marks.push_back(std::move(line));
+    picture.marks.push_back(std::move(line));
   }
-  chart.y.logarithmic = decades(low, high);
-  return chart;
+  picture.y.logarithmic = decades(low, high);
+  return picture;
 }
 
 /// The two parameters of a map, and where each of its cells stands.
@@ -91,14 +91,13 @@ Plane plane_of(const Sweep& sweep) {
   return plane;
 }
 
-Chart map_chart(const std::string& id, const std::string& title, const Sweep& sweep,
-                const Plane& plane) {
+Picture map_picture(const std::string& id, const std::string& title, const Sweep& sweep,
+                    const Plane& plane) {
   return {.id = id,
           .title = title,
           .note = plane.others.empty() ? "" : "At " + plane.others + ". ",
           .x = {sweep.parameters[0], "", false, plane.across},
-          .y = {sweep.parameters[1], "", false, plane.down},
-          .marks = {}};
+          .y = {sweep.parameters[1], "", false, plane.down}};
 }
 
 void add(Mark& mark, const std::array<double, 2>& at, const std::string& label,
@@ -109,14 +108,14 @@ void add(Mark& mark, const std::array<double, 2>& at, const std::string& label,
   mark.fills.push_back(fill);
 }
 
-Chart heat(const Study& study, const Sweep& sweep, const Plane& plane,
-           const std::vector<CellSummary>& summaries, const MethodColours& colours,
-           const std::string& id) {
-  auto chart =
-      map_chart(id + "-heat",
-                fmt::format("Mean {} of one method", judging_metric(study.cells[plane.cells[0]])),
-                sweep, plane);
-  chart.exclusive = true;
+Picture heat(const Study& study, const Sweep& sweep, const Plane& plane,
+             const std::vector<CellSummary>& summaries, const MethodColours& colours,
+             const std::string& id) {
+  auto picture =
+      map_picture(id + "-heat",
+                  fmt::format("Mean {} of one method", judging_metric(study.cells[plane.cells[0]])),
+                  sweep, plane);
+  picture.exclusive = true;
   const auto& methods = study.cells[plane.cells[0]].methods;
   double low = INFINITY, high = -INFINITY;
   for (std::size_t m = 0; m < methods.size(); ++m)
@@ -136,13 +135,13 @@ Chart heat(const Study& study, const Sweep& sweep, const Plane& plane,
       const double v = judged(study, summaries, plane.cells[k], m).mean;
       add(cells, plane.at[k], std::isnan(v) ? "–" : fmt::format("{:.3g}", v), ramp(share(v)));
     }
-    chart.marks.push_back(std::move(cells));
+    picture.marks.push_back(std::move(cells));
   }
-  chart.note += fmt::format(
+  picture.note += fmt::format(
       "One scale of colours for all methods: {:.3g} dark to {:.3g} bright{}. Choose the method in "
       "the legend.",
       low, high, log ? ", logarithmic" : "");
-  return chart;
+  return picture;
 }
 
 /// Whether any other method but the oracle cannot be told from the best of a cell.
@@ -154,10 +153,10 @@ bool is_tied(const Cell& cell, const CellSummary& summary) {
   return false;
 }
 
-Chart winners(const Study& study, const Sweep& sweep, const Plane& plane,
-              const std::vector<CellSummary>& summaries, const MethodColours& colours,
-              const std::string& id) {
-  auto chart = map_chart(id + "-winners", "Which method wins where", sweep, plane);
+Picture winners(const Study& study, const Sweep& sweep, const Plane& plane,
+                const std::vector<CellSummary>& summaries, const MethodColours& colours,
+                const std::string& id) {
+  auto picture = map_picture(id + "-winners", "Which method wins where", sweep, plane);
   const auto& methods = study.cells[plane.cells[0]].methods;
   for (std::size_t m = 0; m < methods.size(); ++m) {
     auto cells = colours.mark(Mark::Kind::cells, methods[m].id);
@@ -168,20 +167,20 @@ Chart winners(const Study& study, const Sweep& sweep, const Plane& plane,
       if (summary.best == m && summary.finished > 0)
         add(cells, plane.at[k], methods[m].id + (is_tied(cell, summary) ? " ≈" : ""), cells.colour);
     }
-    if (!cells.x.empty()) chart.marks.push_back(std::move(cells));
+    if (!cells.x.empty()) picture.marks.push_back(std::move(cells));
   }
-  chart.note +=
+  picture.note +=
       "The least mean of the judging metric, the oracle left out; ≈: some other method is not "
       "separable from it "
       "(paired, 95 % simultaneous over the cell's pairs).";
-  return chart;
+  return picture;
 }
 
 }  // namespace
 
-std::vector<Chart> sweep_charts(const Study& study, const Sweep& sweep,
-                                const std::vector<CellSummary>& summaries,
-                                const MethodColours& colours, const std::string& id) {
+std::vector<Picture> sweep_pictures(const Study& study, const Sweep& sweep,
+                                    const std::vector<CellSummary>& summaries,
+                                    const MethodColours& colours, const std::string& id) {
   if (sweep.parameters.size() == 1) return {lines(study, sweep, summaries, colours, id)};
   const auto plane = plane_of(sweep);
   if (2 * plane.cells.size() < plane.across.size() * plane.down.size()) return {};

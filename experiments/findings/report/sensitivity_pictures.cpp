@@ -1,21 +1,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include <gyrostat/experiments/findings/report/design_charts.hpp>
+#include <gyrostat/experiments/findings/report/design_pictures.hpp>
 
 namespace gyrostat {
 namespace {
 
-/// A chart with a row for each parameter; each method has its own marks, of which one is seen.
-Chart by_parameter(const std::string& id, const std::string& title, const std::string& x,
-                   const std::string& unit, const std::string& note,
-                   std::vector<std::string> parameters) {
+/// A picture with a row for each parameter; each method has its own marks, of which one is seen.
+Picture by_parameter(const std::string& id, const std::string& title, const std::string& x,
+                     const std::string& unit, const std::string& note,
+                     std::vector<std::string> parameters) {
   return {.id = id,
           .title = title,
           .note = note,
-          .x = {x, unit, false, {}},
+          .x = {x, unit},
           .y = {"", "", false, std::move(parameters)},
-          .marks = {},
           .exclusive = true};
 }
 
@@ -41,9 +40,9 @@ std::vector<std::string> by_size(std::vector<T> list, const Size& size) {
   return names;
 }
 
-Chart tornado(const std::vector<Sensitivity>& all, const MethodColours& colours,
-              const std::string& id) {
-  auto chart =
+Picture tornado(const std::vector<Sensitivity>& all, const MethodColours& colours,
+                const std::string& id) {
+  auto picture =
       by_parameter(id + "-tornado", "Elasticity of " + all.front().metric, "elasticity", "1",
                    "One parameter at a time around the base, with 95 % intervals: 1 means 10 % "
                    "more of the parameter "
@@ -53,15 +52,15 @@ Chart tornado(const std::vector<Sensitivity>& all, const MethodColours& colours,
   for (const auto& s : all) {
     auto bars = colours.mark(Mark::Kind::bars, s.method);
     bars.shown = &s == &all.front();
-    for (const auto& e : s.elasticities) add(bars, row_of(chart.y.names, e.parameter), e.value);
-    chart.marks.push_back(std::move(bars));
+    for (const auto& e : s.elasticities) add(bars, row_of(picture.y.names, e.parameter), e.value);
+    picture.marks.push_back(std::move(bars));
   }
-  return chart;
+  return picture;
 }
 
-Chart sobol(const std::vector<Sensitivity>& all, const MethodColours& colours,
-            const std::string& id) {
-  auto chart = by_parameter(
+Picture sobol(const std::vector<Sensitivity>& all, const MethodColours& colours,
+              const std::string& id) {
+  auto picture = by_parameter(
       id + "-sobol", "Sobol' indices of " + all.front().metric, "share of the variance", "1",
       "Bars: total index, what a parameter does alone and with others; dots: first order, what it "
       "does "
@@ -69,15 +68,15 @@ Chart sobol(const std::vector<Sensitivity>& all, const MethodColours& colours,
       "row "
       "of its own: the variance of a point's mean, as a share of the same variance.",
       by_size(all.front().indices, [](const SobolIndex& e) { return e.total.value; }));
-  const auto noise_row = static_cast<double>(chart.y.names.size());
-  chart.y.names.emplace_back("trial noise");
+  const auto noise_row = static_cast<double>(picture.y.names.size());
+  picture.y.names.emplace_back("trial noise");
   for (const auto& s : all) {
     auto total = colours.mark(Mark::Kind::bars, s.method),
          first = colours.mark(Mark::Kind::points, s.method);
     total.shown = first.shown = &s == &all.front();
     first.colour = "ink";
     for (const auto& e : s.indices) {
-      const double row = row_of(chart.y.names, e.parameter);
+      const double row = row_of(picture.y.names, e.parameter);
       add(total, row, e.total);
       add(first, row + 0.15, e.first_order);
       total.labels.push_back("total");
@@ -85,24 +84,24 @@ Chart sobol(const std::vector<Sensitivity>& all, const MethodColours& colours,
     }
     add(total, noise_row, s.noise);
     total.labels.push_back("noise");
-    chart.marks.push_back(std::move(total));
-    chart.marks.push_back(std::move(first));
+    picture.marks.push_back(std::move(total));
+    picture.marks.push_back(std::move(first));
   }
-  return chart;
+  return picture;
 }
 
-Chart morris(const std::vector<Sensitivity>& all, const MethodColours& colours,
-             const std::string& id) {
-  Chart chart{.id = id + "-morris",
-              .title = "Elementary effects on " + all.front().metric,
-              .note =
-                  "Each parameter over its range, scaled to 1, with 95 % intervals. To the right: "
-                  "it matters. Above the "
-                  "dashed line (σ = μ*): its effect depends on the others or is not linear.",
-              .x = {"μ*, mean size of the effect", all.front().unit, false, {}},
-              .y = {"σ of the effect", all.front().unit, false, {}},
-              .marks = {},
-              .exclusive = true};
+Picture morris(const std::vector<Sensitivity>& all, const MethodColours& colours,
+               const std::string& id) {
+  Picture picture{
+      .id = id + "-morris",
+      .title = "Elementary effects on " + all.front().metric,
+      .note =
+          "Each parameter over its range, scaled to 1, with 95 % intervals. To the right: "
+          "it matters. Above the "
+          "dashed line (σ = μ*): its effect depends on the others or is not linear.",
+      .x = {"μ*, mean size of the effect", all.front().unit},
+      .y = {"σ of the effect", all.front().unit},
+      .exclusive = true};
   double most = 0.0;
   for (const auto& s : all) {
     auto dots = colours.mark(Mark::Kind::points, s.method);
@@ -115,26 +114,26 @@ Chart morris(const std::vector<Sensitivity>& all, const MethodColours& colours,
       dots.labels.push_back(e.parameter);
       if (dots.shown) most = std::max({most, e.mu_star.value, e.sigma.value});
     }
-    chart.marks.push_back(std::move(dots));
+    picture.marks.push_back(std::move(dots));
   }
   Mark equal;
   equal.colour = "soft";
   equal.dashed = true;
   equal.x = equal.y = {0.0, most};
-  chart.marks.insert(chart.marks.begin(), std::move(equal));
-  return chart;
+  picture.marks.insert(picture.marks.begin(), std::move(equal));
+  return picture;
 }
 
 }  // namespace
 
-std::vector<Chart> sensitivity_charts(const std::vector<Sensitivity>& all,
-                                      const MethodColours& colours, const std::string& id) {
-  std::vector<Chart> charts;
-  if (all.empty()) return charts;
-  if (!all.front().elasticities.empty()) charts.push_back(tornado(all, colours, id));
-  if (!all.front().indices.empty()) charts.push_back(sobol(all, colours, id));
-  if (!all.front().elementary_effects.empty()) charts.push_back(morris(all, colours, id));
-  return charts;
+std::vector<Picture> sensitivity_pictures(const std::vector<Sensitivity>& all,
+                                          const MethodColours& colours, const std::string& id) {
+  std::vector<Picture> pictures;
+  if (all.empty()) return pictures;
+  if (!all.front().elasticities.empty()) pictures.push_back(tornado(all, colours, id));
+  if (!all.front().indices.empty()) pictures.push_back(sobol(all, colours, id));
+  if (!all.front().elementary_effects.empty()) pictures.push_back(morris(all, colours, id));
+  return pictures;
 }
 
 }  // namespace gyrostat

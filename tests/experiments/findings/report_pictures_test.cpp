@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include <gyrostat/experiments/findings/report/design_charts.hpp>
+#include <gyrostat/experiments/findings/report/design_pictures.hpp>
 
 namespace gyrostat {
 namespace {
@@ -22,45 +22,45 @@ Sensitivity of(const std::string& method) {
   return s;
 }
 
-TEST(SensitivityCharts, AreThoseThatTheDesignAllows) {
+TEST(SensitivityPictures, AreThoseThatTheDesignAllows) {
   const MethodColours colours(two_methods());
-  EXPECT_TRUE(sensitivity_charts({}, colours, "d").empty());
-  EXPECT_TRUE(sensitivity_charts({of("kf")}, colours, "d").empty());
+  EXPECT_TRUE(sensitivity_pictures({}, colours, "d").empty());
+  EXPECT_TRUE(sensitivity_pictures({of("kf")}, colours, "d").empty());
   auto kf = of("kf");
   kf.indices = {{"phi", {0.2, 0.1, 0.3}, {0.4, 0.3, 0.5}},
                 {"noise", {0.05, 0.0, 0.1}, {0.6, 0.5, 0.7}}};
-  const auto charts = sensitivity_charts({kf}, colours, "d");
-  ASSERT_EQ(charts.size(), 1U);
-  EXPECT_EQ(charts[0].id, "d-sobol");
+  const auto pictures = sensitivity_pictures({kf}, colours, "d");
+  ASSERT_EQ(pictures.size(), 1U);
+  EXPECT_EQ(pictures[0].id, "d-sobol");
 }
 
-TEST(SensitivityCharts, ATornadoHasTheLargestOnTopAndOneMethodAtATime) {
+TEST(SensitivityPictures, ATornadoHasTheLargestOnTopAndOneMethodAtATime) {
   const MethodColours colours(two_methods());
   auto kf = of("kf"), none = of("none");
   kf.elasticities = {{"phi", {0.1, 0.0, 0.2}, 1, 2}, {"delta1_dps", {-0.9, -1.0, -0.8}, 1, 2}};
   none.elasticities = {{"phi", {0.5, 0.4, 0.6}, 1, 2}, {"delta1_dps", {0.3, 0.2, 0.4}, 1, 2}};
-  const auto chart = sensitivity_charts({kf, none}, colours, "d").at(0);
-  EXPECT_THAT(chart.y.names, testing::ElementsAre("delta1_dps", "phi"));
-  EXPECT_TRUE(chart.exclusive);
-  ASSERT_EQ(chart.marks.size(), 2U);
-  EXPECT_TRUE(chart.marks[0].shown);
-  EXPECT_FALSE(chart.marks[1].shown);
-  EXPECT_THAT(chart.marks[0].y, testing::ElementsAre(1.0, 0.0));  // phi is in the second row
-  EXPECT_THAT(chart.marks[1].x, testing::ElementsAre(0.5, 0.3));
-  EXPECT_THAT(chart.marks[0].x_low, testing::ElementsAre(0.0, -1.0));
+  const auto picture = sensitivity_pictures({kf, none}, colours, "d").at(0);
+  EXPECT_THAT(picture.y.names, testing::ElementsAre("delta1_dps", "phi"));
+  EXPECT_TRUE(picture.exclusive);
+  ASSERT_EQ(picture.marks.size(), 2U);
+  EXPECT_TRUE(picture.marks[0].shown);
+  EXPECT_FALSE(picture.marks[1].shown);
+  EXPECT_THAT(picture.marks[0].y, testing::ElementsAre(1.0, 0.0));  // phi is in the second row
+  EXPECT_THAT(picture.marks[1].x, testing::ElementsAre(0.5, 0.3));
+  EXPECT_THAT(picture.marks[0].x_low, testing::ElementsAre(0.0, -1.0));
 }
 
-TEST(SensitivityCharts, AMorrisPlaneHasEachParameterWithItsIntervals) {
+TEST(SensitivityPictures, AMorrisPlaneHasEachParameterWithItsIntervals) {
   const MethodColours colours(two_methods());
   auto kf = of("kf");
   kf.elementary_effects = {{"phi", {1.0, 0.8, 1.2}, {0.5, 0.4, 0.6}},
                            {"delta1_dps", {2.0, 1.5, 2.5}, {NAN, NAN, NAN}}};
-  const auto chart = sensitivity_charts({kf}, colours, "d").at(0);
-  const auto& dots = chart.marks.back();
+  const auto picture = sensitivity_pictures({kf}, colours, "d").at(0);
+  const auto& dots = picture.marks.back();
   EXPECT_THAT(dots.x, testing::ElementsAre(1.0, 2.0));
   EXPECT_EQ(dots.y_high[0], 0.6);
   EXPECT_THAT(dots.labels, testing::ElementsAre("phi", "delta1_dps"));
-  EXPECT_EQ(chart_svg(chart).find("nan"), std::string::npos);
+  EXPECT_EQ(picture_svg(picture).find("nan"), std::string::npos);
 }
 
 TEST(MethodColours, AreTheSameInEveryCellAndApartForEveryMethod) {

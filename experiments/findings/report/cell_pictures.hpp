@@ -18,7 +18,7 @@ struct CellView {
   const CellSummary& summary;
   const CellValues& values;
   std::vector<std::size_t> order;  ///< methods, best first
-  std::string id;                  ///< begins the charts' own
+  std::string id;                  ///< begins the pictures' own
 
   std::string address(std::size_t place, std::size_t method) const;
   /// Whether a method is among the `count` best that do compensate, which is what pictures show at
@@ -26,14 +26,13 @@ struct CellView {
   bool leads(std::size_t method, std::size_t count) const;
 };
 
-Chart box_chart(const CellView& view);
-Chart ecdf_chart(const CellView& view);
-Chart convergence_chart(const CellView& view);
-Chart rank_chart(const CellView& view, const CellRanking& ranking);
-Chart consistency_chart(const CellView& view);
-Chart speed_chart(const CellView& view, const std::map<std::string, double>& nanoseconds);
-Chart allan_chart(const CellView& view, const Replayed& replayed);
-Chart error_chart(const CellView& view, const Replayed& replayed);
-Chart heading_chart(const CellView& view, const Replayed& replayed);
+Picture box_picture(const CellView& view);
+Picture ecdf_picture(const CellView& view);
+Picture convergence_picture(const CellView& view);
+Picture consistency_picture(const CellView& view);
+Picture speed_picture(const CellView& view, const std::map<std::string, double>& nanoseconds);
+Picture allan_picture(const CellView& view, const Replayed& replayed);
+Picture error_picture(const CellView& view, const Replayed& replayed);
+Picture heading_picture(const CellView& view, const Replayed& replayed);
 
 }  // namespace gyrostat

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <gyrostat/results/render/chart.hpp>
+#include <gyrostat/results/pictures/picture.hpp>
 
 namespace gyrostat {
 namespace {
@@ -18,7 +18,7 @@ ordered_json numbers(const std::vector<double>& values) {
   return list;
 }
 
-ordered_json axis(const ChartAxis& a) {
+ordered_json axis(const PictureAxis& a) {
   ordered_json out = {{"label", a.label}, {"unit", a.unit}, {"log", a.logarithmic}};
   if (!a.names.empty()) out["names"] = a.names;
   return out;
@@ -32,6 +32,7 @@ ordered_json mark(const Mark& m) {
   if (m.dashed) out["dashed"] = true;
   if (m.stepped) out["stepped"] = true;
   if (m.labelled) out["labelled"] = true;
+  if (m.strong) out["strong"] = true;
   const std::pair<const char*, const std::vector<double>*> columns[] = {
       {"x", &m.x},         {"y", &m.y},           {"x_low", &m.x_low}, {"x_high", &m.x_high},
       {"y_low", &m.y_low}, {"y_high", &m.y_high}, {"from", &m.from},   {"to", &m.to}};
@@ -45,12 +46,12 @@ ordered_json mark(const Mark& m) {
 
 }  // namespace
 
-std::string chart_json(const Chart& chart) {
+std::string picture_json(const Picture& picture) {
   ordered_json out = {
-      {"id", chart.id}, {"title", chart.title}, {"x", axis(chart.x)}, {"y", axis(chart.y)}};
-  if (chart.exclusive) out["exclusive"] = true;
+      {"id", picture.id}, {"title", picture.title}, {"x", axis(picture.x)}, {"y", axis(picture.y)}};
+  if (picture.exclusive) out["exclusive"] = true;
   out["marks"] = ordered_json::array();
-  for (const auto& m : chart.marks) out["marks"].push_back(mark(m));
+  for (const auto& m : picture.marks) out["marks"].push_back(mark(m));
   const auto text = out.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   std::string safe;  // no text of a study can end the script element
   for (const char c : text)

@@ -7,8 +7,8 @@
 
 namespace gyrostat::render_detail {
 
-/// One axis of a picture: numbers to pixels.
-struct Axis {
+/// From the numbers of an axis to pixels.
+struct Scale {
   double from = std::numeric_limits<double>::infinity();
   double to = -std::numeric_limits<double>::infinity();
   bool logarithmic = false;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <gyrostat/experiments/findings/report/cell_charts.hpp>
+#include <gyrostat/experiments/findings/report/cell_pictures.hpp>
 
 namespace gyrostat {
 namespace {
@@ -40,13 +40,11 @@ std::vector<Mark> slopes(const Replayed& r, const std::vector<double>& variance)
 
 }  // namespace
 
-Chart allan_chart(const CellView& v, const Replayed& r) {
-  Chart chart{.id = v.id + "-allan",
-              .title = "Allan deviation of the compensated rate",
-              .note = {},
-              .x = {"averaging time τ", "s", true, {}},
-              .y = {"Allan deviation", "dps", true, {}},
-              .marks = {}};
+Picture allan_picture(const CellView& v, const Replayed& r) {
+  Picture picture{.id = v.id + "-allan",
+                  .title = "Allan deviation of the compensated rate",
+                  .x = {"averaging time τ", "s", true},
+                  .y = {"Allan deviation", "dps", true}};
   std::size_t raw = v.cell.methods.size();
   for (const std::size_t m : v.order) {
     const auto& method = r.methods[m];
@@ -63,29 +61,27 @@ Chart allan_chart(const CellView& v, const Replayed& r) {
       line.y_low.push_back(std::sqrt(std::max(variance - half, 0.05 * variance)));
       line.y_high.push_back(std::sqrt(variance + half));
     }
-    chart.marks.push_back(std::move(line));
+    picture.marks.push_back(std::move(line));
   }
   if (raw < v.cell.methods.size() && !r.tau_s.empty())
     for (auto& line : slopes(r, r.methods[raw].allan_variance))
-      chart.marks.push_back(std::move(line));
-  chart.note = fmt::format(
+      picture.marks.push_back(std::move(line));
+  picture.note = fmt::format(
       "Root of the mean Allan variance of {} trials simulated again, with the 95 % interval of "
       "that mean; none is the "
       "raw gyro. Dashed: slopes of white noise (−½), bias instability (0) and random walk (+½), "
       "where they touch it "
       "from below. A low left end alone says only that the white noise is smoothed.",
       r.trials);
-  return chart;
+  return picture;
 }
 
-Chart error_chart(const CellView& v, const Replayed& r) {
-  Chart chart{.id = v.id + "-error",
-              .title = r.truth ? "Error of the estimate over time" : "Innovation over time",
-              .note = {},
-              .x = {"time", "s", false, {}},
-              .y = {r.truth ? "estimate − true error" : "innovation", "dps", false, {}},
-              .marks = {},
-              .exclusive = true};
+Picture error_picture(const CellView& v, const Replayed& r) {
+  Picture picture{.id = v.id + "-error",
+                  .title = r.truth ? "Error of the estimate over time" : "Innovation over time",
+                  .x = {"time", "s"},
+                  .y = {r.truth ? "estimate − true error" : "innovation", "dps"},
+                  .exclusive = true};
   for (const std::size_t m : v.order) {
     const auto& method = r.methods[m];
     auto band = v.colours.mark(Mark::Kind::line, v.cell.methods[m].id);
@@ -105,30 +101,29 @@ Chart error_chart(const CellView& v, const Replayed& r) {
     }
     const bool states =
         std::any_of(upper.y.begin(), upper.y.end(), [](double y) { return std::isfinite(y); });
-    chart.marks.push_back(std::move(band));
+    picture.marks.push_back(std::move(band));
     if (!states) continue;
-    chart.marks.push_back(std::move(upper));
-    chart.marks.push_back(std::move(lower));
+    picture.marks.push_back(std::move(upper));
+    picture.marks.push_back(std::move(lower));
   }
-  if (std::none_of(chart.marks.begin(), chart.marks.end(), [](const Mark& m) { return m.shown; }) &&
-      !chart.marks.empty())
-    chart.marks.front().shown = true;
-  chart.note = fmt::format(
+  if (std::none_of(picture.marks.begin(), picture.marks.end(),
+                   [](const Mark& m) { return m.shown; }) &&
+      !picture.marks.empty())
+    picture.marks.front().shown = true;
+  picture.note = fmt::format(
       "Line: mean over {0} trials simulated again; band: ± 3 standard deviations over those "
       "trials; "
       "dashed: ± 3 σ as the filter itself states it. A band wider than the dashed lines is of a "
       "filter that is surer than it should be.",
       r.trials);
-  return chart;
+  return picture;
 }
 
-Chart heading_chart(const CellView& v, const Replayed& r) {
-  Chart chart{.id = v.id + "-heading",
-              .title = "Heading error over time",
-              .note = {},
-              .x = {"time", "s", false, {}},
-              .y = {"heading error, RMS over trials", "deg", false, {}},
-              .marks = {}};
+Picture heading_picture(const CellView& v, const Replayed& r) {
+  Picture picture{.id = v.id + "-heading",
+                  .title = "Heading error over time",
+                  .x = {"time", "s"},
+                  .y = {"heading error, RMS over trials", "deg"}};
   double least = INFINITY, most = 0.0;
   for (const std::size_t m : v.order) {
     auto line = v.colours.mark(Mark::Kind::line, v.cell.methods[m].id);
@@ -136,16 +131,16 @@ Chart heading_chart(const CellView& v, const Replayed& r) {
     line.y = r.methods[m].heading_rms;
     if (!line.y.empty())
       least = std::min(least, line.y.back()), most = std::max(most, line.y.back());
-    chart.marks.push_back(std::move(line));
+    picture.marks.push_back(std::move(line));
   }
-  chart.y.logarithmic = least > 0.0 && most > 20.0 * least;
-  chart.note = fmt::format(
+  picture.y.logarithmic = least > 0.0 && most > 20.0 * least;
+  picture.note = fmt::format(
       "Integral of the compensated rate error from the start, root of the mean square over {} "
       "trials "
       "simulated again. An estimate that follows the white noise makes it small without knowing "
       "the bias.",
       r.trials);
-  return chart;
+  return picture;
 }
 
 }  // namespace gyrostat
