@@ -1,13 +1,7 @@
-# The report's own script and style, and µPlot as npm put it into node_modules. Without µPlot reports are
+# The script and style of pages whose pictures move, and µPlot as npm put it into node_modules. Without µPlot reports are
 # made all the same: their pictures then stand still.
-file(GLOB scripts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/experiments/findings/report/script/*.js)
-list(SORT scripts)
-set(report_script "")
-foreach(file IN LISTS scripts)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
-  file(READ ${file} text)
-  string(APPEND report_script "${text}")
-endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/ScriptModules.cmake)
+gyrostat_script_modules(report_script ${PROJECT_SOURCE_DIR}/experiments/findings/report/script/page.js)
 file(READ ${PROJECT_SOURCE_DIR}/experiments/findings/report/report.css report_style)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
              ${PROJECT_SOURCE_DIR}/experiments/findings/report/report.css

@@ -6,131 +6,121 @@
 #include <fmt/format.h>
 
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
+#include <gyrostat/experiments/findings/report/live_page.hpp>
+#include <gyrostat/results/pictures/picture.hpp>
 #include <gyrostat/results/render/html.hpp>
 
 namespace gyrostat::gap {
 namespace {
 
-constexpr double width = 460.0, height = 230.0, left = 64.0, bottom = 34.0, top = 10.0,
-                 right = 10.0;
-
-/// A scale from values to pixels.
-struct Axis {
-  double low, high, from, to;
-  bool logarithmic;
-  double operator()(double v) const {
-    const double x = logarithmic ? std::log10(v) : v;
-    return from + (x - low) / std::max(high - low, 1e-300) * (to - from);
-  }
-};
-
-std::string picture(const Band& band) {
-  const std::size_t n = band.at.size();
-  const bool branches = !std::is_sorted(band.at.begin(), band.at.end());
-  const bool logarithmic = band.coordinate == "tau_s" || band.coordinate == "frequency_hz";
-  std::vector<double> x(band.at);
-  if (branches || (n > 1 && band.at.front() == band.at.back()))
-    for (std::size_t i = 0; i < n; ++i) x[i] = static_cast<double>(i);
-  double low = 1e300, high = -1e300;
-  for (std::size_t i = 0; i < n; ++i)
-    for (const double v : {band.observed[i], band.before[i] + 2 * band.before_spread[i],
-                           band.before[i] - 2 * band.before_spread[i], band.after[i]}) {
-      low = std::min(low, v);
-      high = std::max(high, v);
+/// Where each stretch of the coordinate begins that goes one way, as heating and then cooling.
+std::vector<std::size_t> branches(const std::vector<double>& at) {
+  std::vector<std::size_t> begins = {0};
+  double way = 0.0;
+  for (std::size_t i = 1; i < at.size(); ++i) {
+    const double step = at[i] - at[i - 1];
+    if (step * way < 0.0) {
+      begins.push_back(i);
+      way = 0.0;
+    } else {
+      way = step;
     }
-  const bool log_x = logarithmic && !branches && x.front() > 0.0 && n > 1;
-  const auto scaled = [&](double v) { return log_x ? std::log10(v) : v; };
-  const Axis across{n > 1 ? scaled(x.front()) : x.front() - 1.0,
-                    n > 1 ? scaled(x.back()) : x.front() + 1.0, left, width - right, log_x};
-  const Axis up{low, high, height - bottom, top, false};
-  const auto ribbon = [&](const std::vector<double>& mean, const std::vector<double>& spread,
-                          const char* style) {
-    std::string points;
-    for (std::size_t i = 0; i < n; ++i)
-      points += fmt::format("{:.1f},{:.1f} ", across(x[i]), up(mean[i] + 2 * spread[i]));
-    for (std::size_t i = n; i-- > 0;)
-      points += fmt::format("{:.1f},{:.1f} ", across(x[i]), up(mean[i] - 2 * spread[i]));
-    return fmt::format("<polygon class=\"{}\" points=\"{}\"/>", style, points);
-  };
-  std::string svg =
-      fmt::format("<figure><svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", width,
-                  height, escaped(band.title));
-  svg += ribbon(band.before, band.before_spread, "before") +
-         ribbon(band.after, band.after_spread, "after");
-  for (std::size_t i = 0; i < n; ++i)
-    svg += fmt::format(
-        "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.4\"><title>{:.4g} {}: recording {:.5g}, "
-        "simulated "
-        "before {:.5g} ± {:.2g}, after {:.5g} ± {:.2g} {}</title></circle>",
-        across(x[i]), up(band.observed[i]), band.at[i], band.coordinate, band.observed[i],
-        band.before[i], band.before_spread[i], band.after[i], band.after_spread[i],
-        escaped(band.unit));
-  svg += fmt::format(
-      "<line x1=\"{0}\" y1=\"{1}\" x2=\"{2}\" y2=\"{1}\"/><line x1=\"{0}\" y1=\"{1}\" x2=\"{0}\" "
-      "y2=\"{3}\"/>",
-      left, height - bottom, width - right, top);
-  svg += fmt::format(
-      "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:.3g}</text><text x=\"{}\" y=\"{}\" "
-      "text-anchor=\"end\">{:.3g}</text>",
-      left - 4, height - bottom, low, left - 4, top + 10, high);
-  svg += fmt::format(
-      "<text x=\"{}\" y=\"{}\">{:.3g}</text><text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:.3g} "
-      "{}</text>",
-      left, height - bottom + 16, band.at.front(), width - right, height - bottom + 16,
-      band.at.back(), band.coordinate);
-  return svg + fmt::format("</svg><figcaption>{} [{}]</figcaption></figure>\n", escaped(band.title),
-                           escaped(band.unit));
-}
-
-std::string bars(const std::string& title,
-                 const std::vector<std::pair<std::string, double>>& values) {
-  double high = 1e-12;
-  for (const auto& [name, v] : values) high = std::max(high, v);
-  const double row = 24.0;
-  std::string svg =
-      fmt::format("<figure><svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", width,
-                  row * static_cast<double>(values.size()) + 8.0, escaped(title));
-  double y = 4.0;
-  for (const auto& [name, v] : values) {
-    svg += fmt::format(
-        "<text x=\"140\" y=\"{}\" text-anchor=\"end\">{}</text><rect x=\"146\" y=\"{}\" "
-        "width=\"{:.1f}\" height=\"16\"/>"
-        "<text x=\"{:.1f}\" y=\"{}\">{:.3g}</text>",
-        y + 13, escaped(name), y, 240.0 * std::max(v, 0.0) / high,
-        150.0 + 240.0 * std::max(v, 0.0) / high, y + 13, v);
-    y += row;
   }
-  return svg + fmt::format("</svg><figcaption>{}</figcaption></figure>\n", escaped(title));
+  return begins;
 }
 
-constexpr std::string_view style = R"(
-.grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,20rem),1fr));gap:1rem}
-figure{margin:0}svg{width:100%;height:auto}svg text{font-size:11px;fill:currentColor}svg line{stroke:var(--soft)}
-.before{fill:var(--m1);opacity:.3}.after{fill:var(--m0);opacity:.4}circle{fill:currentColor}rect{fill:var(--m0)}
-.key b{padding:0 .6rem}.key .b{background:color-mix(in srgb,var(--m1) 40%,transparent)}
-.key .a{background:color-mix(in srgb,var(--m0) 50%,transparent)}
-)";
+/// A simulator's mean with the band of ± 2 spreads, a line for each branch.
+void add_simulated(Picture& picture, const std::string& name, const std::string& colour,
+                   const std::vector<double>& x, const std::vector<double>& mean,
+                   const std::vector<double>& spread) {
+  const auto begins = branches(x);
+  for (std::size_t b = 0; b < begins.size(); ++b) {
+    auto& line = picture.marks.emplace_back();
+    line.name = name;
+    line.colour = colour;
+    const std::size_t end = b + 1 < begins.size() ? begins[b + 1] : x.size();
+    for (std::size_t i = begins[b]; i < end; ++i) {
+      line.x.push_back(x[i]);
+      line.y.push_back(mean[i]);
+      line.y_low.push_back(mean[i] - 2.0 * spread[i]);
+      line.y_high.push_back(mean[i] + 2.0 * spread[i]);
+    }
+  }
+}
+
+Picture readings(const Band& band, std::size_t number) {
+  Picture picture{.id = fmt::format("lens-{}", number),
+                  .title = band.title,
+                  .x = {.label = band.coordinate},
+                  .y = {.label = band.channel, .unit = band.unit}};
+  std::vector<double> x = band.at;
+  if (x.size() > 1 && x.front() == x.back()) {  // readings of the whole, not along anything
+    picture.x = {.label = "reading"};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      x[i] = static_cast<double>(i);
+      picture.x.names.push_back(std::to_string(i + 1));
+    }
+  } else {
+    picture.x.logarithmic = (band.coordinate == "tau_s" || band.coordinate == "frequency_hz") &&
+                            x.size() > 1 && *std::min_element(x.begin(), x.end()) > 0.0;
+  }
+  add_simulated(picture, "simulator before", "m1", x, band.before, band.before_spread);
+  add_simulated(picture, "simulator after", "m0", x, band.after, band.after_spread);
+  auto& recording = picture.marks.emplace_back();
+  recording.kind = Mark::Kind::points;
+  recording.name = "recording";
+  recording.colour = "ink";
+  recording.x = std::move(x);
+  recording.y = band.observed;
+  for (std::size_t i = 0; i < band.at.size(); ++i)
+    recording.labels.push_back(
+        fmt::format("{:.4g} {}: recording {:.5g}, simulated before {:.5g} ± {:.2g}, after {:.5g} "
+                    "± {:.2g} {}",
+                    band.at[i], band.coordinate, band.observed[i], band.before[i],
+                    band.before_spread[i], band.after[i], band.after_spread[i], band.unit));
+  return picture;
+}
+
+Picture bars(const std::string& id, const std::string& title, const std::string& what,
+             const std::string& unit, const std::vector<std::pair<std::string, double>>& values) {
+  Picture picture{.id = id, .title = title, .x = {.label = what, .unit = unit}};
+  Mark mark;
+  mark.kind = Mark::Kind::bars;
+  mark.colour = "m0";
+  mark.labelled = true;
+  for (const auto& [name, value] : values) {
+    mark.x.push_back(value);
+    mark.y.push_back(static_cast<double>(picture.y.names.size()));
+    mark.labels.push_back(fmt::format("{:.3g}", value));
+    picture.y.names.push_back(name);
+  }
+  picture.marks = {std::move(mark)};
+  return picture;
+}
 
 }  // namespace
 
 std::string diagnosis_page(const Diagnosis& d, const std::string& name) {
-  std::string page = fmt::format("<h1>{}</h1><p>{}</p>", escaped(name), escaped(in_words(d, name)));
   std::vector<std::pair<std::string, double>> probabilities, steps;
   for (const auto& c : d.causes) probabilities.emplace_back(c.effect, c.probability);
   for (const auto& e : d.enrichments)
     steps.emplace_back(e.added.empty() ? "(baseline)" : e.added, e.gap);
-  page += "<div class=\"grid\">";
-  if (!probabilities.empty()) page += bars("probability of each cause", probabilities);
-  page += bars("gap on the held-out part, spreads", steps) + "</div>";
+  std::string page = "<div class=\"pictures\">\n";
+  if (!probabilities.empty())
+    page += html(bars("causes", "Probability of each cause", "probability", "", probabilities));
+  page += html(bars("steps", "Gap on the held-out part", "gap", "spreads", steps)) + "</div>\n";
   page +=
-      "<h2>Held-out readings of each lens</h2><p class=\"key\">points: recording; <b "
-      "class=\"b\">simulator before</b> "
-      "<b class=\"a\">and after</b>, ± 2 spreads; point at a dot for its numbers</p><div "
-      "class=\"grid\">";
-  for (const auto& band : d.bands) page += picture(band);
-  page += "</div>";
+      "<h2>Held-out readings of each lens</h2><p class=\"note\">Points: the recording; lines with "
+      "bands: the simulator before and after, ± 2 spreads.</p>\n<div class=\"pictures\">\n";
+  for (std::size_t b = 0; b < d.bands.size(); ++b) page += html(readings(d.bands[b], b));
+  page += "</div>\n";
   for (const auto& table : diagnosis_tables(d, name)) page += html(table);
-  return html_page(name, style, page);
+  return live_page(
+      name,
+      fmt::format("<h1>{}</h1>\n<p>{}</p>\n<p class=\"note hint\" hidden>Pictures: drag to zoom, "
+                  "double-click to see all; point at a dot for its numbers.</p>\n",
+                  escaped(name), escaped(in_words(d, name))),
+      page);
 }
 
 }  // namespace gyrostat::gap

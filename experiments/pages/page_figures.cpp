@@ -3,7 +3,8 @@
 
 #include <gyrostat/core/filter_type.hpp>
 #include <gyrostat/experiments/pages/page.hpp>
-#include <gyrostat/results/render/figure.hpp>
+#include <gyrostat/results/pictures/colours.hpp>
+#include <gyrostat/results/pictures/picture.hpp>
 #include <gyrostat/results/render/render.hpp>
 
 namespace gyrostat {
@@ -33,8 +34,7 @@ std::vector<double> values_of(const Table& table, const std::string& name,
 }
 
 /// y ± 2 "std of y" where the table has that, else the bounds "lower y" and "upper y".
-void add_band(const Table& table, const std::string& name, const std::string& place,
-              LineChart::Line& line) {
+void add_band(const Table& table, const std::string& name, const std::string& place, Mark& line) {
   const auto has = [&](const std::string& column) {
     return std::any_of(table.columns.begin(), table.columns.end(),
                        [&](const TableColumn& c) { return c.name == column; });
@@ -42,32 +42,48 @@ void add_band(const Table& table, const std::string& name, const std::string& pl
   if (has("std of " + name)) {
     const auto spread = values_of(table, "std of " + name, place);
     for (std::size_t i = 0; i < spread.size(); ++i) {
-      line.low.push_back(line.y[i] - 2.0 * spread[i]);
-      line.high.push_back(line.y[i] + 2.0 * spread[i]);
+      line.y_low.push_back(line.y[i] - 2.0 * spread[i]);
+      line.y_high.push_back(line.y[i] + 2.0 * spread[i]);
     }
   } else if (has("lower " + name)) {
-    line.low = values_of(table, "lower " + name, place);
-    line.high = values_of(table, "upper " + name, place);
+    line.y_low = values_of(table, "lower " + name, place);
+    line.y_high = values_of(table, "upper " + name, place);
   }
 }
 
-std::string line_chart(JsonObject& object, const Table& table, const std::string& title,
-                       const std::vector<std::string>& methods) {
-  LineChart chart{.title = title,
-                  .x_label = render_detail::head(table.columns.front()),
-                  .y_label = object.text("y_label", ""),
-                  .lines = {},
-                  .logarithmic = object.number("logarithmic", 0, ranges::flag, "") != 0.0,
-                  .panels = object.number("panels", 0, ranges::flag, "") != 0.0};
-  const auto x = values_of(table, table.columns.front().name, object.place());
+bool is_bound(const std::string& name) {
+  const auto* filter = filter_types().find(name);
+  return filter != nullptr && filter->role.is_bound();
+}
+
+/// Of a filter that does nothing and of a bound their own, as in reports; of all others the next.
+std::string colour_of(const std::string& name, std::size_t& next) {
+  const auto* filter = filter_types().find(name);
+  if (filter != nullptr && filter->role.is_floor()) return "none";
+  if (is_bound(name)) return "oracle";
+  return fmt::format("m{}", next++ % 8);
+}
+
+Picture lines(JsonObject& object, const Table& table, const std::string& title,
+              const std::vector<std::string>& methods) {
+  const auto& first = table.columns.front();
+  Picture picture{.title = title,
+                  .x = {.label = first.name, .unit = first.unit},
+                  .y = {.label = object.text("y_label", "")}};
+  picture.x.logarithmic = picture.y.logarithmic =
+      object.number("logarithmic", 0, ranges::flag, "") != 0.0;
+  picture.panels = object.number("panels", 0, ranges::flag, "") != 0.0;
+  const auto x = values_of(table, first.name, object.place());
+  std::size_t next = 0;
   for (const auto& name : methods) {
-    auto& line = chart.lines.emplace_back();
+    auto& line = picture.marks.emplace_back();
     line.name = name;
+    line.colour = colour_of(name, next);
     line.x = x;
     line.y = values_of(table, name, object.place());
     add_band(table, name, object.place(), line);
   }
-  return svg(chart);
+  return picture;
 }
 
 /// "grid[a=1,b=2]" as "a=1, b=2".
@@ -82,20 +98,35 @@ std::string short_label(const std::string& cell) {
   return label;
 }
 
-std::string heat_map(JsonObject& object, const Table& table, const std::string& title,
-                     const std::vector<std::string>& methods) {
-  HeatMap map{.title = title, .rows = {}, .columns = methods, .values = {}, .ranked = {}};
-  for (const auto& name : methods) {
-    const auto* filter = filter_types().find(name);
-    map.ranked.push_back(filter == nullptr || !filter->role.is_bound());
-  }
+/// The ratio of each number to the least of its row, bounds left out of both.
+Picture heat_map(JsonObject& object, const Table& table, const std::string& title,
+                 const std::vector<std::string>& methods) {
+  Picture picture{
+      .title = title,
+      .note = "bold: lowest of its row; colour: ratio to it, 1 (white) to 10 and above (red)"};
+  picture.x.names = methods;
+  Mark least, others;
+  least.kind = others.kind = Mark::Kind::cells;
+  least.strong = true;
   for (const auto& row : table.rows) {
-    map.rows.push_back(short_label(render_detail::readable(row.front())));
-    auto& values = map.values.emplace_back();
-    for (const auto& name : methods)
+    std::vector<double> values;
+    double best = HUGE_VAL;
+    for (const auto& name : methods) {
       values.push_back(number(row[column_named(table, name, object.place())]));
+      if (!is_bound(name) && values.back() < best) best = values.back();
+    }
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      const bool bound = is_bound(methods[m]);
+      auto& cells = !bound && values[m] == best ? least : others;
+      cells.x.push_back(static_cast<double>(m));
+      cells.y.push_back(static_cast<double>(picture.y.names.size()));
+      cells.labels.push_back(std::isfinite(values[m]) ? fmt::format("{:.3g}", values[m]) : "–");
+      cells.fills.push_back(bound ? "#eeeeee" : ratio_colour(values[m] / best));
+    }
+    picture.y.names.push_back(short_label(render_detail::readable(row.front())));
   }
-  return svg(map);
+  picture.marks = {std::move(others), std::move(least)};
+  return picture;
 }
 
 }  // namespace
@@ -115,17 +146,17 @@ std::vector<std::pair<std::string, std::string>> page_figures(
     for (const auto& [value, place] : object.list("methods")) methods.push_back(value->dump());
     for (auto& method : methods)
       method.erase(std::remove(method.begin(), method.end(), '"'), method.end());
-    std::string text;
+    Picture picture;
     if (kind == "lines")
-      text = line_chart(object, at->table, title, methods);
+      picture = lines(object, at->table, title, methods);
     else if (kind == "heat")
-      text = heat_map(object, at->table, title, methods);
+      picture = heat_map(object, at->table, title, methods);
     else
       throw InputError(
           object.place_of("kind"),
           unknown_name("kind of figure", kind, std::vector<std::string>{"lines", "heat"}));
     object.finish();
-    files.emplace_back(name + ".svg", std::move(text));
+    files.emplace_back(name + ".svg", picture_file(picture));
   }
   return files;
 }

@@ -43,7 +43,7 @@ export const open = async (on, file, options = {}) => {
 
 /// Makes every plot of the page, as reading it to its end would.
 export const readThrough = async page => {
-  const figures = await page.locator('figure.chart').all();
+  const figures = await page.locator('figure.picture').all();
   for (const figure of figures) {
     await figure.scrollIntoViewIfNeeded();
     await figure.locator('.canvas canvas').waitFor({timeout: 10000});

@@ -27,27 +27,27 @@ const drawn = await page.evaluate(async () => {
   const faults = [];
   const copy = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
   const near = (a, b) => Math.abs(a[0] - b[0]) + Math.abs(a[1] - b[1]) + Math.abs(a[2] - b[2]) < 60;
-  for (const plot of plots.values()) {
-    const {u, chart} = plot, was = chart.marks.map(m => m.shown);
-    if (chart.marks.some((m, i) => u.data[i + 1][0].length !== m.x.length || m.x.length !== m.y.length)) faults.push(`${chart.id}: lengths`);
-    for (const [k, mark] of chart.marks.entries()) {
-      if (!mark.x.some((x, i) => shows(chart.x, x) && shows(chart.y, mark.y[i]))) continue;
-      chart.marks.forEach((m, i) => { m.shown = i === k; u.series[i + 1].show = i === k; });
+  for (const plot of page.plots.values()) {
+    const {u, picture} = plot, was = picture.marks.map(m => m.shown);
+    if (picture.marks.some((m, i) => u.data[i + 1][0].length !== m.x.length || m.x.length !== m.y.length)) faults.push(`${picture.id}: lengths`);
+    for (const [k, mark] of picture.marks.entries()) {
+      if (!mark.x.some((x, i) => scales.shows(picture.x, x) && scales.shows(picture.y, mark.y[i]))) continue;
+      picture.marks.forEach((m, i) => { m.shown = i === k; u.series[i + 1].show = i === k; });
       plot.refresh();
       await new Promise(requestAnimationFrame);
       const {width, height} = Object.assign(copy.canvas, {width: u.ctx.canvas.width, height: u.ctx.canvas.height});
       copy.drawImage(u.ctx.canvas, 0, 0);
       const pixels = copy.getImageData(0, 0, width, height).data;
-      const wanted = (mark.kind === 'cells' ? mark.fills.map(colour).map(rgb) : [colour(mark.colour)]).map(c => c.match(/\d+(\.\d+)?/g).map(Number));
+      const wanted = (mark.kind === 'cells' ? mark.fills.map(scales.colour).map(marks.rgb) : [scales.colour(mark.colour)]).map(c => c.match(/\d+(\.\d+)?/g).map(Number));
       let hits = 0;
       for (let y = Math.ceil(u.bbox.top) + 1; y < u.bbox.top + u.bbox.height - 1; ++y)
         for (let x = Math.ceil(u.bbox.left) + 1; x < u.bbox.left + u.bbox.width - 1; ++x) {
           const at = 4 * (y * width + x);
           if (pixels[at + 3] > 200 && wanted.some(c => near(c, [pixels[at], pixels[at + 1], pixels[at + 2]]))) ++hits;
         }
-      if (hits < 8) faults.push(`${chart.id}: ${mark.kind} ${mark.name} left ${hits} pixels`);
+      if (hits < 8) faults.push(`${picture.id}: ${mark.kind} ${mark.name} left ${hits} pixels`);
     }
-    chart.marks.forEach((m, i) => { m.shown = was[i]; u.series[i + 1].show = was[i] !== false; });
+    picture.marks.forEach((m, i) => { m.shown = was[i]; u.series[i + 1].show = was[i] !== false; });
     plot.refresh();
   }
   return faults;
@@ -55,13 +55,13 @@ const drawn = await page.evaluate(async () => {
 check(drawn.length === 0, `every mark of every plot is drawn ${drawn.join('; ')}`);
 
 const span = (id, axis = 'x') => page.evaluate(([i, a]) => {
-  const s = plots.get(document.getElementById(i)).u.scales[a];
+  const s = page.plots.get(document.getElementById(i)).u.scales[a];
   return Math.log(Math.abs(s.max / s.min)) && s.distr === 3 ? Math.log(s.max / s.min) : s.max - s.min;
 }, [id, axis]);
 /// Where a point of a plot is on the screen.
 const place = (id, kind) => page.evaluate(([i, k]) => {
-  const plot = plots.get(document.getElementById(i)), m = plot.chart.marks.findIndex(mark => mark.kind === k && mark.shown !== false);
-  const mark = plot.chart.marks[m], at = mark.x.findIndex((x, j) => j >= mark.x.length / 2 && x != null), box = plot.u.over.getBoundingClientRect();
+  const plot = page.plots.get(document.getElementById(i)), m = plot.picture.marks.findIndex(mark => mark.kind === k && mark.shown !== false);
+  const mark = plot.picture.marks[m], at = mark.x.findIndex((x, j) => j >= mark.x.length / 2 && x != null), box = plot.u.over.getBoundingClientRect();
   return {x: box.left + plot.u.valToPos(mark.x[at], 'x'), y: box.top + plot.u.valToPos(mark.y[at], 'y'), name: mark.name,
           left: box.left, top: box.top, width: box.width, height: box.height};
 }, [id, kind]);
@@ -95,13 +95,13 @@ await page.locator('#cell-0-heading .tools button', {hasText: 'Reset'}).click();
 const plot = page.locator('#cell-0-boxes .plot');
 await plot.focus();
 await page.keyboard.press('+');
-const wide = await page.evaluate(() => { const p = plots.get(document.getElementById('cell-0-boxes')); return p.zoomed.x; });
+const wide = await page.evaluate(() => { const p = page.plots.get(document.getElementById('cell-0-boxes')); return p.zoomed.x; });
 check(wide != null, '+ zooms');
 await page.keyboard.press('0');
-check(await page.evaluate(() => plots.get(document.getElementById('cell-0-boxes')).zoomed.x === null), '0 shows all again');
+check(await page.evaluate(() => page.plots.get(document.getElementById('cell-0-boxes')).zoomed.x === null), '0 shows all again');
 for (let i = 0, found = false; i < 60 && !found; ++i) {
   await page.keyboard.press(i % 3 ? 'ArrowRight' : 'ArrowDown');
-  found = await page.evaluate(() => { const p = plots.get(document.getElementById('cell-0-boxes')); return !!p.chart.marks[p.told.mark].addresses; });
+  found = await page.evaluate(() => { const p = page.plots.get(document.getElementById('cell-0-boxes')); return !!p.picture.marks[p.told.mark].addresses; });
 }
 check((await page.locator('.sr[aria-live]').innerText()).includes('study:ramp:'), 'arrow keys reach an outlier and tell its address');
 await page.keyboard.press('Enter');
@@ -118,7 +118,7 @@ check(await key.getAttribute('aria-pressed') !== before, 'the legend hides and s
 const coming = page.waitForEvent('download');
 await page.locator('#cell-0-ecdf .tools button', {hasText: 'CSV'}).click();
 const download = await coming, rows = readFileSync(await download.path(), 'utf8').trim().split('\n');
-const points = await page.evaluate(() => plots.get(document.getElementById('cell-0-ecdf')).chart.marks.reduce((n, m) => n + m.x.length, 0));
+const points = await page.evaluate(() => page.plots.get(document.getElementById('cell-0-ecdf')).picture.marks.reduce((n, m) => n + m.x.length, 0));
 check(download.suggestedFilename() === 'cell-0-ecdf.csv' && rows.length === points + 1, `the CSV has a head and ${points} rows`);
 await page.locator('#cell-0-ecdf .tools button', {hasText: 'Numbers'}).click();
 check(await page.locator('#cell-0-ecdf .numbers tbody tr').count() > 20, 'the numbers are there as a table');
@@ -134,14 +134,14 @@ check(light !== dark, 'the button changes light and dark');
 await page.waitForTimeout(100);
 await page.screenshot({path: join(folder, 'dark_1280.png'), fullPage: true});
 await page.emulateMedia({media: 'print'});
-check(await page.locator('figure.chart.live .plot > svg').first().isVisible() && await paper() === light, 'print has pictures of lines, on white');
+check(await page.locator('figure.picture.live .plot > svg').first().isVisible() && await paper() === light, 'print has pictures of lines, on white');
 await page.pdf({path: join(folder, 'print.pdf'), format: 'A4', printBackground: true});
 await page.emulateMedia({media: 'screen'});
 
 const system = await open(chrome, file, {colorScheme: 'dark'});
 check(await system.page.evaluate(() => getComputedStyle(document.body).backgroundColor) === dark, 'the system\'s dark is followed');
 const still = await open(chrome, file, {javaScriptEnabled: false});
-check(await still.page.locator('figure.chart .plot > svg path').count() > 50, 'without script the pictures are there');
+check(await still.page.locator('figure.picture .plot > svg path').count() > 50, 'without script the pictures are there');
 await still.page.screenshot({path: join(folder, 'no_script.png'), fullPage: true});
 
 for (const colorScheme of ['light', 'dark']) {
@@ -166,6 +166,16 @@ await big.page.waitForTimeout(500);
 const paint = await big.page.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime);
 console.log(`first paint of 100,000 trials after ${paint?.toFixed(0)} ms`);
 asked.push(...big.asked), complaints.push(...big.complaints);
+
+// A diagnosis is a page of the same kind.
+writeFileSync(join(folder, 'recording.json'), JSON.stringify({title: 'ten minutes', cells: [{name: 'a', trials: 1, filters: ['none'],
+  scenario: {duration_s: 600, rate_hz: 10, random_error: {measurement_noise_std_dps: 0.02}}}]}));
+gyrostat('simulate', 'recording.json', '--out', 'recording.csv');
+gyrostat('diagnose', 'recording.csv', '--html', 'diagnosis.html');
+const diagnosis = await open(chrome, join(folder, 'diagnosis.html'));
+const lenses = await readThrough(diagnosis.page);
+check(lenses >= 5, `${lenses} plots of a diagnosis`);
+asked.push(...diagnosis.asked), complaints.push(...diagnosis.complaints);
 
 check(asked.length === 0, `no request to any host ${asked.join(' ')}`);
 check(complaints.length === 0, `nothing to complain of ${complaints.join(' ')}`);

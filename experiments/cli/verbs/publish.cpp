@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* publish_examples = R"(Examples:
   gyrostat publish PAGE                  runs its studies and writes its tables and text
-  gyrostat publish PAGE --text           fills in the text again, from tables.json
+  gyrostat publish PAGE --text           makes text and figures again, from tables.json
   gyrostat publish PAGE --check          exit 1 where text and tables disagree)";
 
 namespace fs = std::filesystem;
@@ -109,7 +109,7 @@ void add_publish(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--trials", arguments->trials,
                    "trials of every cell; tuning and matching shortened")
       ->check(CLI::Range(2U, 4294967295U));
-  verb->add_flag("--text", arguments->text, "fill in the text from tables.json, running nothing");
+  verb->add_flag("--text", arguments->text, "make text and figures again from tables.json, running nothing");
   verb->add_flag("--check", arguments->check,
                  "write nothing; exit 1 where the page and tables.json disagree");
   verb->footer(publish_examples);

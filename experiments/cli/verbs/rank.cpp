@@ -2,11 +2,10 @@
 
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
-#include <gyrostat/experiments/findings/ranking.hpp>
+#include <gyrostat/experiments/findings/report/rank_picture.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/experiments/run/study_store.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
-#include <gyrostat/results/render/figure.hpp>
 
 namespace gyrostat::cli {
 namespace {
@@ -24,13 +23,11 @@ struct RankArguments {
   FormatOption format;
 };
 
-std::string diagram(const CellRanking& ranking) {
-  RankDiagram figure{.title = fmt::format("{}: mean ranks of {} over {} trials", ranking.cell,
-                                          ranking.metric, ranking.trials),
-                     .methods = {},
-                     .critical_difference = ranking.critical_difference};
-  for (const auto& m : ranking.methods) figure.methods.push_back({m.method, m.mean_rank});
-  return svg(figure);
+std::string diagram(const CellRanking& ranking, const MethodColours& colours) {
+  auto picture = rank_picture(ranking, colours, "ranks");
+  picture.title = fmt::format("{}: mean ranks of {} over {} trials", ranking.cell, ranking.metric,
+                              ranking.trials);
+  return picture_file(picture);
 }
 
 int run(const RankArguments& arguments, Console& console) {
@@ -40,6 +37,7 @@ int run(const RankArguments& arguments, Console& console) {
   const Cell* only =
       arguments.cell.empty() ? nullptr : &cell_named(study, arguments.cell, "--cell");
   if (!arguments.figures.empty()) make_result_folder(arguments.figures);
+  const MethodColours colours(study);
   std::vector<Table> tables;
   for (std::uint32_t c = 0; c < study.cells.size(); ++c) {
     const auto& cell = study.cells[c];
@@ -53,7 +51,7 @@ int run(const RankArguments& arguments, Console& console) {
     tables.push_back(ranking_table(ranking));
     if (!arguments.figures.empty())
       write_atomically(fs::path(arguments.figures) / fmt::format("ranks_{}.svg", c + 1),
-                       diagram(ranking));
+                       diagram(ranking, colours));
   }
   console.out << render(tables, format);
   return complete;

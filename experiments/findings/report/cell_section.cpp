@@ -92,11 +92,11 @@ std::string cell_section(const CellView& v, const CellRanking& ranking,
       "<p class=\"note\">{} of {} trials finished, all methods on the same signals</p>\n",
       v.summary.finished, v.cell.trials);
   out += disagreement(v, replayed) + list(ranking.sentences) + html(ranking_table(v, ranking));
-  std::vector<Chart> charts;
-  append_pictures({v, ranking, replayed, nanoseconds}, charts);
-  out += "<div class=\"charts\">\n";
-  for (const auto& chart : charts)
-    if (!chart.marks.empty()) out += html(chart);
+  std::vector<Picture> pictures;
+  append_pictures({v, ranking, replayed, nanoseconds}, pictures);
+  out += "<div class=\"pictures\">\n";
+  for (const auto& picture : pictures)
+    if (!picture.marks.empty()) out += html(picture);
   out += "</div>\n";
   return out + worst_table(v) + tables(v, prepared) + "</section>\n";
 }

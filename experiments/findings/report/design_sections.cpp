@@ -4,19 +4,19 @@
 #include <cmath>
 
 #include <gyrostat/analysis/statistics/running.hpp>
-#include <gyrostat/experiments/findings/report/design_charts.hpp>
+#include <gyrostat/experiments/findings/report/design_pictures.hpp>
 #include <gyrostat/results/render/html.hpp>
 
 namespace gyrostat {
 namespace {
 
-std::string charts_section(const std::string& id, const std::string& title,
-                           const std::vector<Chart>& charts) {
-  if (charts.empty()) return "";
+std::string pictures_section(const std::string& id, const std::string& title,
+                             const std::vector<Picture>& pictures) {
+  if (pictures.empty()) return "";
   std::string out = fmt::format(
-      "<section aria-labelledby=\"{0}\"><h2 id=\"{0}\">{1}</h2>\n<div class=\"charts\">\n", id,
+      "<section aria-labelledby=\"{0}\"><h2 id=\"{0}\">{1}</h2>\n<div class=\"pictures\">\n", id,
       escaped(title));
-  for (const auto& chart : charts) out += html(chart);
+  for (const auto& picture : pictures) out += html(picture);
   return out + "</div></section>\n";
 }
 
@@ -50,13 +50,13 @@ std::string sweep_sections(const Study& study, const std::vector<Sweep>& sweeps,
                            const MethodColours& colours) {
   std::string out;
   for (std::size_t first = 0, s = 0; first < sweeps.size(); first = s) {
-    std::vector<Chart> charts;
+    std::vector<Picture> pictures;
     for (; s < sweeps.size() && sweeps[s].name == sweeps[first].name; ++s)
-      for (auto& chart :
-           sweep_charts(study, sweeps[s], summaries, colours, fmt::format("sweep-{}", s)))
-        charts.push_back(std::move(chart));
-    out += charts_section(fmt::format("sweeps-{}", first), "Over parameters: " + sweeps[first].name,
-                          charts);
+      for (auto& picture :
+           sweep_pictures(study, sweeps[s], summaries, colours, fmt::format("sweep-{}", s)))
+        pictures.push_back(std::move(picture));
+    out += pictures_section(fmt::format("sweeps-{}", first),
+                            "Over parameters: " + sweeps[first].name, pictures);
   }
   return out;
 }
@@ -65,8 +65,9 @@ std::string sensitivity_sections(const std::vector<DesignSensitivities>& designs
                                  const MethodColours& colours) {
   std::string out;
   for (std::size_t d = 0; d < designs.size(); ++d)
-    out += charts_section(fmt::format("design-{}", d), "What matters: " + designs[d].front().design,
-                          sensitivity_charts(designs[d], colours, fmt::format("design-{}", d)));
+    out +=
+        pictures_section(fmt::format("design-{}", d), "What matters: " + designs[d].front().design,
+                         sensitivity_pictures(designs[d], colours, fmt::format("design-{}", d)));
   return out;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include <gyrostat/experiments/study/study.hpp>
-#include <gyrostat/results/render/chart.hpp>
+#include <gyrostat/results/pictures/picture.hpp>
 
 namespace gyrostat {
 

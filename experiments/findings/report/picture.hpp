@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <gyrostat/experiments/findings/report/cell_charts.hpp>
+#include <gyrostat/experiments/findings/report/cell_pictures.hpp>
 
 namespace gyrostat {
 
@@ -19,7 +19,7 @@ struct PictureSources {
 /// One picture from each file of pictures/, in the order of their numbers; one without marks has
 /// nothing to show.
 ///
-/// A file NN_<name>.cpp defines `Chart picture_<name>(const PictureSources&)`.
-void append_pictures(const PictureSources& from, std::vector<Chart>& to);
+/// A file NN_<name>.cpp defines `Picture picture_<name>(const PictureSources&)`.
+void append_pictures(const PictureSources& from, std::vector<Picture>& to);
 
 }  // namespace gyrostat

@@ -5,9 +5,9 @@
 
 #include <tbb/global_control.h>
 
-#include <gyrostat/experiments/findings/report/assets.hpp>
 #include <gyrostat/experiments/findings/report/cell_section.hpp>
 #include <gyrostat/experiments/findings/report/design_sections.hpp>
+#include <gyrostat/experiments/findings/report/live_page.hpp>
 #include <gyrostat/experiments/findings/report/run_times.hpp>
 #include <gyrostat/experiments/findings/sensitivity_words.hpp>
 #include <gyrostat/experiments/study/address.hpp>
@@ -40,13 +40,11 @@ std::string head(const Study& study, const Manifest& manifest) {
   for (const auto& cell : manifest.cells) finished += std::min(cell.finished, cell.trials);
   const auto title = study.title.empty() ? study.name() : study.title;
   return fmt::format(
-      "<a class=\"skip\" href=\"#main\">To the results</a>\n<header>\n<h1>{}</h1>\n<p "
-      "class=\"note\">Study {}, "
-      "{} cells, {} of {} trials finished; seed {}, digest <code>{}</code></p>\n<p class=\"note "
-      "hint\" hidden>Pictures: "
-      "drag to zoom, double-click to see all. By keyboard: arrows go from point to point, + − 0 "
-      "zoom, Shift and arrows "
-      "move, Enter copies the command that replays an outlier.</p>\n</header>\n",
+      "<h1>{}</h1>\n<p class=\"note\">Study {}, {} cells, {} of {} trials finished; seed {}, "
+      "digest <code>{}</code></p>\n<p class=\"note hint\" hidden>Pictures: drag to zoom, "
+      "double-click "
+      "to see all. By keyboard: arrows go from point to point, + − 0 zoom, Shift and arrows move, "
+      "Enter copies the command that replays an outlier.</p>\n",
       escaped(title), escaped(study.name()), study.cells.size(), finished, study.trials(),
       study.seed, escaped(manifest.digest));
 }
@@ -118,13 +116,6 @@ std::string failures(const Store& store, const Manifest& manifest) {
       rows);
 }
 
-/// What the page is drawn by, with its licence. Without it the pictures stay as they are.
-std::string script() {
-  if (std::string_view(uplot_script).empty()) return "";
-  return fmt::format("<script>\n{}\n</script>\n<script>\n{}</script>\n", uplot_script,
-                     report_script);
-}
-
 std::string foot(const Store& store) {
   std::string builds;
   for (const auto& session : store.sessions()) {
@@ -133,15 +124,8 @@ std::string foot(const Store& store) {
     if (session.trials > 0 && builds.find(build) == std::string::npos)
       builds += (builds.empty() ? "" : "; ") + build;
   }
-  auto out = fmt::format(
-      "<footer><h2>About this page</h2>\n<p class=\"note\">Outcomes by gyrostat {}.</p>\n",
-      escaped(builds));
-  if (!std::string_view(uplot_script).empty())
-    out += fmt::format(
-        "<details><summary>Licences</summary><p class=\"note\">Charts: "
-        "µPlot.</p><pre>{}</pre></details>\n",
-        escaped(uplot_licence));
-  return out + "</footer>\n";
+  return fmt::format("<h2>About this page</h2>\n<p class=\"note\">Outcomes by gyrostat {}.</p>\n",
+                     escaped(builds));
 }
 
 }  // namespace
@@ -168,8 +152,7 @@ std::string report_page(const Study& study, const Store& store, const std::files
     rankings.push_back(is_seen ? rank_cell(study.cells[c], trials) : CellRanking{});
   }
 
-  std::string body = head(study, manifest) + "<main id=\"main\" tabindex=\"-1\">\n" +
-                     in_short(study, rankings, chosen, designs);
+  std::string body = in_short(study, rankings, chosen, designs);
   body += sweep_sections(study, sweeps, summaries, colours);
   body += sensitivity_sections(designs, colours);
   for (const std::size_t c : chosen) {
@@ -191,9 +174,9 @@ std::string report_page(const Study& study, const Store& store, const std::files
         cell_section(view, rankings[c], prepared, replayed,
                      measured == times.end() ? std::map<std::string, double>() : measured->second);
   }
-  body += failures(store, manifest) + "</main>\n" + foot(store) + script();
-  return html_page(fmt::format("{}: gyrostat report", study.name()),
-                   std::string(uplot_style) + report_style, body);
+  body += failures(store, manifest);
+  return live_page(fmt::format("{}: gyrostat report", study.name()), head(study, manifest), body,
+                   foot(store));
 }
 
 }  // namespace gyrostat

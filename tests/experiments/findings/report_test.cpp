@@ -22,16 +22,16 @@ constexpr std::string_view study = R"({"title": "A <b>small</b> study", "seed": 
     "random_error": {"phi": 0.5, "delta1_dps": 0.003, "delta2_dps": 0.001, "measurement_noise_std_dps": 0.02}},
   "filters": ["none", "kf", {"id": "risky", "filter": "sr_rsukf", "parameters": {"initial_phi_std": 0.316227766, "mu_phi": 0.05}}, "oracle"]}]})";
 
-/// Every chart of a page, by its id.
-std::map<std::string, json> charts_of(const std::string& page) {
-  std::map<std::string, json> charts;
+/// Every picture of a page, by its id.
+std::map<std::string, json> pictures_of(const std::string& page) {
+  std::map<std::string, json> pictures;
   const std::string open = "<script type=\"application/json\">";
   for (auto at = page.find(open); at != std::string::npos; at = page.find(open, at + 1)) {
     const auto from = at + open.size();
-    auto chart = json::parse(page.substr(from, page.find("</script>", from) - from));
-    charts[chart["id"]] = chart;
+    auto picture = json::parse(page.substr(from, page.find("</script>", from) - from));
+    pictures[picture["id"]] = picture;
   }
-  return charts;
+  return pictures;
 }
 
 /// A run of `text` in the folder and its page.
@@ -46,27 +46,27 @@ std::string page_of(const TestFolder& folder, std::string_view text,
   return folder.read("run/report.html");
 }
 
-json mark_of(const json& chart, const std::string& kind, const std::string& name) {
-  for (const auto& mark : chart["marks"])
+json mark_of(const json& picture, const std::string& kind, const std::string& name) {
+  for (const auto& mark : picture["marks"])
     if (mark["kind"] == kind && mark["name"] == name) return mark;
-  ADD_FAILURE() << "no " << kind << " " << name << " in " << chart["id"];
+  ADD_FAILURE() << "no " << kind << " " << name << " in " << picture["id"];
   return {};
 }
 
 TEST(Report, ItsNumbersAreThoseOfTheTables) {
   const TestFolder folder;
-  const auto charts = charts_of(page_of(folder, study));
+  const auto pictures = pictures_of(page_of(folder, study));
   for (const auto& table : json::parse(folder.read("run/tables.json"))) {
     if (table["title"] !=
         "small: bias estimation error (estimate - drift - random error), RMSE over time")
       continue;
     for (const auto& row : table["rows"]) {
-      const auto box = mark_of(charts.at("cell-0-boxes"), "boxes", row[0]);
+      const auto box = mark_of(pictures.at("cell-0-boxes"), "boxes", row[0]);
       EXPECT_NEAR(box["x"][0].get<double>(), row[4].get<double>(), 1e-5 * row[4].get<double>());
-      const auto line = mark_of(charts.at("cell-0-convergence"), "line", row[0]);
+      const auto line = mark_of(pictures.at("cell-0-convergence"), "line", row[0]);
       EXPECT_NEAR(line["y"].back().get<double>(), row[1].get<double>(),
                   1e-5 * row[1].get<double>());
-      const auto ecdf = mark_of(charts.at("cell-0-ecdf"), "line", row[0]);
+      const auto ecdf = mark_of(pictures.at("cell-0-ecdf"), "line", row[0]);
       EXPECT_EQ(ecdf["x"].size(), 12U);
       EXPECT_NEAR(ecdf["x"].back().get<double>(), row[6].get<double>(),
                   1e-5 * row[6].get<double>());
@@ -115,9 +115,10 @@ TEST(Report, OneTrialIsEnoughForAPage) {
   ASSERT_EQ(run_program(folder, {"run", "study.json", "--out", "run", "--trials", "1"}).exit_code,
             0);
   ASSERT_EQ(run_program(folder, {"report", "run"}).exit_code, 0);
-  EXPECT_EQ(mark_of(charts_of(folder.read("run/report.html")).at("cell-0-ecdf"), "line", "kf")["x"]
-                .size(),
-            1U);
+  EXPECT_EQ(
+      mark_of(pictures_of(folder.read("run/report.html")).at("cell-0-ecdf"), "line", "kf")["x"]
+          .size(),
+      1U);
 }
 
 TEST(Report, OfPiecesOfARecordingShowsInnovations) {
@@ -126,30 +127,31 @@ TEST(Report, OfPiecesOfARecordingShowsInnovations) {
   for (int i = 0; i < 2000; ++i)
     csv += std::to_string(0.02 * i) + "," + std::to_string(0.01 * std::sin(12.9898 * i * i)) + "\n";
   folder.write("rec.csv", csv);
-  const auto charts = charts_of(page_of(folder, R"({"title": "pieces", "cells": [{"name": "pieces",
+  const auto pictures =
+      pictures_of(page_of(folder, R"({"title": "pieces", "cells": [{"name": "pieces",
       "pieces": {"file": "rec.csv", "from_s": 10, "duration_s": 5}, "filters": ["none", "kf"]}]})"));
-  EXPECT_EQ(charts.at("cell-0-error")["title"], "Innovation over time");
-  EXPECT_EQ(charts.at("cell-0-boxes")["x"]["unit"], "nat");
+  EXPECT_EQ(pictures.at("cell-0-error")["title"], "Innovation over time");
+  EXPECT_EQ(pictures.at("cell-0-boxes")["x"]["unit"], "nat");
 }
 
 TEST(Report, AThermalCellHasAPage) {
   const TestFolder folder;
-  const auto charts =
-      charts_of(page_of(folder, R"({"title": "ramp", "cells": [{"name": "ramp", "trials": 5,
+  const auto pictures =
+      pictures_of(page_of(folder, R"({"title": "ramp", "cells": [{"name": "ramp", "trials": 5,
       "scenario": {"duration_s": 300, "rate_hz": 2, "thermal_drift": {"a_dps_per_C": 0.002, "b_dps_s_per_C": 0.1, "c_dps": -0.05},
         "random_error": {"measurement_noise_std_dps": 0.02}, "temperature": {"profile": "ramp_and_cooling", "peak_C": 57},
         "compass": {"noise_std_deg": 0.05}},
       "calibration": {"fit": "moments"}, "filters": ["none", "thermal_kf", "oracle"]}]})"));
-  const auto heading = mark_of(charts.at("cell-0-heading"), "line", "thermal_kf");
+  const auto heading = mark_of(pictures.at("cell-0-heading"), "line", "thermal_kf");
   EXPECT_EQ(heading["x"].size(), 200U);
   EXPECT_EQ(heading["y"][0], 0.0);
 }
 
 TEST(Report, WithoutReplayHasNoPicturesOverTime) {
   const TestFolder folder;
-  const auto charts = charts_of(page_of(folder, study, {"--replay", "0"}));
-  EXPECT_FALSE(charts.contains("cell-0-allan"));
-  EXPECT_TRUE(charts.contains("cell-0-boxes"));
+  const auto pictures = pictures_of(page_of(folder, study, {"--replay", "0"}));
+  EXPECT_FALSE(pictures.contains("cell-0-allan"));
+  EXPECT_TRUE(pictures.contains("cell-0-boxes"));
 }
 
 TEST(Report, ComparesTrialsSimulatedAgainWithTheStores) {
@@ -176,12 +178,12 @@ TEST(Report, OverTwoParametersHasMapsAndTheWinnerIsTheLeastMean) {
   grid["cells"][0]["grid"] = {{"scenario.random_error.phi", {0.1, 0.9}},
                               {"scenario.random_error.delta1_dps", {0.001, 0.01, 0.1}}};
   const auto page = page_of(folder, grid.dump());
-  const auto charts = charts_of(page);
+  const auto pictures = pictures_of(page);
   std::size_t winners = 0;
-  for (const auto& mark : charts.at("sweep-0-winners")["marks"]) {
+  for (const auto& mark : pictures.at("sweep-0-winners")["marks"]) {
     winners += mark["x"].size();
     for (std::size_t i = 0; i < mark["x"].size(); ++i)
-      for (const auto& other : charts.at("sweep-0-heat")["marks"]) {
+      for (const auto& other : pictures.at("sweep-0-heat")["marks"]) {
         if (other["name"] == "oracle") continue;
         const auto value = [&](const json& m) {
           for (std::size_t k = 0; k < m["x"].size(); ++k)
@@ -189,13 +191,13 @@ TEST(Report, OverTwoParametersHasMapsAndTheWinnerIsTheLeastMean) {
               return std::stod(m["labels"][k].get<std::string>());
           return no_value;
         };
-        const auto heat = mark_of(charts.at("sweep-0-heat"), "cells", mark["name"]);
+        const auto heat = mark_of(pictures.at("sweep-0-heat"), "cells", mark["name"]);
         EXPECT_LE(value(heat), value(other) * 1.01);  // labels have three digits
       }
   }
   EXPECT_EQ(winners, 6U);
-  EXPECT_TRUE(charts.contains("cell-0-boxes")) << "the first of a sweep is shown in full";
-  EXPECT_FALSE(charts.contains("cell-1-boxes"));
+  EXPECT_TRUE(pictures.contains("cell-0-boxes")) << "the first of a sweep is shown in full";
+  EXPECT_FALSE(pictures.contains("cell-1-boxes"));
 }
 
 TEST(Report, ABadFolderOrCellIsOneLine) {

@@ -2,6 +2,6 @@
 
 namespace gyrostat {
 
-Chart picture_box(const PictureSources& from) { return box_chart(from.view); }
+Picture picture_box(const PictureSources& from) { return box_picture(from.view); }
 
 }  // namespace gyrostat

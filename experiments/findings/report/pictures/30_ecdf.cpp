@@ -2,6 +2,6 @@
 
 namespace gyrostat {
 
-Chart picture_ecdf(const PictureSources& from) { return ecdf_chart(from.view); }
+Picture picture_ecdf(const PictureSources& from) { return ecdf_picture(from.view); }
 
 }  // namespace gyrostat

@@ -2,6 +2,6 @@
 
 namespace gyrostat {
 
-Chart picture_convergence(const PictureSources& from) { return convergence_chart(from.view); }
+Picture picture_convergence(const PictureSources& from) { return convergence_picture(from.view); }
 
 }  // namespace gyrostat

@@ -2,8 +2,8 @@
 
 namespace gyrostat {
 
-Chart picture_errors(const PictureSources& from) {
-  return from.replayed.trials > 0 ? error_chart(from.view, from.replayed) : Chart{};
+Picture picture_errors(const PictureSources& from) {
+  return from.replayed.trials > 0 ? error_picture(from.view, from.replayed) : Picture{};
 }
 
 }  // namespace gyrostat

@@ -2,8 +2,8 @@
 
 namespace gyrostat {
 
-Chart picture_heading(const PictureSources& from) {
-  return from.replayed.trials > 0 ? heading_chart(from.view, from.replayed) : Chart{};
+Picture picture_heading(const PictureSources& from) {
+  return from.replayed.trials > 0 ? heading_picture(from.view, from.replayed) : Picture{};
 }
 
 }  // namespace gyrostat

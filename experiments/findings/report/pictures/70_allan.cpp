@@ -2,8 +2,8 @@
 
 namespace gyrostat {
 
-Chart picture_allan(const PictureSources& from) {
-  return from.replayed.trials > 0 ? allan_chart(from.view, from.replayed) : Chart{};
+Picture picture_allan(const PictureSources& from) {
+  return from.replayed.trials > 0 ? allan_picture(from.view, from.replayed) : Picture{};
 }
 
 }  // namespace gyrostat

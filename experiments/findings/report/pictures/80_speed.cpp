@@ -2,6 +2,8 @@
 
 namespace gyrostat {
 
-Chart picture_speed(const PictureSources& from) { return speed_chart(from.view, from.nanoseconds); }
+Picture picture_speed(const PictureSources& from) {
+  return speed_picture(from.view, from.nanoseconds);
+}
 
 }  // namespace gyrostat

@@ -2,6 +2,6 @@
 
 namespace gyrostat {
 
-Chart picture_consistency(const PictureSources& from) { return consistency_chart(from.view); }
+Picture picture_consistency(const PictureSources& from) { return consistency_picture(from.view); }
 
 }  // namespace gyrostat
