@@ -16,7 +16,8 @@ foreach(room IN LISTS components)
           DESTINATION ${package})
   install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gyrostat FILES_MATCHING PATTERN "*.hpp"
           PATTERN "experiments/benchmarks" EXCLUDE PATTERN "experiments/cli" EXCLUDE
-          PATTERN "published" EXCLUDE PATTERN "studies" EXCLUDE PATTERN "script" EXCLUDE)
+          PATTERN "published" EXCLUDE PATTERN "studies" EXCLUDE PATTERN "script" EXCLUDE
+          PATTERN "report/pictures" EXCLUDE)
   # The lists of plug-ins: what else is generated is included by sources alone.
   file(GLOB_RECURSE lists RELATIVE ${PROJECT_BINARY_DIR}/generated ${PROJECT_BINARY_DIR}/generated/gyrostat/${room}/list.hpp)
   foreach(list IN LISTS lists)

@@ -58,8 +58,8 @@ inline Registry<FilterType>& filter_types() { return Registry<FilterType>::all()
 ///
 ///   filter_types().add(describe_filter<Hold>("hold"));
 ///
-/// Thread safety: `add` is for the start of a program (Registry). A filter is copied for each trial,
-/// so its own members are seen by one thread alone.
+/// Thread safety: `add` is for the start of a program (Registry). A filter is copied for each
+/// trial, so its own members are seen by one thread alone.
 template <template <class> class F>
 requires Filter<F<double>> FilterType describe_filter(std::string_view id) {
   using Parameters = typename F<double>::Parameters;

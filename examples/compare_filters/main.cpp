@@ -22,6 +22,7 @@ int main() {
   for (const char* filter : {"none", "kf", "kf_ma", "stf", "oracle"}) {
     Method method;
     method.id = method.filter = filter;
+    if (method.role().is_bound()) method.source = ParameterSource::truth;
     cell.methods.push_back(method);
   }
 
