@@ -16,8 +16,8 @@
 
 namespace gyrostat::gap {
 
-/// The highest peak of the spectrum; its frequency, sharpened, is that of the largest amplitude over
-/// the train part.
+/// The highest peak of the spectrum; its frequency, sharpened, is that of the largest amplitude
+/// over the train part.
 template <>
 struct Diagnosed<effects::Sinusoidal> {
   static constexpr auto signature = Signature::repeated;
