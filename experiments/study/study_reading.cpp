@@ -1,6 +1,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/core/track.hpp>
 #include <gyrostat/experiments/study/cell_parameters.hpp>
 #include <gyrostat/experiments/study/digest.hpp>

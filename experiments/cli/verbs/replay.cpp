@@ -1,6 +1,7 @@
 #include <bit>
 #include <filesystem>
 
+#include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/run/runner.hpp>

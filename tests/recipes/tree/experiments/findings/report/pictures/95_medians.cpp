@@ -5,11 +5,11 @@ namespace gyrostat {
 Picture picture_medians(const PictureSources& from) {
   const auto& v = from.view;
   Picture picture{.id = v.id + "-medians",
-              .title = "Medians",
-              .note = "The median of each method over all trials.",
-              .x = {v.values.title, v.values.unit, false, {}},
-              .y = {"", "", false, {}},
-              .marks = {}};
+                  .title = "Medians",
+                  .note = "The median of each method over all trials.",
+                  .x = {v.values.title, v.values.unit, false, {}},
+                  .y = {"", "", false, {}},
+                  .marks = {}};
   for (const std::size_t m : v.order) {
     auto bar = v.colours.mark(Mark::Kind::bars, v.cell.methods[m].id);
     bar.x = {v.summary.of(m, v.values.metric).median};
