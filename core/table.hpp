@@ -32,4 +32,9 @@ struct NamedTable {
 /// A number, or an empty cell for NaN.
 inline TableCell cell(double value) { return value == value ? TableCell(value) : TableCell(); }
 
+/// "3/100".
+inline TableCell out_of(std::size_t count, std::size_t total) {
+  return std::to_string(count) + "/" + std::to_string(total);
+}
+
 }  // namespace gyrostat

@@ -12,10 +12,6 @@
 namespace gyrostat {
 namespace {
 
-TableCell out_of(std::size_t count, std::size_t total) {
-  return fmt::format("{}/{}", count, total);
-}
-
 Table metric_table(const Cell& cell, const CellSummary& summary, std::string_view metric,
                    std::string_view title, std::string_view unit) {
   const std::string u(unit);

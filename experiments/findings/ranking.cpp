@@ -136,10 +136,6 @@ std::vector<std::vector<std::size_t>> groups_of(const CellRanking& ranking) {
   return groups;
 }
 
-TableCell out_of(std::size_t count, std::size_t total) {
-  return fmt::format("{}/{}", count, total);
-}
-
 }  // namespace
 
 CellRanking rank_cell(const Cell& cell, const TrialSource& trials, const std::string& name) {

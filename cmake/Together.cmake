@@ -1,0 +1,18 @@
+# A release build from nothing compiles several sources as one, which share what their headers and templates cost:
+# most of the time of a short source. The dev preset compiles each alone, so that each includes what it uses.
+option(GYROSTAT_TOGETHER "Compile several sources as one, and precompile what tests read" ON)
+
+function(gyrostat_together target batch)
+  if(GYROSTAT_TOGETHER AND TARGET ${target})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+  endif()
+endfunction()
+
+gyrostat_together(gyrostat_recordings 4)
+gyrostat_together(gyrostat_analysis 6)
+gyrostat_together(gyrostat_results 8)
+gyrostat_together(gyrostat_diagnosis 6)
+gyrostat_together(gyrostat_experiments 8)
+gyrostat_together(gyrostat_cli 14)
+# Long, and with names of its own for what the fit by likelihood has, too.
+set_source_files_properties(analysis/fits/arima_moments.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
