@@ -6,12 +6,12 @@
 namespace gyrostat::targets {
 
 /// An instruction set that kernels are compiled for: how many doubles its registers hold, and the
-/// sizes of packs that filters are compiled in. A type of
-/// its own for each, so that no function compiled for one is mistaken for another's.
+/// sizes of packs that filters are compiled in. A type of its own for each, so that no function
+/// compiled for one is mistaken for another's.
 struct Sse2 {
   static constexpr std::string_view name = "SSE2";
   static constexpr int width = 2;
-  using Lanes = std::integer_sequence<int, 2, 4, 8>;
+  using Lanes = std::integer_sequence<int, 2>;
 };
 struct Avx2 {
   static constexpr std::string_view name = "AVX2";
