@@ -19,7 +19,7 @@ struct MetricType {
   std::string id, title;
   std::string_view unit;
   Goal goal = Goal::none;
-  TableOf table;
+  TableOf table{};
   std::size_t member = 0;  ///< of a family
   double (*value)(const TrackErrors& errors, std::size_t member) = nullptr;
 

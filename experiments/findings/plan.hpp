@@ -29,8 +29,7 @@ struct PilotOptions {
 };
 
 /// Measures the first trials of a cell as `gyrostat run` would run them, into a store below
-/// `folder`, and takes the rest in proportion. Tuning is not done but reckoned from the filters'
-/// time per step.
+/// `folder`, and takes the rest in proportion; so is tuning, by a few of its evaluations.
 CellPlan plan_cell(const Study& study, std::size_t cell, const std::filesystem::path& folder,
                    const PilotOptions& options);
 

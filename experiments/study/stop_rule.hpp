@@ -15,7 +15,7 @@ struct Cell;
 /// fixed numbers of trials alone (`look_counts`), of exactly so many, in their order: the answer
 /// depends on nothing else.
 struct StopRule {
-  std::size_t metric = 0;            ///< index into Metrics
+  std::size_t metric = 0;            ///< index into metric_types()
   std::vector<std::size_t> methods;  ///< of the cell
   std::uint32_t at_least = 100;      ///< trials at the first look
   double half_width_below = 0.0;     ///< of each method's mean; 0: tell the methods apart instead

@@ -24,7 +24,7 @@ struct CalibrationPlan {
 
 /// How methods that name parameters to "tune" are tuned, all alike.
 struct TuningPlan {
-  std::size_t metric = 0;  ///< index into Metrics, the mean of which is made small
+  std::size_t metric = 0;  ///< index into metric_types(), the mean of which is made small
   std::uint32_t trials = 20;
   int evaluations = 60;
   bool undisturbed = false;  ///< on signals without the scenario's magnetic disturbances
