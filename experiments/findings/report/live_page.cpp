@@ -20,7 +20,7 @@ std::string live_page(std::string_view title, std::string_view head, std::string
       head, main, about);
   if (moves())
     body += fmt::format(
-        "<details><summary>Licences</summary><p class=\"note\">Charts: "
+        "<details><summary>Licences</summary><p class=\"note\">Pictures: "
         "µPlot.</p><pre>{}</pre></details>\n",
         escaped(uplot_licence));
   body += "</footer>\n";
