@@ -43,9 +43,9 @@ Json times_of(const Cell& cell, const std::vector<double>& nanoseconds) {
 struct StudyRun::Stretch {
   static constexpr auto log_every = std::chrono::seconds(10);
 
-  Stretch(const RunWatcher& watcher, const std::string& name, std::uint32_t finished,
+  Stretch(const RunWatcher& told, const std::string& name, std::uint32_t finished,
           std::uint32_t trials, bool is_one_cell)
-      : watcher(watcher),
+      : watcher(told),
         so_far{.cell = name, .finished = finished, .trials = trials, .widest = {}},
         before(finished),
         note_every(is_one_cell ? 0 : 1) {
