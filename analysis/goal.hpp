@@ -16,6 +16,7 @@ enum class Goal {
 struct TableOf {
   int place = 0;  ///< from 1; of the same place, the one that the cell is judged by; 0: no table
   std::string_view title{};
+  std::string_view difference{};  ///< as the table of paired differences calls it, where it judges
 };
 
 }  // namespace gyrostat

@@ -14,7 +14,8 @@ struct BiasRmse {
   static constexpr Goal goal = Goal::near_zero;
   static constexpr TableOf table{
       .place = 1,
-      .title = "bias estimation error (estimate - drift - random error), RMSE over time"};
+      .title = "bias estimation error (estimate - drift - random error), RMSE over time",
+      .difference = "RMSE of the bias estimation error"};
 
   double operator()(const TrackErrors& errors) const { return errors.bias.rmse; }
 };

@@ -15,7 +15,9 @@ struct LogScore {
   static constexpr std::string_view unit = "nat";
   static constexpr Goal goal = Goal::small;
   static constexpr TableOf table{
-      .place = 1, .title = "logarithmic score of the innovations (small: foretells the gyro well)"};
+      .place = 1,
+      .title = "logarithmic score of the innovations (small: foretells the gyro well)",
+      .difference = "logarithmic score of the innovations"};
 
   double operator()(const TrackErrors& errors) const { return errors.innovations.log_score; }
 };

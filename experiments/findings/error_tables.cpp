@@ -37,12 +37,13 @@ Table metric_table(const Cell& cell, const CellSummary& summary, std::string_vie
   return table;
 }
 
-Table comparison_table(const Cell& cell, const CellSummary& summary, std::string_view title,
-                       const std::string& unit) {
+Table comparison_table(const Cell& cell, const CellSummary& summary) {
+  const auto& metric = metric_types().named(judging_metric(cell), "tables");
+  const std::string unit(metric.unit);
   const std::size_t best = summary.best;
   const std::size_t pairs = cell.methods.size() * (cell.methods.size() - 1) / 2;
-  Table table{.title = fmt::format("{}: {}, minus that of {}, paired by trial", cell.name, title,
-                                   cell.methods[best].id),
+  Table table{.title = fmt::format("{}: {}, minus that of {}, paired by trial", cell.name,
+                                   metric.table.difference, cell.methods[best].id),
               .columns = {{"method", ""},
                           {"difference", unit},
                           {"from", unit},
@@ -143,10 +144,7 @@ std::vector<Table> error_tables(const Cell& cell, const CellSummary& summary) {
   tables[1].notes.push_back(
       "the white noise is part of it: an estimate that follows the noise makes it small, so it can "
       "lie below the oracle's, and only the bias estimation error tells who knows the bias");
-  tables.insert(tables.begin() + 1,
-                cell.recording
-                    ? comparison_table(cell, summary, "logarithmic score of the innovations", "nat")
-                    : comparison_table(cell, summary, "RMSE of the bias estimation error", "dps"));
+  tables.insert(tables.begin() + 1, comparison_table(cell, summary));
   tables.push_back(consistency_table(cell, summary));
   return tables;
 }
