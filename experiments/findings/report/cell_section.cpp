@@ -1,5 +1,7 @@
 #include <gyrostat/experiments/findings/report/cell_section.hpp>
 
+#include <fmt/format.h>
+
 #include <gyrostat/experiments/findings/error_tables.hpp>
 #include <gyrostat/experiments/findings/report/picture.hpp>
 #include <gyrostat/results/render/html.hpp>

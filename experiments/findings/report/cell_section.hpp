@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <gyrostat/experiments/findings/report/cell_pictures.hpp>
+#include <gyrostat/experiments/findings/report/cell_view.hpp>
 #include <gyrostat/experiments/run/runner.hpp>
 
 namespace gyrostat {

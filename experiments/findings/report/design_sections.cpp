@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include <gyrostat/analysis/statistics/running.hpp>
 #include <gyrostat/experiments/findings/report/design_pictures.hpp>
 #include <gyrostat/results/render/html.hpp>

@@ -1,5 +1,7 @@
 #include <gyrostat/experiments/findings/report/method_colours.hpp>
 
+#include <fmt/format.h>
+
 namespace gyrostat {
 
 MethodColours::MethodColours(const Study& study) {

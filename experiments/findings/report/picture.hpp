@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <gyrostat/experiments/findings/report/cell_pictures.hpp>
+#include <gyrostat/experiments/findings/report/cell_view.hpp>
 
 namespace gyrostat {
 

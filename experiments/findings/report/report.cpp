@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 
 #include <gyrostat/experiments/findings/report/cell_section.hpp>

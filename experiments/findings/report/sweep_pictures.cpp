@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/experiments/findings/report/design_pictures.hpp>
 #include <gyrostat/results/pictures/colours.hpp>

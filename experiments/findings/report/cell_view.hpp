@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include <gyrostat/experiments/findings/ranking.hpp>
@@ -26,13 +25,10 @@ struct CellView {
   bool leads(std::size_t method, std::size_t count) const;
 };
 
-Picture box_picture(const CellView& view);
-Picture ecdf_picture(const CellView& view);
-Picture convergence_picture(const CellView& view);
-Picture consistency_picture(const CellView& view);
-Picture speed_picture(const CellView& view, const std::map<std::string, double>& nanoseconds);
-Picture allan_picture(const CellView& view, const Replayed& replayed);
-Picture error_picture(const CellView& view, const Replayed& replayed);
-Picture heading_picture(const CellView& view, const Replayed& replayed);
+/// The values that there are, in order.
+std::vector<double> sorted(std::vector<double> values);
+
+/// An axis of the metric, logarithmic where its values are of more than a decade, all above 0.
+PictureAxis metric_axis(const CellValues& all);
 
 }  // namespace gyrostat
