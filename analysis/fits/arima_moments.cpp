@@ -19,13 +19,13 @@
 namespace gyrostat {
 namespace {
 
-constexpr std::size_t fewest_samples = 512;
+constexpr std::size_t fewest_for_moments = 512;
 constexpr double most_missing = 0.05;
 constexpr double tie_break = 0.1;
 constexpr double significance = 0.999;
 
 /// atanh phi, log delta1, atanh theta, log sqrt(R).
-using Free = Vector<double, 4>;
+using FreeMoments = Vector<double, 4>;
 
 template <class T>
 Arima111<T> model_of(const T* free) {
@@ -35,7 +35,7 @@ Arima111<T> model_of(const T* free) {
   return {T(1.0 - 1e-9) * tanh(free[0]), delta1, tanh(free[2]) * delta1, exp(free[3])};
 }
 
-Arima111<double> model_of(const Free& free) { return model_of(free.data()); }
+Arima111<double> model_of(const FreeMoments& free) { return model_of(free.data()); }
 
 /// Allan variances at clusters 1, 2, 4, ... and the weights of their logarithms.
 struct Moments {
@@ -46,7 +46,7 @@ struct Moments {
 
   Eigen::Index scales() const { return log_variance.size(); }
 
-  void weigh(const Free& free) {
+  void weigh(const FreeMoments& free) {
     Eigen::MatrixXd covariance = log_allan_covariance(model_of(free), samples, scales());
     covariance.diagonal() *= 1.0 + 1e-6;  // a smooth x correlates the scales almost fully
     log_bias = -0.5 * covariance.diagonal();
@@ -61,7 +61,7 @@ struct Moments {
     return whitener.template cast<T>() * e;
   }
 
-  double chi_square(const Free& free) const { return misfit(model_of(free)).squaredNorm(); }
+  double chi_square(const FreeMoments& free) const { return misfit(model_of(free)).squaredNorm(); }
 };
 
 struct Residuals {
@@ -78,7 +78,7 @@ struct Residuals {
 
 enum class Family { RandomWalk, Full };
 
-ceres::Solver::Summary solve(const Moments& moments, Family family, Free& free) {
+ceres::Solver::Summary solve(const Moments& moments, Family family, FreeMoments& free) {
   ceres::Problem problem;
   problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Residuals, ceres::DYNAMIC, 4>(
                                new Residuals{moments}, static_cast<int>(moments.scales()) + 4),
@@ -97,8 +97,8 @@ ceres::Solver::Summary solve(const Moments& moments, Family family, Free& free) 
 
 /// For phi and theta on a grid the delta1^2 and R, of which the variances are linear, by least
 /// squares in their ratio to the observed; the four most promising.
-std::vector<Free> starting_points(const Moments& moments) {
-  std::vector<Free> starts;
+std::vector<FreeMoments> starting_points(const Moments& moments) {
+  std::vector<FreeMoments> starts;
   for (const double phi : {-0.7, 0.0, 0.7, 0.95, 0.995})
     for (const double theta : {-0.7, 0.0, 0.5, 0.9, 0.99}) {
       Eigen::MatrixX2d share(moments.scales(), 2);
@@ -112,9 +112,10 @@ std::vector<Free> starting_points(const Moments& moments) {
       starts.emplace_back(std::atanh(phi), 0.5 * std::log(std::max(square[0], 1e-10)),
                           std::atanh(theta), 0.5 * std::log(std::max(square[1], 1e-4)));
     }
-  std::partial_sort(
-      starts.begin(), starts.begin() + 4, starts.end(),
-      [&](const Free& a, const Free& b) { return moments.chi_square(a) < moments.chi_square(b); });
+  std::partial_sort(starts.begin(), starts.begin() + 4, starts.end(),
+                    [&](const FreeMoments& a, const FreeMoments& b) {
+                      return moments.chi_square(a) < moments.chi_square(b);
+                    });
   starts.resize(4);
   return starts;
 }
@@ -122,32 +123,34 @@ std::vector<Free> starting_points(const Moments& moments) {
 /// Mean square deviation of phi, delta1, delta2, sqrt(R) from `mode` under the quasi-posterior
 /// exp(-chi-square / (2 temperature)), all admissible parameters alike beforehand: a Metropolis
 /// walk in the free parameters, whose steps take the covariance of the round before.
-Matrix<double, 4> spread_about(const Free& mode, const Moments& moments, double temperature) {
+Matrix<double, 4> spread_about(const FreeMoments& mode, const Moments& moments,
+                               double temperature) {
   constexpr int rounds = 5, steps = 3000;
   const NormalStream kicks(0, 0, "quasi-posterior"), coins(0, 0, "quasi-posterior acceptance");
-  const auto log_density = [&](const Free& free) {
+  const auto log_density = [&](const FreeMoments& free) {
     const auto model = model_of(free);
     const double volume = model.delta1_dps * model.measurement_noise_std_dps /
                           std::pow(std::cosh(free[0]) * std::cosh(free[2]), 2);
     return std::log(volume) - 0.5 * moments.chi_square(free) / temperature;
   };
-  const auto natural = [](const Free& free) {
+  const auto natural = [](const FreeMoments& free) {
     const auto model = model_of(free);
-    return Free(model.phi, model.delta1_dps, model.delta2_dps, model.measurement_noise_std_dps);
+    return FreeMoments(model.phi, model.delta1_dps, model.delta2_dps,
+                       model.measurement_noise_std_dps);
   };
-  Free at = mode;
+  FreeMoments at = mode;
   double log_at = log_density(at);
   Matrix<double, 4> step = 0.01 * Matrix<double, 4>::Identity();
   Matrix<double, 4> spread;
   std::uint64_t draw = 0;
   for (int round = 0; round < rounds; ++round) {
     Matrix<double, 4> square = 1e-8 * steps * Matrix<double, 4>::Identity();
-    Free sum = Free::Zero();
+    FreeMoments sum = FreeMoments::Zero();
     spread.setZero();
     for (int k = 0; k < steps; ++k, ++draw) {
-      Free kick;
+      FreeMoments kick;
       kicks.fill(4 * draw, {kick.data(), 4});
-      const Free next = at + step * kick;
+      const FreeMoments next = at + step * kick;
       const double log_next = log_density(next);
       if (std::log(coins.uniform(draw)) < log_next - log_at) {
         at = next;
@@ -155,7 +158,7 @@ Matrix<double, 4> spread_about(const Free& mode, const Moments& moments, double 
       }
       sum += at - mode;
       square += (at - mode) * (at - mode).transpose();
-      const Free deviation = natural(at) - natural(mode);
+      const FreeMoments deviation = natural(at) - natural(mode);
       spread += deviation * deviation.transpose() / steps;
     }
     const Matrix<double, 4> covariance = (square - sum * sum.transpose() / steps) / steps;
@@ -168,9 +171,9 @@ Moments measure(std::span<const double> rate, double& unit) {
   const std::size_t n = rate.size();
   const auto missing =
       std::count_if(rate.begin(), rate.end(), [](double y) { return !std::isfinite(y); });
-  if (n < fewest_samples)
+  if (n < fewest_for_moments)
     throw InputError("rate", std::to_string(n) + " samples; at least " +
-                                 std::to_string(fewest_samples) + " are needed");
+                                 std::to_string(fewest_for_moments) + " are needed");
   if (static_cast<double>(missing) > most_missing * static_cast<double>(n))
     throw InputError("rate", std::to_string(missing) + " of " + std::to_string(n) +
                                  " samples are missing; at most 5 % may be");
@@ -194,7 +197,7 @@ ArimaFit fit_arima_moments(std::span<const double> rate_dps) {
   Moments moments = measure(rate_dps, unit);
   ArimaFit fit;
   fit.samples = rate_dps.size();
-  const auto run = [&](Family family, Free& free) {
+  const auto run = [&](Family family, FreeMoments& free) {
     const auto summary = solve(moments, family, free);
     fit.iterations += static_cast<int>(summary.iterations.size());
     fit.converged = summary.termination_type == ceres::CONVERGENCE;
@@ -202,14 +205,14 @@ ArimaFit fit_arima_moments(std::span<const double> rate_dps) {
     return moments.chi_square(free);
   };
 
-  Free walk(0.0, -3.0, 0.0, 0.0);
+  FreeMoments walk(0.0, -3.0, 0.0, 0.0);
   moments.weigh(walk);
   run(Family::RandomWalk, walk);
   moments.weigh(walk);
   const double walk_misfit = run(Family::RandomWalk, walk);
-  Free best = walk;
+  FreeMoments best = walk;
   double misfit = run(Family::Full, best);
-  for (Free& start : starting_points(moments))
+  for (FreeMoments& start : starting_points(moments))
     if (const double other = run(Family::Full, start); other < misfit) {
       misfit = other;
       best = start;
@@ -229,12 +232,12 @@ ArimaFit fit_arima_moments(std::span<const double> rate_dps) {
   const bool refuted = fit.objective > quantile_of(degrees);
   if (refuted) fit.message += "; the model does not describe these data";
 
-  const Free units(1.0, unit, unit, unit);
+  const FreeMoments units(1.0, unit, unit, unit);
   Eigen::Map<Eigen::Matrix4d> fitted(fit.covariance[0].data());
   fitted = units.asDiagonal() *
            spread_about(best, moments, refuted ? fit.objective / degrees : 1.0) *
            units.asDiagonal();
-  const Free errors = fitted.diagonal().cwiseSqrt();
+  const FreeMoments errors = fitted.diagonal().cwiseSqrt();
   fit.standard_errors = {errors[0], errors[1], errors[2], errors[3]};
   const auto model = model_of(best);
   fit.parameters = {model.phi, model.delta1_dps * unit, model.delta2_dps * unit,

@@ -15,7 +15,7 @@ namespace {
 constexpr double half_root2 = 0.5 * std::numbers::sqrt2;
 constexpr double root3 = std::numbers::sqrt3;
 
-constexpr std::array haar = {half_root2, half_root2};
+constexpr std::array haar_taps = {half_root2, half_root2};
 
 constexpr std::array daubechies4 = {
     (1.0 + root3) / 4.0 * half_root2, (3.0 + root3) / 4.0 * half_root2,
@@ -102,7 +102,7 @@ WaveletCoefficients transformed(std::span<const double> signal, Wavelet wavelet,
 }  // namespace
 
 std::span<const double> scaling_filter(Wavelet wavelet) {
-  if (wavelet == Wavelet::Haar) return haar;
+  if (wavelet == Wavelet::Haar) return haar_taps;
   if (wavelet == Wavelet::Daubechies4) return daubechies4;
   return least_asymmetric8;
 }
