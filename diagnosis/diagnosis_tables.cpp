@@ -1,6 +1,7 @@
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gyrostat::gap {
 namespace {

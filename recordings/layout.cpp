@@ -4,6 +4,7 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/series.hpp>

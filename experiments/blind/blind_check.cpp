@@ -11,6 +11,7 @@
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/experiments/blind/blind_labels.hpp>
 #include <gyrostat/experiments/run/process.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
 #include <gyrostat/recordings/recording.hpp>
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <gyrostat/experiments/blind/blind_check.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/experiments/study/scenario_reading.hpp>

@@ -6,6 +6,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <gyrostat/analysis/statistics/proportion.hpp>
 #include <gyrostat/core/step.hpp>

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/recordings/recording.hpp>

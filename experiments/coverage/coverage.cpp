@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <functional>
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <gyrostat/experiments/run/study_store.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 
 namespace gyrostat {
 namespace {

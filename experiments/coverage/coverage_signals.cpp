@@ -1,5 +1,7 @@
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include <gyrostat/analysis/fits/arima_intervals.hpp>
 #include <gyrostat/analysis/fits/arima_likelihood.hpp>
 #include <gyrostat/analysis/spectra/allan.hpp>

@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <gyrostat/analysis/error_series.hpp>
 #include <gyrostat/analysis/errors.hpp>
 #include <gyrostat/analysis/spectra/allan.hpp>
 #include <gyrostat/core/filter_type.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/recordings/recording.hpp>
 
 namespace gyrostat {

@@ -5,6 +5,9 @@
 #include <numeric>
 #include <optional>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/analysis/statistics/all_pairs.hpp>
 #include <gyrostat/analysis/statistics/mean_ranks.hpp>

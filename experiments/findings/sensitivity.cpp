@@ -8,6 +8,7 @@
 #include <gyrostat/analysis/statistics/summary.hpp>
 #include <gyrostat/core/outcome.hpp>
 #include <gyrostat/experiments/findings/cell_summary.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 
 namespace gyrostat {
 namespace {
@@ -68,7 +69,10 @@ std::vector<Collected> collect(const Study& study, const CellTrials& trials_of,
 }
 
 /// The coordinate of a point's parameter; NaN where the value is no number.
-double number_of(const Json& value) { return value.is_number() ? value.get<double>() : no_value; }
+double number_of(const std::string& text) {
+  const auto value = Json::parse(text, nullptr, false);
+  return value.is_number() ? value.get<double>() : no_value;
+}
 
 void estimate(const Design& design, const Outputs& outputs, Resampler& resampler, Sensitivity& s) {
   const std::size_t parameters = design.parameters.size();

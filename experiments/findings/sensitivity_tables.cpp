@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include <gyrostat/experiments/findings/sensitivity_words.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 
 namespace gyrostat {
 namespace {
@@ -142,8 +145,9 @@ OfDesign of_design(const std::vector<Sensitivity>& all, const Design& design) {
   return methods;
 }
 
-TableCell value_cell(const Json& value) {
-  if (value.is_null()) return {};
+TableCell value_cell(const std::string& text) {
+  if (text.empty()) return {};
+  const auto value = Json::parse(text);
   return value.is_number() ? cell(value.get<double>())
                            : TableCell(value.is_string() ? value.get<std::string>() : value.dump());
 }

@@ -4,10 +4,14 @@
 #include <cmath>
 #include <filesystem>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/analysis/statistics/paired.hpp>
 #include <gyrostat/analysis/statistics/summary.hpp>
 #include <gyrostat/experiments/findings/ranking_words.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/results/render/interval.hpp>
 
 namespace gyrostat {

@@ -2,9 +2,12 @@
 
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/analysis/statistics/summary.hpp>
 #include <gyrostat/experiments/run/runner.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/experiments/study/json_path.hpp>
 
 namespace gyrostat {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include <gyrostat/experiments/coverage/coverage.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/results/render/render.hpp>
 
 namespace gyrostat {

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include <gyrostat/core/filter_type.hpp>
 #include <gyrostat/experiments/pages/page.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/results/pictures/colours.hpp>
 #include <gyrostat/results/pictures/picture.hpp>
 #include <gyrostat/results/render/render.hpp>

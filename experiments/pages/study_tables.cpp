@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/analysis/statistics/paired.hpp>
 #include <gyrostat/analysis/statistics/summary.hpp>

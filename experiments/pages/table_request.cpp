@@ -2,6 +2,7 @@
 
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/experiments/findings/error_tables.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 
 namespace gyrostat::tabling {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include <gyrostat/analysis/error_series.hpp>
 #include <gyrostat/analysis/errors.hpp>
 #include <gyrostat/analysis/spectra/allan.hpp>

@@ -3,8 +3,9 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <string>
 
-#include <gyrostat/experiments/study/json_object.hpp>
+#include <gyrostat/experiments/study/json.hpp>
 
 namespace gyrostat {
 
@@ -13,7 +14,7 @@ namespace gyrostat {
 class RunLog {
  public:
   explicit RunLog(const std::filesystem::path& path);
-  void write(const std::string& event, const Json& details = Json::object());
+  void write(const std::string& event, const Json& details);
 
  private:
   std::mutex mutex_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include <gyrostat/experiments/run/study_store.hpp>
 #include <gyrostat/results/store_writer.hpp>
 

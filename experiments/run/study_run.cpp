@@ -8,6 +8,7 @@
 #include <gyrostat/analysis/statistics/sequential.hpp>
 #include <gyrostat/experiments/run/build.hpp>
 #include <gyrostat/experiments/run/stopping.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 
 namespace gyrostat {
 namespace {

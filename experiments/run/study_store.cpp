@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/experiments/run/build.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 
 namespace gyrostat {
 namespace {

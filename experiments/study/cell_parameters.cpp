@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include <gyrostat/core/filter_type.hpp>
 
 namespace gyrostat {

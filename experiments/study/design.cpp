@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/experiments/study/json_path.hpp>
 
 namespace gyrostat {
@@ -39,8 +40,8 @@ std::vector<std::pair<Json, std::string>> cells_of(const Design& design, const J
   for (std::size_t i = 0; i < design.values.size(); ++i) {
     auto& [varied, varied_place] = cells.emplace_back(base, place + "[" + design.labels[i] + "]");
     for (std::size_t p = 0; p < design.parameters.size(); ++p)
-      if (!design.values[i][p].is_null())
-        set_at(varied, design.parameters[p].path, design.values[i][p], place + key);
+      if (const auto& value = design.values[i][p]; !value.empty())
+        set_at(varied, design.parameters[p].path, Json::parse(value), place + key);
     varied["name"] = design.cell_name(i);
   }
   return cells;

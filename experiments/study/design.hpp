@@ -7,7 +7,7 @@
 
 #include <gyrostat/analysis/sensitivity/designs.hpp>
 #include <gyrostat/core/values.hpp>
-#include <gyrostat/experiments/study/json_object.hpp>
+#include <gyrostat/experiments/study/json.hpp>
 
 namespace gyrostat {
 
@@ -38,12 +38,13 @@ struct Design {
   std::string name{};  ///< of the cell that stands in the study
   DesignKind kind = DesignKind::grid;
   std::vector<DesignParameter> parameters{};
-  std::vector<std::vector<Json>> values{};  ///< by point, by parameter
-  std::vector<std::string> labels{};        ///< by point: what it is in the design
-  Points points{};                          ///< in the unit cube; none of a grid or a list
-  std::vector<double> base{};               ///< values at the base of one_at_a_time
-  std::size_t levels = 0;                   ///< of morris
-  std::size_t first_cell = 0;               ///< where its points begin among the study's cells
+  /// By point, by parameter, as JSON; empty where the point leaves the cell's own.
+  std::vector<std::vector<std::string>> values{};
+  std::vector<std::string> labels{};  ///< by point: what it is in the design
+  Points points{};                    ///< in the unit cube; none of a grid or a list
+  std::vector<double> base{};         ///< values at the base of one_at_a_time
+  std::size_t levels = 0;             ///< of morris
+  std::size_t first_cell = 0;         ///< where its points begin among the study's cells
 
   std::string cell_name(std::size_t point) const { return name + "[" + labels[point] + "]"; }
   /// Whether its points serve the design alone, too many or too artificial for tables of their own.

@@ -1,4 +1,7 @@
 #include <gyrostat/experiments/study/design_points.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
+
+#include <fmt/format.h>
 
 namespace gyrostat {
 namespace {
@@ -70,8 +73,8 @@ void place_points(std::size_t count, std::uint64_t seed, Design& design) {
   for (const auto& point : design.points) {
     auto& values = design.values.emplace_back();
     for (std::size_t p = 0; p < parameters; ++p)
-      values.emplace_back(is_base(p, point[p]) ? design.base[p]
-                                               : design.parameters[p].at(point[p]));
+      values.push_back(
+          Json(is_base(p, point[p]) ? design.base[p] : design.parameters[p].at(point[p])).dump());
   }
 }
 

@@ -1,9 +1,12 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include <gyrostat/experiments/study/cell_parameters.hpp>
 #include <gyrostat/experiments/study/design.hpp>
 #include <gyrostat/experiments/study/design_points.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/experiments/study/study_ranges.hpp>
 
 namespace gyrostat {
@@ -79,19 +82,25 @@ void read_span(JsonObject& object, DesignParameter& p) {
                                 short_number(p.from), p.unit));
 }
 
+void add_point(Design& design, const std::vector<Json>& values) {
+  design.labels.push_back(named_values(design, values));
+  auto& texts = design.values.emplace_back();
+  for (const auto& value : values) texts.push_back(value.is_null() ? "" : value.dump());
+}
+
 /// One combination of all values after the other, the last parameter's changing fastest.
 void combine(Design& design, const std::vector<std::vector<Json>>& values) {
-  design.values = {{}};
+  std::vector<std::vector<Json>> points = {{}};
   for (const auto& of_one : values) {
     std::vector<std::vector<Json>> next;
-    for (const auto& point : design.values)
+    for (const auto& point : points)
       for (const auto& value : of_one) {
         next.push_back(point);
         next.back().push_back(value);
       }
-    design.values = std::move(next);
+    points = std::move(next);
   }
-  for (const auto& point : design.values) design.labels.push_back(named_values(design, point));
+  for (const auto& point : points) add_point(design, point);
 }
 
 std::vector<Json> listed(const Json& values, const std::string& place) {
@@ -118,25 +127,26 @@ std::vector<Json> grid_values(const Json& spec, const std::string& place, const 
 }
 
 void read_list(JsonObject& object, Design& design) {
+  std::vector<std::vector<Json>> points;
   for (const auto& [point, place] : object.list("points")) {
     if (!point->is_object() || point->empty())
       throw InputError(place, "an object {\"path\": value, ...} is needed here");
-    design.values.emplace_back(design.parameters.size());
+    points.emplace_back(design.parameters.size());
     for (const auto& [path, value] : point->items()) {
       auto found = std::find_if(design.parameters.begin(), design.parameters.end(),
                                 [&](const auto& p) { return p.path == path; });
       if (found == design.parameters.end()) {
         design.parameters.push_back({.path = path});
-        for (auto& values : design.values) values.emplace_back();
+        for (auto& values : points) values.emplace_back();
         found = design.parameters.end() - 1;
       }
-      design.values.back()[static_cast<std::size_t>(found - design.parameters.begin())] = value;
+      points.back()[static_cast<std::size_t>(found - design.parameters.begin())] = value;
     }
   }
-  if (design.values.empty())
+  if (points.empty())
     throw InputError(object.place_of("points"), "a list of points is needed here");
   name_parameters(design.parameters);
-  for (const auto& values : design.values) design.labels.push_back(named_values(design, values));
+  for (const auto& values : points) add_point(design, values);
 }
 
 void read_parameter(const std::string& path, JsonObject span, const Cell& cell, Design& design) {

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
+
 #include <gyrostat/experiments/study/design.hpp>
 
 namespace gyrostat {

@@ -15,11 +15,10 @@
 #include <gyrostat/core/chosen.hpp>
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/fields.hpp>
+#include <gyrostat/experiments/study/json.hpp>
 #include <gyrostat/experiments/study/mistakes.hpp>
 
 namespace gyrostat {
-
-using Json = nlohmann::ordered_json;
 
 /// One object of an input file, read key by key. Every mistake is an InputError that names file and
 /// JSON path; `finish` reports keys that nobody asked for, with the nearest that were. Where there

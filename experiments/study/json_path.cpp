@@ -1,4 +1,7 @@
 #include <gyrostat/experiments/study/json_path.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
+
+#include <fmt/format.h>
 
 namespace gyrostat {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include <gyrostat/experiments/study/json_object.hpp>
+#include <gyrostat/experiments/study/json.hpp>
 
 namespace gyrostat {
 

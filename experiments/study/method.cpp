@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <gyrostat/core/filter_type.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 
 namespace gyrostat {
 namespace {

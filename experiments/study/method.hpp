@@ -5,7 +5,7 @@
 
 #include <gyrostat/analysis/search/box_search.hpp>
 #include <gyrostat/core/filter_type.hpp>
-#include <gyrostat/experiments/study/json_object.hpp>
+#include <gyrostat/experiments/study/json.hpp>
 
 namespace gyrostat {
 

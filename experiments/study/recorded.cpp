@@ -1,6 +1,9 @@
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/experiments/study/recorded.hpp>
 
 #include <filesystem>
+
+#include <fmt/format.h>
 
 namespace gyrostat {
 

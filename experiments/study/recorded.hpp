@@ -4,7 +4,7 @@
 #include <string>
 
 #include <gyrostat/analysis/calibration.hpp>
-#include <gyrostat/experiments/study/json_object.hpp>
+#include <gyrostat/experiments/study/json.hpp>
 #include <gyrostat/recordings/recording.hpp>
 
 namespace gyrostat {

@@ -1,5 +1,6 @@
 #include <gyrostat/experiments/study/scenario_reading.hpp>
 
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/generators/environment/temperature/quiet_room.hpp>
 #include <gyrostat/generators/environment/temperature/recorded.hpp>
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <gyrostat/analysis/metric_type.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 #include <gyrostat/experiments/study/study_ranges.hpp>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <gyrostat/experiments/study/json_object.hpp>
+#include <gyrostat/experiments/study/json.hpp>
 
 namespace gyrostat {
 

@@ -8,6 +8,7 @@
 
 #include <gyrostat/analysis/calibration.hpp>
 #include <gyrostat/experiments/study/design.hpp>
+#include <gyrostat/experiments/study/json.hpp>
 #include <gyrostat/experiments/study/method.hpp>
 #include <gyrostat/experiments/study/stop_rule.hpp>
 #include <gyrostat/generators/scenario.hpp>
@@ -102,6 +103,7 @@ Study read_study(const std::string& path);
 ///     "cells": [{"name": "short", "trials": 20,
 ///                "scenario": {"duration_s": 10, "rate_hz": 100}, "filters": ["none", "kf"]}]
 ///   })"), "example.json");
-Study parse_study(const Json& json, const std::string& path, Mistakes mistakes = {});
+Study parse_study(const Json& json, const std::string& path, Mistakes mistakes);
+Study parse_study(const Json& json, const std::string& path);
 
 }  // namespace gyrostat

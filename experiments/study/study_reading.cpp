@@ -1,10 +1,14 @@
 #include <cmath>
 #include <filesystem>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/core/track.hpp>
 #include <gyrostat/experiments/study/cell_parameters.hpp>
 #include <gyrostat/experiments/study/digest.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/experiments/study/scenario_reading.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 #include <gyrostat/experiments/study/study_ranges.hpp>
@@ -198,6 +202,10 @@ Study read_study(const std::string& path) {
   Mistakes mistakes;
   const Json json = read_json(path, &mistakes);
   return parse_study(json, path, std::move(mistakes));
+}
+
+Study parse_study(const Json& json, const std::string& path) {
+  return parse_study(json, path, Mistakes{});
 }
 
 Study parse_study(const Json& json, const std::string& path, Mistakes mistakes) {

@@ -1,7 +1,10 @@
 #include <gyrostat/experiments/study/study_schema.hpp>
 
+#include <fmt/format.h>
+
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/core/filter_type.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/experiments/study/study_ranges.hpp>
 #include <gyrostat/generators/scenario.hpp>
 

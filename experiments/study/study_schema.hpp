@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gyrostat/experiments/study/json_object.hpp>
+#include <gyrostat/experiments/study/json.hpp>
 
 namespace gyrostat {
 

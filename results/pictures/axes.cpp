@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include <gyrostat/results/pictures/drawing.hpp>
 #include <gyrostat/results/pictures/lettering.hpp>
 

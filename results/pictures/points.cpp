@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include <gyrostat/results/pictures/colours.hpp>
 #include <gyrostat/results/pictures/drawing.hpp>
 #include <gyrostat/results/pictures/lettering.hpp>

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <gyrostat/results/pictures/axes.hpp>
 #include <gyrostat/results/pictures/drawing.hpp>
 #include <gyrostat/results/pictures/legend.hpp>

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <gyrostat/analysis/spectra/allan.hpp>
 
 #include <gyrostat/experiments/cli/options.hpp>

@@ -1,6 +1,8 @@
 #include <cmath>
 #include <memory>
 
+#include <fmt/format.h>
+
 #include <gyrostat/core/filter_type.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>

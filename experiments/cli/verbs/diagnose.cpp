@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
 #include <gyrostat/diagnosis/gap/conditions.hpp>

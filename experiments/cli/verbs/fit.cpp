@@ -1,5 +1,6 @@
 #include <array>
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <gyrostat/analysis/calibration.hpp>

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/core/filter_type.hpp>
 #include <gyrostat/core/track.hpp>

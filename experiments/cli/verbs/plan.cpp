@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <gyrostat/experiments/cli/options.hpp>

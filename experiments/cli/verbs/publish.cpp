@@ -1,6 +1,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
+
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/progress.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
@@ -109,7 +111,8 @@ void add_publish(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--trials", arguments->trials,
                    "trials of every cell; tuning and matching shortened")
       ->check(CLI::Range(2U, 4294967295U));
-  verb->add_flag("--text", arguments->text, "make text and figures again from tables.json, running nothing");
+  verb->add_flag("--text", arguments->text,
+                 "make text and figures again from tables.json, running nothing");
   verb->add_flag("--check", arguments->check,
                  "write nothing; exit 1 where the page and tables.json disagree");
   verb->footer(publish_examples);

@@ -1,6 +1,8 @@
 #include <bit>
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>

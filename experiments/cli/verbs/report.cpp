@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <gyrostat/experiments/findings/report/report.hpp>
 
 #include <gyrostat/experiments/cli/options.hpp>

@@ -1,12 +1,15 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/progress.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/findings/run_tables.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/experiments/run/time_of_day.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 
 namespace gyrostat::cli {
 namespace {

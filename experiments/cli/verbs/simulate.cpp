@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>

@@ -1,9 +1,12 @@
+#include <fmt/format.h>
+
 #include <gyrostat/analysis/statistics/sequential.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/run/stopping.hpp>
 #include <gyrostat/experiments/run/study_store.hpp>
 #include <gyrostat/experiments/study/address.hpp>
+#include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/results/store.hpp>
 
 namespace gyrostat::cli {

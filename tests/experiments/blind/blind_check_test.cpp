@@ -2,6 +2,7 @@
 
 #include <gyrostat/experiments/blind/blind_check.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <gyrostat/experiments/blind/blind_labels.hpp>

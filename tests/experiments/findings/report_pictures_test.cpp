@@ -1,6 +1,7 @@
 #include <cmath>
 #include <set>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <gyrostat/experiments/findings/report/design_pictures.hpp>
