@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <gyrostat/experiments/run/study_store.hpp>
 #include <gyrostat/results/store_writer.hpp>

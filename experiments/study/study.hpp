@@ -99,6 +99,8 @@ Study read_study(const std::string& path);
 ///
 /// Example: a study that the program writes itself.
 ///
+///   #include <nlohmann/json.hpp>
+///
 ///   const auto study = parse_study(Json::parse(R"({
 ///     "cells": [{"name": "short", "trials": 20,
 ///                "scenario": {"duration_s": 10, "rate_hz": 100}, "filters": ["none", "kf"]}]
