@@ -18,12 +18,9 @@ def said(*words):
 
 verbs = re.findall(r"^  ([a-z][a-z-]+) ", said("--help").split("Subcommands:")[1], re.M)
 assert len(verbs) >= 20, verbs
-options = {}
-for verb in verbs:
-    text = said(verb, "--help")
-    options[verb] = set(re.findall(r"--[a-z][a-z-]*", text.split("Examples:")[0]))
-for verb in verbs:
-    text = said(verb, "--help")
+helps = {verb: said(verb, "--help") for verb in verbs}
+options = {verb: set(re.findall(r"--[a-z][a-z-]*", text.split("Examples:")[0])) for verb, text in helps.items()}
+for verb, text in helps.items():
     own = [line for line in text.splitlines() if re.search(rf"\bgyrostat {verb}( |\)|$)", line)]
     if "Examples:" not in text or not own:
         failures.append(f"{verb}: no example in its --help")
@@ -40,11 +37,14 @@ for verb in verbs:
 with Folder(program) as folder:
     (folder.path / "study.json").write_text("{}")
 
-    def completed(*words):
-        line = " ".join(f"'{word}'" for word in words)
-        return folder.shell(f"""source <(gyrostat completion bash)
-            COMP_WORDS=(gyrostat {line}); COMP_CWORD={len(words)}
-            _gyrostat; printf '%s\\n' "${{COMPREPLY[@]}}\"""").split()
+    def completed(asked):
+        """What is offered behind each of the lines, asked of one shell."""
+        script = "source <(gyrostat completion bash)\n"
+        for words in asked:
+            line = " ".join(f"'{word}'" for word in words)
+            script += (f"COMP_WORDS=(gyrostat {line}); COMP_CWORD={len(words)}; COMPREPLY=(); _gyrostat\n"
+                       "echo \"${COMPREPLY[@]}\"\n")
+        return [set(offered.split()) for offered in folder.shell(script).splitlines()]
 
     expectations = [
         (("",), set(verbs) | {"--help", "--version"}),
@@ -57,8 +57,9 @@ with Folder(program) as folder:
         (("list", "eff"), {"effects"}),
         (("completion", ""), {"bash", "zsh", "fish"})]
     expectations += [((verb, "--"), options[verb]) for verb in verbs]
-    for words, expected in expectations:
-        got = set(completed(*words))
+    offered = completed([words for words, _ in expectations])
+    assert len(offered) == len(expectations), offered
+    for (words, expected), got in zip(expectations, offered):
         if got != expected:
             failures.append(f"completion of {words}: {sorted(got ^ expected)} too few or too many")
     fish = said("completion", "fish")
