@@ -1,5 +1,7 @@
 #include <gyrostat/experiments/run/run_log.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <gyrostat/experiments/run/build.hpp>
 
 namespace gyrostat {

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>

@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/study/study_schema.hpp>
