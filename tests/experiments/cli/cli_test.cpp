@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/core/filter_type.hpp>

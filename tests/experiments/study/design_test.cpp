@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <gyrostat/experiments/findings/sensitivity.hpp>
 #include <gyrostat/experiments/findings/sensitivity_words.hpp>

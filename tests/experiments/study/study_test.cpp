@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <gyrostat/core/filter_type.hpp>
 #include <gyrostat/core/filters/list.hpp>
