@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gyrostat/analysis/sensitivity/designs.hpp>
+#include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/values.hpp>
 #include <gyrostat/experiments/study/json.hpp>
 
