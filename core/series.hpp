@@ -32,6 +32,9 @@ struct Series {
   std::vector<double> mag_valid;    ///< 1 where the compass may be used, 0 where it is disturbed
   std::vector<double> rate_ref_dps;
   std::vector<double> acc_x_mps2, acc_y_mps2, acc_z_mps2;
+  /// Rates about the two other axes, in the order x, y, z, x: of a gyro about y those about z and
+  /// x.
+  std::vector<double> cross_rate_1_dps, cross_rate_2_dps;
   std::vector<double> thermal_bias_dps;  ///< truth: drift driven by temperature, B_f
   std::vector<double> random_error_dps;  ///< truth: correlated random error, x
 
@@ -66,6 +69,8 @@ inline constexpr std::array channels = {
     Channel{"acc_x_mps2", &Series::acc_x_mps2, "m/s²"},
     Channel{"acc_y_mps2", &Series::acc_y_mps2, "m/s²"},
     Channel{"acc_z_mps2", &Series::acc_z_mps2, "m/s²"},
+    Channel{"cross_rate_1_dps", &Series::cross_rate_1_dps, "dps"},
+    Channel{"cross_rate_2_dps", &Series::cross_rate_2_dps, "dps"},
     Channel{"thermal_bias_dps", &Series::thermal_bias_dps, "dps"},
     Channel{"random_error_dps", &Series::random_error_dps, "dps"},
 };

@@ -85,8 +85,10 @@ void copy_gaps(const std::vector<double>& from, std::vector<double>& to) {
 }
 
 /// The channels of a recording that errors are computed from.
-constexpr std::array influences = {&Series::temperature_C, &Series::rate_ref_dps,
-                                   &Series::acc_x_mps2, &Series::acc_y_mps2, &Series::acc_z_mps2};
+constexpr std::array influences = {&Series::temperature_C,   &Series::rate_ref_dps,
+                                   &Series::acc_x_mps2,      &Series::acc_y_mps2,
+                                   &Series::acc_z_mps2,      &Series::cross_rate_1_dps,
+                                   &Series::cross_rate_2_dps};
 
 }  // namespace
 
@@ -103,6 +105,10 @@ void synthesise(const Scenario& scenario, const Noise& noise, Series& series) {
 
   follow(scenario.temperature, series, std::array{&Series::temperature_C});
   follow(scenario.motion, series, std::array{&Series::rate_ref_dps});
+  if (scenario.cross_motion_1)
+    follow(*scenario.cross_motion_1, series, std::array{&Series::cross_rate_1_dps});
+  if (scenario.cross_motion_2)
+    follow(*scenario.cross_motion_2, series, std::array{&Series::cross_rate_2_dps});
   if (scenario.acceleration)
     follow(*scenario.acceleration, series,
            std::array{&Series::acc_x_mps2, &Series::acc_y_mps2, &Series::acc_z_mps2});

@@ -46,6 +46,8 @@ struct Scenario {
   ThermalDrift<double> thermal_drift;
   Temperature temperature{temperature_types().named("quiet_room", "scenario")};
   Motion motion{motion_types().named("stationary", "scenario")};
+  /// About the two other axes; none: nothing tells that rate, its channel is empty.
+  std::optional<Motion> cross_motion_1, cross_motion_2;
   std::optional<Acceleration> acceleration;  ///< none: no accelerometer, acc channels empty
   Compass compass;
   std::vector<Effect> effects;
@@ -65,10 +67,11 @@ struct Scenario {
 void synthesise(const Scenario& scenario, const Noise& noise, Series& series);
 
 /// The errors of `scenario` under the conditions of a recording: its times, even or not,
-/// temperature, rate (0 where it has none), acceleration, mag_valid, and its gaps in gyro and
-/// heading. The scenario's sampling, profiles, effects on the environment and magnetic disturbances
-/// play no part. Missing temperatures, rates and accelerations are held while errors are computed
-/// from them; without temperature the drift is c alone. `series` is another than `conditions`.
+/// temperature, rates (about its own axis 0 where it has none), acceleration, mag_valid, and its
+/// gaps in gyro and heading. The scenario's sampling, profiles, effects on the environment and
+/// magnetic disturbances play no part. Missing temperatures, rates and accelerations are held while
+/// errors are computed from them; without temperature the drift is c alone. `series` is another
+/// than `conditions`.
 void synthesise_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
                       Series& series);
 

@@ -32,6 +32,8 @@ constexpr std::array short_names = {
     ShortName{"acc_x", "acc_x_mps2"},
     ShortName{"acc_y", "acc_y_mps2"},
     ShortName{"acc_z", "acc_z_mps2"},
+    ShortName{"cross_rate_1", "cross_rate_1_dps"},
+    ShortName{"cross_rate_2", "cross_rate_2_dps"},
 };
 
 /// The standard name of the column of a channel.

@@ -28,7 +28,8 @@ struct ChannelRange {
 constexpr std::array channel_ranges = {
     ChannelRange{"gyro_dps", -1e5, 1e5},         ChannelRange{"rate_ref_dps", -1e5, 1e5},
     ChannelRange{"temperature_C", -273.15, 1e3}, ChannelRange{"heading_deg", -180, 180},
-    ChannelRange{"mag_valid", 0, 1, true},
+    ChannelRange{"mag_valid", 0, 1, true},       ChannelRange{"cross_rate_1_dps", -1e5, 1e5},
+    ChannelRange{"cross_rate_2_dps", -1e5, 1e5},
 };
 constexpr std::array<std::string_view, 4> axes = {"", "x", "y", "z"};
 constexpr double largest_interval_error = 0.1;
@@ -77,6 +78,18 @@ std::string choose_axis(std::string_view axis, const Names& names, const Names& 
                                ? "there are several gyro columns; choose one with --axis " + allowed
                                : fmt::format("--axis '{}': column '{}' is missing; allowed: {}",
                                              axis, gyro_name(axis), allowed));
+}
+
+/// The column of a channel: of the gyro that of its axis, of the rates about the other axes theirs
+/// where they have none of their own.
+std::string column_of(const Channel& channel, const std::string& axis, const Names& names) {
+  if (channel.name == "gyro_dps") return gyro_name(axis);
+  const std::size_t steps = channel.name == "cross_rate_1_dps"   ? 1
+                            : channel.name == "cross_rate_2_dps" ? 2
+                                                                 : 0;
+  if (steps == 0 || axis.empty() || contains(names, channel.name)) return std::string(channel.name);
+  constexpr std::string_view cycle = "xyzxy";
+  return gyro_name(cycle.substr(cycle.find(axis) + steps, 1));
 }
 
 /// A channel as it stands in the file.
@@ -175,11 +188,9 @@ Recording assemble(const CsvHeader& header, const std::string& place, std::strin
   if (!contains(names, "t_s")) throw_missing("t_s", recording.ignored_columns, header_place);
   recording.axis = choose_axis(axis, names, recording.ignored_columns, header_place);
 
-  const auto column_of = [&](const Channel& channel) {
-    return channel.name == "gyro_dps" ? gyro_name(recording.axis) : std::string(channel.name);
-  };
   const auto place_in = [&](const Channel& channel) {
-    return static_cast<std::size_t>(std::ranges::find(names, column_of(channel)) - names.begin());
+    const auto column = std::ranges::find(names, column_of(channel, recording.axis, names));
+    return static_cast<std::size_t>(column - names.begin());
   };
   Targets targets(names.size());
   for (const auto& channel : channels)

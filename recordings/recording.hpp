@@ -22,7 +22,8 @@ struct Recording {
 /// Reads a recording: CSV or gzip CSV, a header and then one row a sample, or a .mat file whose
 /// variables, or a struct's fields, are the columns. Names and units are those of `channels` unless
 /// `layout` has others. The gyro is `gyro_dps`, or `gyro_x_dps`, `gyro_y_dps`, `gyro_z_dps` chosen
-/// by `axis` ("x", "y", "z"; "" takes `gyro_dps` or the only one there is). A blank cell is NaN, a
+/// by `axis` ("x", "y", "z"; "" takes `gyro_dps` or the only one there is); the others are then the
+/// rates about the other axes, unless the file has columns of theirs. A blank cell is NaN, a
 /// column of nothing but blanks is absent. Throws InputError naming file, line, column, value and
 /// what is allowed.
 ///

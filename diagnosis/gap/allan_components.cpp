@@ -19,12 +19,6 @@ struct Target {
   double walk_left;
 };
 
-/// Allan variance of a unit Gauss-Markov process at tau over correlation time = u (IEEE Std 952).
-double gauss_markov_allan(double u) {
-  if (u < 1e-3) return u / 3.0;
-  return (1.0 - (3.0 - 4.0 * std::exp(-u) + std::exp(-2.0 * u)) / (2.0 * u)) / u;
-}
-
 std::vector<Target> targets(const Conditions& conditions, const Scene& scene) {
   std::vector<Target> all;
   const auto add = [&](const Octave& octave, std::size_t unit, double walk_left) {
@@ -48,6 +42,11 @@ double from_below(double square) {
 }
 
 }  // namespace
+
+double gauss_markov_allan_variance(double u) {
+  if (u < 1e-3) return (2.0 / 3.0 - 0.5 * u) * u;
+  return 2.0 * (1.0 - (3.0 - 4.0 * std::exp(-u) + std::exp(-2.0 * u)) / (2.0 * u)) / u;
+}
 
 AllanComponents fit_allan_components(const Conditions& conditions, const Scene& scene,
                                      SlowComponent component, bool with_walk) {
@@ -87,8 +86,9 @@ AllanComponents fit_allan_components(const Conditions& conditions, const Scene& 
         if (component == SlowComponent::flicker)
           variance += p[2] * p[2] * 2.0 * std::numbers::ln2 / std::numbers::pi;
         if (component == SlowComponent::gauss_markov)
-          variance += p[2] * p[2] *
-                      gauss_markov_allan(interval_s * static_cast<double>(all[k].cluster) / p[3]);
+          variance +=
+              p[2] * p[2] *
+              gauss_markov_allan_variance(interval_s * static_cast<double>(all[k].cluster) / p[3]);
         const double z = (std::log(variance) - all[k].log_variance) / all[k].error;
         sum += z > 0.0 ? z * z : from_below(z * z);
       }

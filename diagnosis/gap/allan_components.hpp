@@ -5,6 +5,11 @@
 
 namespace gyrostat::gap {
 
+/// Allan variance of a Gauss-Markov process of unit variance at tau = u correlation times: half the
+/// mean square difference of neighbouring means (IEEE Std 952 annex C, where it is stated for a
+/// driving noise, which makes the variance).
+double gauss_markov_allan_variance(double u);
+
 /// A slow error to be fitted beside ARIMA(1,1,1) and white noise.
 enum class SlowComponent { none, gauss_markov, flicker };
 

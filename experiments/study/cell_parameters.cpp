@@ -50,6 +50,8 @@ Parameters cell_parameters(const Cell& cell) {
   add(list, "scenario.thermal_drift", s.thermal_drift);
   add(list, "scenario.temperature", s.temperature);
   add(list, "scenario.motion", s.motion);
+  if (s.cross_motion_1) add(list, "scenario.cross_motion_1", *s.cross_motion_1);
+  if (s.cross_motion_2) add(list, "scenario.cross_motion_2", *s.cross_motion_2);
   if (s.acceleration) add(list, "scenario.acceleration", *s.acceleration);
   add(list, "scenario.compass", s.compass);
   for (std::size_t i = 0; i < s.compass.disturbances.size(); ++i)

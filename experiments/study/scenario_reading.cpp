@@ -81,6 +81,12 @@ Scenario read_scenario(JsonObject object, const std::string& folder, FittedRecor
   object.with_child("motion", [&](JsonObject& motion) {
     scenario.motion = read_plugin<Motion>(motion, "profile");
   });
+  object.with_child("cross_motion_1", [&](JsonObject& motion) {
+    scenario.cross_motion_1 = read_plugin<Motion>(motion, "profile");
+  });
+  object.with_child("cross_motion_2", [&](JsonObject& motion) {
+    scenario.cross_motion_2 = read_plugin<Motion>(motion, "profile");
+  });
   object.with_child("acceleration", [&](JsonObject& acceleration) {
     scenario.acceleration = read_plugin<Acceleration>(acceleration, "profile");
   });

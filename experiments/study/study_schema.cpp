@@ -117,6 +117,10 @@ Json scenario() {
   properties["temperature"] =
       plugin<TemperatureType>("profile", "temperature over time", {"recorded"});
   properties["motion"] = plugin<MotionType>("profile", "true rate over time");
+  properties["cross_motion_1"] = plugin<MotionType>(
+      "profile", "rate about the next axis in the order x, y, z, x; none: it is not told");
+  properties["cross_motion_2"] =
+      plugin<MotionType>("profile", "rate about the axis after that; none: it is not told");
   properties["acceleration"] =
       plugin<AccelerationType>("profile", "specific force over time; none: no accelerometer");
   auto compass = parameters(field_infos_of<Compass>);

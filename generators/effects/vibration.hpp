@@ -1,13 +1,11 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <complex>
-#include <numbers>
 
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/narrow_band.hpp>
 #include <gyrostat/generators/sampled.hpp>
 #include <gyrostat/generators/stage.hpp>
 
@@ -39,26 +37,10 @@ struct Vibration {
   static constexpr Vibration absent() { return {.std_dps = 0.0}; }
 
   void apply(Series& series, const Noise& noise) const {
-    constexpr double turn = 2.0 * std::numbers::pi;
-    Deviates in_phase(noise.stream("vibration/in_phase"));
-    Deviates quadrature(noise.stream("vibration/quadrature"));
-    Decay decay(1.0 / (std::numbers::pi * bandwidth_hz));
-    std::complex<double> state, rotation;
-    double known = -1.0, drive = 1.0;
-    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
-      const double interval_s = i == 0 ? 0.0 : series.t_s[i] - series.t_s[i - 1];
-      const double a = decay(series.t_s, i);
-      if (std::abs(interval_s - known) > 1e-6 * interval_s) {
-        known = interval_s;
-        rotation = std::polar(a, turn * centre_hz * interval_s);
-        drive = std::sqrt((1.0 - a) * (1.0 + a));
-      }
-      // Written out, since complex multiplication checks for NaN.
-      const double real = rotation.real() * state.real() - rotation.imag() * state.imag();
-      const double imag = rotation.real() * state.imag() + rotation.imag() * state.real();
-      state = {real + drive * in_phase.next(), imag + drive * quadrature.next()};
-      series.gyro_dps[i] += std_dps * state.real();
-    }
+    NarrowBand line(centre_hz, bandwidth_hz, noise.stream("vibration/in_phase"),
+                    noise.stream("vibration/quadrature"));
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i)
+      series.gyro_dps[i] += std_dps * line(series.t_s, i);
   }
 };
 

@@ -78,12 +78,14 @@ namespace {
 
 using testing::Contains;
 
-/// Warm, turning and tilting, with a compass.
+/// Warm, turning about all axes and tilting, with a compass.
 Series rich_recording() {
   Scenario s;
   s.sampling = {.duration_s = 1200.0, .rate_hz = 10.0};
   s.temperature = temperature::Cycle{.low_C = 20.0, .high_C = 60.0, .period_s = 400.0};
   s.motion = motion::Sinusoidal{80.0, 0.031};
+  s.cross_motion_1 = motion::Sinusoidal{30.0, 0.07};
+  s.cross_motion_2 = motion::Sinusoidal{20.0, 0.023};
   s.acceleration = acceleration::Tilting{};
   Series series;
   synthesise(s, {3, 0}, series);
@@ -125,7 +127,8 @@ TEST(CatalogueContract, WhatARecordingLacksIsSaidWhereItIsLacking) {
       const auto& all = cause.effect().type().needs;
       return std::find(all.begin(), all.end(), channel) != all.end();
     };
-    if (needs(&Series::heading_deg) || needs(&Series::acc_x_mps2)) {
+    if (needs(&Series::heading_deg) || needs(&Series::acc_x_mps2) ||
+        needs(&Series::cross_rate_1_dps)) {
       EXPECT_NE(cause.why_not_assessable(poor), "") << cause.id;
     }
   }

@@ -42,6 +42,9 @@ Series with(const std::vector<Effect>& effects, const Noise& noise = {1, 0}) {
   scenario.thermal_drift = {.a_dps_per_C = 0.002, .b_dps_s_per_C = 0.3, .c_dps = -0.05};
   scenario.temperature = temperature::Cycle{.low_C = 20.0, .high_C = 60.0, .period_s = 200.0};
   scenario.motion = motion::Sinusoidal{};
+  scenario.cross_motion_1 = motion::Sinusoidal{.amplitude_dps = 20.0, .frequency_hz = 0.07};
+  scenario.cross_motion_2 = motion::Sinusoidal{.amplitude_dps = 20.0, .frequency_hz = 0.03};
+  scenario.acceleration = acceleration::Shaking{};
   scenario.compass.disturbances = {{.start_s = 100.0, .duration_s = 50.0}};
   scenario.effects = effects;
   Series series;
@@ -84,6 +87,8 @@ Series rich_conditions() {
     conditions.acc_x_mps2.push_back(x);
     conditions.acc_y_mps2.push_back(y);
     conditions.acc_z_mps2.push_back(z);
+    conditions.cross_rate_1_dps.push_back(rates[i / 150 % rates.size()]);
+    conditions.cross_rate_2_dps.push_back(rates[i / 250 % rates.size()]);
   }
   conditions.heading_deg.resize(conditions.size());
   conditions.mag_valid.resize(conditions.size(), 1.0);

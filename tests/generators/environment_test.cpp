@@ -121,6 +121,15 @@ TEST(Level, IsGravityOnTheZAxis) {
   EXPECT_EQ(acceleration::Level{}(12.0), (std::array{0.0, 0.0, 9.80665}));
 }
 
+TEST(Shaking, ShakesTheFirstPartOfEachCycleAlongZ) {
+  const acceleration::Shaking table{
+      .amplitude_mps2 = 2.0, .frequency_hz = 0.25, .period_s = 40.0, .shaken = 0.25};
+  for (const double t : {1.0, 5.0, 41.0}) EXPECT_NEAR(table(t)[2], 11.80665, 1e-12) << t;
+  for (const double t : {13.0, 37.0}) EXPECT_EQ(table(t)[2], 9.80665) << t;
+  EXPECT_EQ(table(1.0)[0], 0.0);
+  EXPECT_EQ(table(1.0)[1], 0.0);
+}
+
 TEST(Tilting, TurnsGravityAndKeepsItsSize) {
   const acceleration::Tilting tilting{.roll_amplitude_deg = 90.0,
                                       .roll_period_s = 40.0,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -96,6 +97,96 @@ TEST(GSensitivity, AddsEachAxisByItsCoefficient) {
   effects::GSensitivity{.x_dps_per_mps2 = 1.0, .y_dps_per_mps2 = 10.0, .z_dps_per_mps2 = 100.0}
       .apply(series, {1, 0});
   EXPECT_EQ(series.gyro_dps, (std::vector<double>{921.0, -900.0}));
+}
+
+TEST(TimeOffset, OfWholeSamplesShiftsTheRateAndHoldsItsEnds) {
+  const std::vector<double> rates = {1.0, 5.0, -2.0, 7.0, 7.5, 3.0};
+  const auto late = sensed(effects::TimeOffset{.offset_s = 0.02}, rates);
+  const auto early = sensed(effects::TimeOffset{.offset_s = -0.02}, rates);
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    EXPECT_NEAR(late[i], rates[i < 2 ? 0 : i - 2], 1e-11) << i;
+    EXPECT_NEAR(early[i], rates[std::min<std::size_t>(i + 2, 5)], 1e-11) << i;
+  }
+}
+
+TEST(TimeOffset, OfAParabolaIsExactBetweenSamples) {
+  std::vector<double> parabola;
+  for (int i = 0; i < 100; ++i) parabola.push_back(0.01 * i * i);
+  for (const double samples : {0.5, -0.3, 4.25}) {
+    const auto z = sensed(effects::TimeOffset{.offset_s = 0.01 * samples}, parabola);
+    for (int i = 10; i < 90; ++i) EXPECT_NEAR(z[i], 0.01 * std::pow(i - samples, 2), 1e-10) << i;
+  }
+}
+
+TEST(TimeOffset, OfASineOfAnEighthOfTheSamplingRateIsWithinAPerCent) {
+  std::vector<double> sine;
+  const double turn = 2.0 * std::numbers::pi / 8.0;
+  for (int i = 0; i < 200; ++i) sine.push_back(std::sin(turn * i));
+  for (const double samples : {0.1, 0.25, 0.5, 0.8, -0.5, 7.4}) {
+    const auto z = sensed(effects::TimeOffset{.offset_s = 0.01 * samples}, sine);
+    for (int i = 20; i < 180; ++i)
+      EXPECT_NEAR(z[i], std::sin(turn * (i - samples)), 0.01) << samples << " samples at " << i;
+  }
+}
+
+TEST(TimeOffset, OverUnevenIntervalsFollowsAnEvenGrowth) {
+  auto series = silent({0.0, 0.1, 0.15, 0.9, 1.0, 1.5});
+  series.rate_ref_dps = series.gyro_dps = series.t_s;
+  effects::TimeOffset{.offset_s = 0.07}.apply(series, {1, 0});
+  EXPECT_EQ(series.gyro_dps[0], 0.0);
+  for (std::size_t i = 1; i < 6; ++i) EXPECT_NEAR(series.gyro_dps[i], series.t_s[i] - 0.07, 1e-12);
+}
+
+TEST(Misalignment, AddsItsShareOfEachOtherAxis) {
+  auto series = silent(even_times(2, 100.0));
+  series.cross_rate_1_dps = {100.0, 0.0};
+  series.cross_rate_2_dps = {10.0, -10.0};
+  effects::Misalignment{.share_1 = 0.02, .share_2 = -0.1}.apply(series, {1, 0});
+  EXPECT_DOUBLE_EQ(series.gyro_dps[0], 1.0);
+  EXPECT_DOUBLE_EQ(series.gyro_dps[1], 1.0);
+}
+
+TEST(ScaleTemperature, AddsItsShareOfTheRateForEachDegree) {
+  auto series = silent(even_times(3, 100.0));
+  series.rate_ref_dps = {100.0, 100.0, -50.0};
+  series.temperature_C = {25.0, 35.0, 5.0};
+  effects::ScaleTemperature{.scale_per_C = 1e-3, .reference_C = 25.0}.apply(series, {1, 0});
+  EXPECT_EQ(series.gyro_dps[0], 0.0);
+  EXPECT_DOUBLE_EQ(series.gyro_dps[1], 1.0);
+  EXPECT_DOUBLE_EQ(series.gyro_dps[2], 1.0);
+}
+
+/// What vibration of this specific force along z adds, 0.1 s apart, with a time constant of 2 s.
+std::vector<double> rectified(const std::vector<double>& acc_z_mps2) {
+  auto series = silent(even_times(acc_z_mps2.size(), 10.0));
+  series.acc_x_mps2.assign(series.size(), 3.0);
+  series.acc_y_mps2.assign(series.size(), 0.0);
+  series.acc_z_mps2 = acc_z_mps2;
+  effects::VibrationRectification{.coefficient_dps_per_m2ps4 = 0.5, .time_constant_s = 2.0}.apply(
+      series, {1, 0});
+  return series.gyro_dps;
+}
+
+TEST(VibrationRectification, AtRestIsNothing) {
+  for (const double bias : rectified(std::vector<double>(100, 9.8))) EXPECT_EQ(bias, 0.0);
+}
+
+/// With k = exp(-0.05) from sample to sample the mean of +-A is +-A (1 - k) / (1 + k).
+TEST(VibrationRectification, OfAnEvenShakeIsInProportionToItsMeanSquare) {
+  std::vector<double> shake;
+  for (int i = 0; i < 1000; ++i) shake.push_back(9.8 + (i % 2 == 0 ? 3.0 : -3.0));
+  const double k = std::exp(-0.05);
+  EXPECT_NEAR(rectified(shake).back(), 0.5 * std::pow(3.0 * 2.0 * k / (1.0 + k), 2), 1e-9);
+}
+
+/// After a step A the deviation is A k^i, and its mean square A^2 k^(i + 1) (1 - k^i).
+TEST(VibrationRectification, OfAStepIsForgotten) {
+  std::vector<double> step(400, 11.8);
+  step[0] = 9.8;
+  const auto bias = rectified(step);
+  const double k = std::exp(-0.05);
+  for (int i = 0; i < 400; ++i)
+    EXPECT_NEAR(bias[i], 0.5 * 4.0 * std::pow(k, i + 1) * (1.0 - std::pow(k, i)), 1e-12) << i;
 }
 
 /// What the effect adds to the drift at these temperatures, 1 s apart.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -145,6 +146,135 @@ TEST(NoiseBandwidth, DoesNotFilterSlowErrorsOrOutliers) {
              both = gyro({vibration, outliers, filter});
   for (std::size_t i = 0; i < none.size(); ++i)
     EXPECT_NEAR(both[i] - filtered[i], other[i] - none[i], 1e-12);
+}
+
+const std::vector<effects::NoiseAveraging> averages = {{.length = 1.2},
+                                                       {.length = 1.43},
+                                                       {.length = 3.0},
+                                                       {.length = 4.7},
+                                                       {.length = 0.9, .stages = 2},
+                                                       {.length = 2.5, .stages = 2}};
+
+/// Autocovariance at every thousandth lag of white noise of unit density at rest, averaged once or
+/// twice over `length` thousand samples.
+std::vector<double> of_fine_noise(double length, int stages) {
+  constexpr std::size_t fine = 1000;
+  const auto box = static_cast<std::size_t>(std::lround(length * fine));
+  std::vector<double> window(box, 1.0);
+  if (stages == 2)
+    for (std::size_t i = 1; i < 2 * box; ++i) {
+      window.resize(2 * box - 1);
+      window[i - 1] = static_cast<double>(std::min(i, 2 * box - i));
+    }
+  std::vector<double> covariance;
+  double density = 0.0;
+  for (std::size_t lag = 0; lag < window.size(); lag += fine) {
+    double sum = 0.0;
+    for (std::size_t i = lag; i < window.size(); ++i) sum += window[i] * window[i - lag];
+    covariance.push_back(sum);
+    density += lag == 0 ? sum : 2.0 * sum;
+  }
+  for (double& value : covariance) value /= density;
+  return covariance;
+}
+
+TEST(NoiseAveraging, ItsAutocovarianceIsThatOfFasterNoiseAveraged) {
+  for (const auto& average : averages) {
+    const auto stated = average.autocovariance();
+    const auto fine = of_fine_noise(average.length, static_cast<int>(average.stages));
+    ASSERT_EQ(stated.size(), fine.size()) << average.length;
+    for (std::size_t lag = 0; lag < fine.size(); ++lag)
+      EXPECT_NEAR(stated[lag], fine[lag], 1e-6) << average.length << ", lag " << lag;
+  }
+}
+
+/// What it makes of an impulse of white noise at each sample is a root of the covariance.
+TEST(NoiseAveraging, HasItsAutocovarianceFromTheFirstSampleAndExactZerosBeyond) {
+  constexpr std::size_t n = 60;
+  for (const auto& average : averages) {
+    std::vector<std::vector<double>> responses;
+    for (std::size_t at = 0; at < n; ++at) {
+      auto series = silent(even_times(n, 100.0));
+      series.gyro_dps[at] = 1.0;
+      average.apply(series, {1, 0});
+      responses.push_back(series.gyro_dps);
+    }
+    auto expected = average.autocovariance();
+    expected.resize(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j <= i; ++j) {
+        double covariance = 0.0;
+        for (const auto& response : responses) covariance += response[i] * response[j];
+        EXPECT_NEAR(covariance, expected[i - j], 1e-12) << average.length << ": " << i << ", " << j;
+      }
+  }
+}
+
+TEST(NoiseAveraging, OfWhiteNoiseHasItsAutocovariance) {
+  constexpr std::size_t n = 200000;
+  for (const auto& average : averages) {
+    auto series = noisy(n, 100.0);
+    average.apply(series, {1, 0});
+    const auto averaged = white_part(series);
+    const auto stated = average.autocovariance();
+    const auto c = [&](int lag) {
+      const auto at = static_cast<std::size_t>(std::abs(lag));
+      return at < stated.size() ? 0.04 * stated[at] : 0.0;
+    };
+    for (const int lag : {0, 1, 2, 3, 8}) {
+      double variance = 0.0;
+      for (int k = -20; k <= 20; ++k) variance += (c(k) * c(k) + c(k + lag) * c(k - lag)) / n;
+      EXPECT_NEAR(autocovariance(averaged, lag), c(lag), 5.0 * std::sqrt(variance))
+          << average.length << ", lag " << lag;
+    }
+  }
+}
+
+TEST(NoiseAveraging, OverASampleOrLessLeavesTheNoiseWhite) {
+  const auto before = noisy(1000, 100.0);
+  for (const auto& average :
+       {effects::NoiseAveraging{.length = 1.0}, {.length = 0.5, .stages = 2}, {.length = 0.1}}) {
+    auto after = before;
+    average.apply(after, {1, 0});
+    EXPECT_EQ(after.gyro_dps, before.gyro_dps);
+  }
+}
+
+TEST(NoiseAveraging, LeavesRateDriftAndRandomErrorAlone) {
+  auto series = noisy(1000, 100.0);
+  for (std::size_t i = 0; i < series.size(); ++i)
+    series.gyro_dps[i] =
+        series.rate_ref_dps[i] + series.thermal_bias_dps[i] + series.random_error_dps[i];
+  const auto before = series.gyro_dps;
+  effects::NoiseAveraging{.length = 2.5, .stages = 2}.apply(series, {1, 0});
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(series.gyro_dps[i], before[i], 1e-12);
+}
+
+TEST(AngleQuantization, NeverTakesTheAngleFartherThanAStep) {
+  const std::vector<double> t_s = {0.0, 0.3, 5.0, 5.1, 9.0, 40.0};
+  for (std::uint32_t trial = 0; trial < 200; ++trial) {
+    const auto rate = added(effects::AngleQuantization{.coefficient_deg = 0.1}, t_s, trial);
+    double angle_deg = 0.0;
+    for (std::size_t i = 1; i < t_s.size(); ++i) {
+      angle_deg += rate[i] * (t_s[i] - t_s[i - 1]);
+      EXPECT_LE(std::abs(angle_deg), std::sqrt(12.0) * 0.1 + 1e-12);
+    }
+  }
+}
+
+// Of white e with E e^4 = 9/5 Q^4 the mean of d_i d_{i + lag}, d_i = e_i - e_{i-1}, is a sum of
+// means of e^2 and of products at other lags, which are uncorrelated: n times its variance is 7.2,
+// 5.8 and 6 Q^4 at lags 0, 1 and above.
+TEST(AngleQuantization, IsCorrelatedWithItsNeighboursAlone) {
+  constexpr std::size_t n = 200000;
+  const auto rate =
+      added(effects::AngleQuantization{.coefficient_deg = 0.003}, even_times(n, 100.0));
+  constexpr double unit = 0.3 * 0.3;
+  constexpr std::array expected = {2.0, -1.0, 0.0, 0.0};
+  constexpr std::array variance = {7.2, 5.8, 6.0, 6.0};
+  for (std::size_t lag = 0; lag < expected.size(); ++lag)
+    EXPECT_NEAR(autocovariance(rate, lag) / unit, expected[lag], 5.0 * std::sqrt(variance[lag] / n))
+        << "lag " << lag;
 }
 
 TEST(NoiseTemperature, MultipliesTheWhiteNoiseAndNothingElse) {

@@ -157,6 +157,20 @@ TEST(Synthesise, HasNoAccelerometerUnlessAsked) {
   EXPECT_EQ(bits_of(series.gyro_dps), bits_of(synthesised(scenario).gyro_dps));
 }
 
+TEST(Synthesise, TellsNoRateAboutAnotherAxisUnlessAsked) {
+  auto scenario = busy();
+  const auto without = synthesised(scenario);
+  EXPECT_TRUE(without.cross_rate_1_dps.empty());
+  scenario.cross_motion_2 = motion::Sinusoidal{.amplitude_dps = 30.0, .frequency_hz = 0.2};
+  const auto with = synthesised(scenario);
+  EXPECT_TRUE(with.cross_rate_1_dps.empty());
+  ASSERT_EQ(with.cross_rate_2_dps.size(), with.size());
+  const motion::Sinusoidal asked{.amplitude_dps = 30.0, .frequency_hz = 0.2};
+  EXPECT_EQ(with.cross_rate_2_dps[77], asked(with.t_s[77]));
+  EXPECT_EQ(bits_of(with.gyro_dps), bits_of(without.gyro_dps));
+  EXPECT_EQ(bits_of(with.heading_deg), bits_of(without.heading_deg));
+}
+
 Series synthesised_under(const Scenario& scenario, const Series& conditions,
                          const Noise& noise = {1, 0}) {
   Series series;
@@ -168,6 +182,7 @@ TEST(SynthesiseUnder, ItsOwnConditionsIsTheSameSignal) {
   auto scenario = busy();
   scenario.compass.disturbances.clear();
   scenario.acceleration = acceleration::Tilting{};
+  scenario.cross_motion_1 = scenario.cross_motion_2 = motion::Sinusoidal{};
   const auto series = synthesised(scenario);
   EXPECT_TRUE(same_bits(synthesised_under(scenario, series), series));
 }

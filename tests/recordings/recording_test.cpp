@@ -126,6 +126,35 @@ TEST(Recording, TheAxisChoosesTheGyro) {
   }
 }
 
+TEST(Recording, TheOtherGyrosAreTheRatesAboutTheOtherAxes) {
+  const Folder folder;
+  const auto path =
+      folder.file("a.csv", "gyro_z_dps,t_s,gyro_x_dps,gyro_y_dps\n3,0,1,2\n30,1,10,20\n");
+  const auto expect = [&](const char* axis, double own, double first, double second) {
+    const auto series = read_recording(path, axis).series;
+    EXPECT_THAT(series.gyro_dps, ElementsAre(own, 10 * own)) << axis;
+    EXPECT_THAT(series.cross_rate_1_dps, ElementsAre(first, 10 * first)) << axis;
+    EXPECT_THAT(series.cross_rate_2_dps, ElementsAre(second, 10 * second)) << axis;
+  };
+  expect("x", 1, 2, 3);
+  expect("y", 2, 3, 1);
+  expect("z", 3, 1, 2);
+  const auto two =
+      read_recording(folder.file("b.csv", "t_s,gyro_x_dps,gyro_z_dps\n0,1,3\n"), "z").series;
+  EXPECT_THAT(two.cross_rate_1_dps, ElementsAre(1));
+  EXPECT_THAT(two.cross_rate_2_dps, IsEmpty());
+}
+
+TEST(Recording, RatesAboutTheOtherAxesOfTheirOwnComeFirst) {
+  const Folder folder;
+  const auto series =
+      read_recording(folder.file("a.csv", "t_s,gyro_x_dps,gyro_y_dps,cross_rate_1_dps\n0,1,2,7\n"),
+                     "x")
+          .series;
+  EXPECT_THAT(series.cross_rate_1_dps, ElementsAre(7));
+  EXPECT_THAT(series.cross_rate_2_dps, IsEmpty());
+}
+
 TEST(Recording, TheOnlyAxisNeedsNoChoice) {
   const Folder folder;
   const auto recording = read_recording(folder.file("a.csv", "t_s,gyro_y_dps\n0,1\n"));

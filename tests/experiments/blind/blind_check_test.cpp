@@ -64,6 +64,26 @@ TEST(BlindCheck, KeepsToTheFolderOfItsOwnRecordings) {
   EXPECT_THROW(make_recordings(check, out), InputError);
 }
 
+// Whoever adds an effect adds it to the check, under conditions that show it.
+TEST(BlindCheck, DrawsEveryEffectWhereItCanBeSeen) {
+  const auto check =
+      read_blind_check(std::string(GYROSTAT_SOURCE_DIR) + "/experiments/studies/blind_check.json");
+  std::map<std::string, std::vector<std::string>> strengths;
+  for (auto c : check.cases) {
+    if (c.effects.size() != 1) continue;
+    strengths[c.effects.front()].push_back(c.strength);
+    Series with, without;
+    synthesise(c.scenario, {1, 0}, with);
+    c.scenario.effects.clear();
+    synthesise(c.scenario, {1, 0}, without);
+    EXPECT_TRUE(with.gyro_dps != without.gyro_dps || with.heading_deg != without.heading_deg)
+        << c.effects.front();
+  }
+  for (const auto& id : effect_types().ids())
+    EXPECT_THAT(strengths[id], testing::ElementsAre("strong", "medium")) << id;
+  EXPECT_EQ(strengths.size(), effect_types().ids().size());
+}
+
 class Scored : public testing::Test {
  protected:
   void diagnosed(BlindLabel label, const std::string& verdict,

@@ -77,6 +77,10 @@ TEST(Study, EveryPluginCanBeChosenByItsName) {
     const auto study =
         study_of(R"({"cells": [{"scenario": {"motion": {"profile": ")" + id + R"("}}}]})");
     EXPECT_EQ(study.cells[0].scenario.motion.id(), id);
+    const auto other =
+        study_of(R"({"cells": [{"scenario": {"cross_motion_2": {"profile": ")" + id + R"("}}}]})");
+    EXPECT_EQ(other.cells[0].scenario.cross_motion_2.value().id(), id);
+    EXPECT_FALSE(other.cells[0].scenario.cross_motion_1);
   }
   for (const auto& id : acceleration_types().ids()) {
     const auto study =

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <algorithm>
+
+#include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
+#include <gyrostat/diagnosis/starts/remedies.hpp>
+#include <gyrostat/diagnosis/starts/rest.hpp>
+#include <gyrostat/generators/effects/scale_temperature.hpp>
+
+namespace gyrostat::gap {
+
+/// A share of the rate that changes with temperature, about the middle of its range: with another
+/// middle the scale factor would be another.
+template <>
+struct Diagnosed<effects::ScaleTemperature> {
+  static constexpr auto signature = Signature::repeated;
+  static constexpr std::array free_parameters = {&effects::ScaleTemperature::scale_per_C};
+
+  static std::vector<Start> starts(const Evidence& e) {
+    const auto& T = e.conditions().slow_temperature_C();
+    const double middle = 0.5 * (std::ranges::min(T) + std::ranges::max(T));
+    return cleaned(e, scaled(e, Trace::rate, effects::ScaleTemperature{1.0, middle},
+                             [](auto& p, double a) { p.scale_per_C = a; }));
+  }
+
+  static std::string why_not_assessable(const Conditions& c) {
+    if (auto why = needs::told_motion(c); !why.empty()) return why;
+    const auto why = needs::warming(c);
+    return why.empty() ? why : why + ": turn the sensor while it warms";
+  }
+
+  static bool is_what_it_is_called(const effects::ScaleTemperature& /*effect*/,
+                                   const Conditions& /*c*/) {
+    return true;
+  }
+};
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
+#include <gyrostat/diagnosis/starts/needs.hpp>
+#include <gyrostat/diagnosis/starts/rest.hpp>
+#include <gyrostat/generators/effects/start_up.hpp>
+
+namespace gyrostat::gap {
+
+/// An exponential from the first sample on.
+template <>
+struct Diagnosed<effects::StartUp> {
+  static constexpr auto signature = Signature::slow;
+  static constexpr std::array free_parameters = {&effects::StartUp::amplitude_dps,
+                                                 &effects::StartUp::settling_time_s};
+
+  static std::vector<Start> starts(const Evidence& e) {
+    const auto& c = e.conditions();
+    return cleaned(
+        e, scaled_over(e, Trace::slow_rate, effects::StartUp{}, &effects::StartUp::settling_time_s,
+                       2.0 * c.slow_interval_s(), 0.25 * duration_s(c),
+                       [](auto& p, double a) { p.amplitude_dps = a; }));
+  }
+
+  static std::string why_not_assessable(const Conditions& c) {
+    const auto why = needs::time(c);
+    return why.empty() ? why : why + ", from switching on until well after it has settled";
+  }
+
+  /// It has settled: else it were a ramp.
+  static bool is_what_it_is_called(const effects::StartUp& effect, const Conditions& c) {
+    return effect.settling_time_s < 0.5 * duration_s(c);
+  }
+
+ private:
+  static double duration_s(const Conditions& c) {
+    return c.slow_interval_s() * static_cast<double>(c.slow_size());
+  }
+};
+
+}  // namespace gyrostat::gap

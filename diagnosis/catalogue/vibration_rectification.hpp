@@ -1,0 +1,45 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
+#include <gyrostat/diagnosis/starts/needs.hpp>
+#include <gyrostat/diagnosis/starts/rest.hpp>
+#include <gyrostat/generators/effects/vibration_rectification.hpp>
+
+namespace gyrostat::gap {
+
+/// The slow rate follows the mean square of the vibration.
+template <>
+struct Diagnosed<effects::VibrationRectification> {
+  static constexpr auto signature = Signature::slow;
+  static constexpr std::array free_parameters = {
+      &effects::VibrationRectification::coefficient_dps_per_m2ps4};
+
+  static std::vector<Start> starts(const Evidence& e) {
+    return cleaned(e, scaled(e, Trace::slow_rate, effects::VibrationRectification{},
+                             [](auto& p, double a) { p.coefficient_dps_per_m2ps4 = a; }));
+  }
+
+  static std::string why_not_assessable(const Conditions& c) {
+    constexpr double least_change_m2ps4 = 0.01;
+    const auto squares = effects::VibrationRectification{}.mean_square(c.series());
+    if (squares.empty())
+      return "there are no acc_x_mps2, acc_y_mps2 and acc_z_mps2 columns; add the accelerometer's "
+             "that shares the sensor's housing";
+    const double span = extent(c.slow_means(squares));
+    if (span >= least_change_m2ps4) return {};
+    return fmt::format(
+        "the mean square of the vibration changes by {:.2g} (m/s²)²; at least {:g} (m/s²)² are "
+        "needed: let it be shaken, and let it rest",
+        span, least_change_m2ps4);
+  }
+
+  static bool is_what_it_is_called(const effects::VibrationRectification& /*effect*/,
+                                   const Conditions& /*c*/) {
+    return true;
+  }
+};
+
+}  // namespace gyrostat::gap

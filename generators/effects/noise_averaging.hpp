@@ -1,0 +1,90 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/sampled.hpp>
+#include <gyrostat/generators/stage.hpp>
+
+namespace gyrostat::effects {
+
+/// The sensor averages faster white noise over `length` samples, once or twice in a row (a moving
+/// average, and a Bartlett window), as many do before they are read out. Seen at the samples, the
+/// autocovariance at lag k is in proportion to b(k / length): of one average the hat
+/// b(x) = 1 - x up to 1, of two the cubic B-spline b(x) = 1 - 3 x^2 / 2 + 3 x^3 / 4 up to 1 and
+/// (2 - x)^3 / 4 up to 2 (Schoenberg, Quarterly of Applied Mathematics 4, 1946); beyond
+/// stages x length samples it is 0, and with stages x length <= 1 the noise stays white. The noise
+/// keeps its density at rest, as behind noise_bandwidth.
+///
+/// It is made of the white noise by the innovations algorithm (Brockwell & Davis, Time Series:
+/// Theory and Methods, 1991, 5.3.9), so that it is stationary from the first sample. Samples count,
+/// not the intervals between them.
+struct NoiseAveraging {
+  double length = 1.3;
+  double stages = 1.0;
+
+  static constexpr std::string_view title = "the white noise is a moving average";
+  static constexpr Stage stage = Stage::noise;
+  static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps,
+                                       &Series::thermal_bias_dps, &Series::random_error_dps};
+
+  static constexpr auto fields() {
+    using P = NoiseAveraging;
+    return std::array{
+        Field{"length", &P::length, "samples", Range{.from = 0, .to = 16},
+              "over how many sampling intervals it averages"},
+        Field{"stages", &P::stages, "1", Range{.from = 1, .to = 2, .whole = true},
+              "how many averages in a row"},
+    };
+  }
+
+  static constexpr NoiseAveraging absent() { return {.length = 0.0}; }
+
+  /// Of unit white noise, from lag 0 to the last at which it is not 0. Lag 0 and twice the others
+  /// add up to 1.
+  std::vector<double> autocovariance() const {
+    const bool twice = stages > 1.5;
+    std::vector<double> b = {1.0};
+    double density = 1.0;
+    for (double k = 1.0; k < (twice ? 2.0 : 1.0) * length; ++k) {
+      const double x = k / length;
+      b.push_back(!twice    ? 1.0 - x
+                  : x < 1.0 ? 1.0 - 0.75 * x * x * (2.0 - x)
+                            : 0.25 * std::pow(2.0 - x, 3));
+      density += 2.0 * b.back();
+    }
+    for (double& value : b) value /= density;
+    return b;
+  }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    const auto covariance = autocovariance();
+    const std::size_t taps = covariance.size();
+    // Row i of the Cholesky factor of the samples' covariance, element j at j modulo taps; the last
+    // rows are at i modulo taps, and so is the white noise.
+    std::vector<std::vector<double>> rows(taps, std::vector<double>(taps));
+    std::vector<double> white(taps);
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
+      auto& row = rows[i % taps];
+      white[i % taps] = series.gyro_dps[i] - series.rate_ref_dps[i] - series.thermal_bias_dps[i] -
+                        series.random_error_dps[i];
+      const std::size_t first = i < taps ? 0 : i - taps + 1;
+      double averaged = 0.0;
+      for (std::size_t j = first; j <= i; ++j) {
+        const auto& other = rows[j % taps];
+        double rest = covariance[i - j];
+        for (std::size_t k = first; k < j; ++k) rest -= row[k % taps] * other[k % taps];
+        row[j % taps] = j == i ? std::sqrt(std::max(rest, 0.0)) : rest / other[j % taps];
+        averaged += row[j % taps] * white[j % taps];
+      }
+      series.gyro_dps[i] += averaged - white[i % taps];
+    }
+  }
+};
+
+}  // namespace gyrostat::effects

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/sampled.hpp>
+#include <gyrostat/generators/stage.hpp>
+
+namespace gyrostat::effects {
+
+/// The scale factor depends on temperature (IEEE Std 952, scale factor sensitivity to
+/// temperature):
+/// + scale (T - reference) rate.
+struct ScaleTemperature {
+  double scale_per_C = 2e-4;
+  double reference_C = 25.0;
+
+  static constexpr std::string_view title = "the scale factor depends on temperature";
+  static constexpr Stage stage = Stage::electronics;
+  static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps,
+                                       &Series::temperature_C};
+
+  static constexpr auto fields() {
+    using P = ScaleTemperature;
+    return std::array{
+        Field{"scale_per_C", &P::scale_per_C, "1/°C", ranges::any,
+              "share of the rate that is added per degree"},
+        Field{"reference_C", &P::reference_C, "°C", ranges::any,
+              "temperature at which the scale factor is right"},
+    };
+  }
+
+  static constexpr ScaleTemperature absent() { return {.scale_per_C = 0.0}; }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i)
+      series.gyro_dps[i] +=
+          scale_per_C * (series.temperature_C[i] - reference_C) * series.rate_ref_dps[i];
+  }
+};
+
+}  // namespace gyrostat::effects

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/sampled.hpp>
+#include <gyrostat/generators/stage.hpp>
+
+namespace gyrostat::effects {
+
+/// Gyro and reference have clocks of their own: the gyro shows the rate that the reference had
+/// `offset` earlier, or later where it is negative. Between samples the rate is a cubic through
+/// both neighbours with the slopes of their neighbours (cubic convolution, Keys, IEEE Trans. ASSP
+/// 29, 1981), within 1 % of a sine of up to an eighth of the sampling rate at any delay; before the
+/// first and after the last sample it is theirs.
+struct TimeOffset {
+  double offset_s = 0.05;
+
+  static constexpr std::string_view title = "the clocks of gyro and reference differ";
+  static constexpr Stage stage = Stage::electronics;
+  static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps};
+
+  static constexpr auto fields() {
+    using P = TimeOffset;
+    return std::array{
+        Field{"offset_s", &P::offset_s, "s", ranges::any,
+              "how much later the gyro shows a rate than the reference"},
+    };
+  }
+
+  static constexpr TimeOffset absent() { return {.offset_s = 0.0}; }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    const std::size_t n = samples_with(series, needs);
+    if (offset_s == 0.0 || n == 0) return;
+    const auto& t_s = series.t_s;
+    const auto& rate = series.rate_ref_dps;
+    const auto slope = [&](std::size_t i) {
+      const std::size_t from = i == 0 ? 0 : i - 1, to = std::min(i + 1, n - 1);
+      return (rate[to] - rate[from]) / (t_s[to] - t_s[from]);
+    };
+    std::size_t at = 0;  // the last sample that is not after the time asked for
+    for (std::size_t i = 0; i < n; ++i) {
+      const double then_s = t_s[i] - offset_s;
+      while (at + 1 < n && t_s[at + 1] <= then_s) ++at;
+      double seen = rate[at];
+      if (then_s > t_s[at] && at + 1 < n) {
+        const double interval_s = t_s[at + 1] - t_s[at], x = (then_s - t_s[at]) / interval_s;
+        const double rise = rate[at + 1] - rate[at];
+        const double from = slope(at) * interval_s - rise, to = slope(at + 1) * interval_s - rise;
+        seen += x * rise + x * (1.0 - x) * ((1.0 - x) * from - x * to);
+      }
+      series.gyro_dps[i] += seen - rate[i];
+    }
+  }
+};
+
+}  // namespace gyrostat::effects

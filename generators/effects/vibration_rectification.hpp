@@ -1,0 +1,67 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/sampled.hpp>
+#include <gyrostat/generators/stage.hpp>
+
+namespace gyrostat::effects {
+
+/// Vibration shifts the bias (IEEE Std 528, acceleration-squared-sensitive drift
+/// rate): + coefficient times the mean square of what the
+/// specific force deviates by from its own mean, of all three axes together. Both means forget with
+/// the time constant; so gravity, and turning it slowly, count for nothing.
+struct VibrationRectification {
+  double coefficient_dps_per_m2ps4 = 0.01;
+  double time_constant_s = 2.0;
+
+  static constexpr std::string_view title = "the bias depends on the strength of vibration";
+  static constexpr Stage stage = Stage::electronics;
+  static constexpr std::array needs = {&Series::gyro_dps, &Series::acc_x_mps2, &Series::acc_y_mps2,
+                                       &Series::acc_z_mps2};
+
+  static constexpr auto fields() {
+    using P = VibrationRectification;
+    return std::array{
+        Field{"coefficient_dps_per_m2ps4", &P::coefficient_dps_per_m2ps4, "dps/(m/s²)²",
+              ranges::any, "bias per mean square of the vibration"},
+        Field{"time_constant_s", &P::time_constant_s, "s", ranges::positive,
+              "time over which it is averaged"},
+    };
+  }
+
+  static constexpr VibrationRectification absent() { return {.coefficient_dps_per_m2ps4 = 0.0}; }
+
+  /// Mean square of the vibration at each sample, (m/s²)²; 0 at the first.
+  std::vector<double> mean_square(const Series& series) const {
+    constexpr std::array axes = {&Series::acc_x_mps2, &Series::acc_y_mps2, &Series::acc_z_mps2};
+    std::vector<double> squares(samples_with(series, axes));
+    std::array<double, axes.size()> mean{};
+    Decay decay(time_constant_s);
+    double averaged = 0.0;
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      const double kept = decay(series.t_s, i);
+      double square = 0.0;
+      for (std::size_t k = 0; k < axes.size(); ++k) {
+        const double now = (series.*axes[k])[i];
+        mean[k] = now + kept * (mean[k] - now);
+        square += (now - mean[k]) * (now - mean[k]);
+      }
+      squares[i] = averaged = square + kept * (averaged - square);
+    }
+    return squares;
+  }
+
+  void apply(Series& series, const Noise& /*noise*/) const {
+    const auto squares = mean_square(series);
+    for (std::size_t i = 0, n = std::min(samples_with(series, needs), squares.size()); i < n; ++i)
+      series.gyro_dps[i] += coefficient_dps_per_m2ps4 * squares[i];
+  }
+};
+
+}  // namespace gyrostat::effects

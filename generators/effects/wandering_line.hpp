@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/sampled.hpp>
+#include <gyrostat/generators/stage.hpp>
+
+namespace gyrostat::effects {
+
+/// A sine of constant amplitude whose frequency wanders about its mean as a Gauss-Markov process
+/// (an oscillator with frequency noise), from a random phase. Its autocovariance at lag h is
+///   amplitude^2 / 2 cos(2 pi frequency h) exp(-(2 pi wander T)^2 (h / T - 1 + exp(-h / T)))
+/// with T the correlation time. Exact between samples, even or not: the phase turns by the integral
+/// of the process, which is normal given its values at both ends.
+struct WanderingLine {
+  double amplitude_dps = 0.02;
+  double frequency_hz = 20.0;
+  double wander_hz = 0.5;
+  double correlation_time_s = 1.0;
+
+  static constexpr std::string_view title = "a sine whose frequency wanders";
+  static constexpr Stage stage = Stage::electronics;
+  static constexpr std::array needs = {&Series::gyro_dps};
+
+  static constexpr auto fields() {
+    using P = WanderingLine;
+    return std::array{
+        Field{"amplitude_dps", &P::amplitude_dps, "dps", ranges::non_negative, "amplitude"},
+        Field{"frequency_hz", &P::frequency_hz, "Hz", ranges::non_negative, "mean frequency"},
+        Field{"wander_hz", &P::wander_hz, "Hz", ranges::non_negative,
+              "standard deviation of the frequency"},
+        Field{"correlation_time_s", &P::correlation_time_s, "s", ranges::positive,
+              "lag at which the frequency's autocorrelation is 1/e"},
+    };
+  }
+
+  static constexpr WanderingLine absent() { return {.amplitude_dps = 0.0}; }
+
+  void apply(Series& series, const Noise& noise) const {
+    constexpr double turn = 2.0 * std::numbers::pi;
+    Deviates at_sample(noise.stream("wandering_line/frequency"));
+    Deviates between(noise.stream("wandering_line/between"));
+    Decay decay(correlation_time_s);
+    double turns = noise.stream("wandering_line/phase").uniform(0), state = 0.0;
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
+      const double a = decay(series.t_s, i), before = state;
+      state = a * state + std::sqrt((1.0 - a) * (1.0 + a)) * at_sample.next();
+      if (i > 0) {
+        const double interval_s = series.t_s[i] - series.t_s[i - 1];
+        const double half = (1.0 - a) / (1.0 + a);  // tanh(interval / (2 T))
+        const double spread =
+            std::sqrt(std::max(0.0, 2.0 * interval_s / correlation_time_s - 4.0 * half));
+        const double integral_s =
+            correlation_time_s * (half * (before + state) + spread * between.next());
+        turns += frequency_hz * interval_s + wander_hz * integral_s;
+        turns -= std::floor(turns);
+      }
+      series.gyro_dps[i] += amplitude_dps * std::sin(turn * turns);
+    }
+  }
+};
+
+}  // namespace gyrostat::effects
