@@ -8,6 +8,7 @@ namespace gyrostat {
 
 void add_random_error(const Arima111<double>& model, const Noise& noise, std::span<double> x) {
   const double phi = model.phi, delta1 = model.delta1_dps, delta2 = model.delta2_dps;
+  if (delta1 == 0.0 && delta2 == 0.0) return;
   // What a_0 does not explain of the stationary first difference: all that came before it.
   const double unexplained = std::abs(phi * delta1 - delta2) / std::sqrt(1.0 - phi * phi);
   double level = 0.0, difference = 0.0, previous = 0.0;

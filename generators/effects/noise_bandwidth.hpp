@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
@@ -13,11 +14,14 @@
 
 namespace gyrostat::effects {
 
-/// An output filter of unit gain at rest colours the white noise: equal poles, each exact between
-/// samples (IEEE Std 1554, bandwidth). The noise keeps its density well below them.
+/// An output filter of unit gain at rest colours the white noise (IEEE Std 1554, bandwidth): equal
+/// poles, each exact between samples, or Butterworth's of the same order by the bilinear transform
+/// (Oppenheim and Schafer, "Discrete-Time Signal Processing", 3rd ed., 7.2). The noise keeps its
+/// density well below the cutoff.
 struct NoiseBandwidth {
   double cutoff_hz = 20.0;
   double poles = 1.0;
+  double maximally_flat = 0.0;
 
   static constexpr std::string_view title = "an output filter colours the white noise";
   static constexpr Stage stage = Stage::noise;
@@ -28,9 +32,11 @@ struct NoiseBandwidth {
     using P = NoiseBandwidth;
     return std::array{
         Field{"cutoff_hz", &P::cutoff_hz, "Hz", ranges::positive,
-              "frequency at which each pole has taken 3 dB"},
+              "frequency at which each pole, or all of Butterworth's, has taken 3 dB"},
         Field{"poles", &P::poles, "1", Range{.from = 1, .to = most_poles, .whole = true},
               "how many poles"},
+        Field{"maximally_flat", &P::maximally_flat, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: Butterworth's poles; 0: equal ones"},
     };
   }
 
@@ -38,23 +44,84 @@ struct NoiseBandwidth {
   static constexpr NoiseBandwidth absent() { return {.cutoff_hz = 1e9}; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
-    Decay decay(0.5 / (std::numbers::pi * cutoff_hz));
-    std::array<double, most_poles> filtered{};
+    const std::size_t samples = samples_with(series, needs);
+    if (samples < 2) return;
     const auto count =
         static_cast<std::size_t>(std::clamp(std::lround(poles), 1L, long{most_poles}));
-    const std::size_t samples = samples_with(series, needs);
-    for (std::size_t i = 0; i < samples; ++i) {
-      const double white = series.gyro_dps[i] - series.rate_ref_dps[i] -
-                           series.thermal_bias_dps[i] - series.random_error_dps[i];
-      const std::size_t to = std::max<std::size_t>(i, 1);
-      const double pole = samples > 1 ? decay.over(series.t_s[to] - series.t_s[to - 1]) : 0.0;
-      double passed = white;
-      for (std::size_t k = 0; k < count; ++k)
-        passed = filtered[k] = i == 0 ? passed * std::sqrt((1.0 - pole) / (1.0 + pole))
-                                      : pole * filtered[k] + (1.0 - pole) * passed;
-      series.gyro_dps[i] += passed - white;
+    const auto filter = [&](auto&& passed) {
+      for (std::size_t i = 0; i < samples; ++i) {
+        const double white = series.gyro_dps[i] - series.rate_ref_dps[i] -
+                             series.thermal_bias_dps[i] - series.random_error_dps[i];
+        series.gyro_dps[i] += passed(i, white) - white;
+      }
+    };
+    if (maximally_flat > 0.5) {
+      Butterworth butterworth(cutoff_hz * series.duration_s() / static_cast<double>(samples - 1),
+                              count);
+      filter([&](std::size_t /*i*/, double white) { return butterworth(white); });
+      return;
     }
+    Decay decay(0.5 / (std::numbers::pi * cutoff_hz));
+    std::array<double, most_poles> filtered{};
+    filter([&](std::size_t i, double white) {
+      const std::size_t to = std::max<std::size_t>(i, 1);
+      const double pole = decay.over(series.t_s[to] - series.t_s[to - 1]);
+      for (std::size_t k = 0; k < count; ++k)
+        white = filtered[k] = i == 0 ? white * std::sqrt((1.0 - pole) / (1.0 + pole))
+                                     : pole * filtered[k] + (1.0 - pole) * white;
+      return white;
+    });
   }
+
+  /// |H|² at an angle (radians a sample), where a sampling interval is `interval_s`.
+  double gain(double angle, double cosine, double interval_s) const {
+    if (maximally_flat > 0.5) {
+      if (cutoff_hz * interval_s >= 0.5) return 1.0;
+      const double ratio =
+          std::tan(0.5 * angle) / std::tan(std::numbers::pi * cutoff_hz * interval_s);
+      return 1.0 / (1.0 + std::pow(ratio, 2.0 * poles));
+    }
+    const double pole = std::exp(-2.0 * std::numbers::pi * cutoff_hz * interval_s);
+    return std::pow((1.0 - pole) * (1.0 - pole) / (1.0 - 2.0 * pole * cosine + pole * pole), poles);
+  }
+
+ private:
+  /// Sections of two poles, and one of a single pole where their number is odd.
+  class Butterworth {
+   public:
+    Butterworth(double cycles_a_sample, std::size_t poles) {
+      if (cycles_a_sample >= 0.5) return;
+      const double k = std::tan(std::numbers::pi * cycles_a_sample);
+      for (std::size_t j = 0; j < poles / 2; ++j) {
+        const double angle = std::numbers::pi * (2.0 * static_cast<double>(j) + 1.0) /
+                             (2.0 * static_cast<double>(poles));
+        const double damping = 2.0 * std::sin(angle) * k;
+        const double scale = 1.0 / (1.0 + damping + k * k);
+        sections_.push_back({{k * k * scale, 2.0 * k * k * scale, k * k * scale},
+                             {2.0 * (k * k - 1.0) * scale, (1.0 - damping + k * k) * scale}});
+      }
+      if (poles % 2 == 1)
+        sections_.push_back({{k / (1.0 + k), k / (1.0 + k), 0.0}, {(k - 1.0) / (1.0 + k), 0.0}});
+    }
+
+    double operator()(double value) {
+      for (auto& s : sections_) {  // direct form II transposed
+        const double out = s.b[0] * value + s.state[0];
+        s.state[0] = s.b[1] * value - s.a[0] * out + s.state[1];
+        s.state[1] = s.b[2] * value - s.a[1] * out;
+        value = out;
+      }
+      return value;
+    }
+
+   private:
+    struct Section {
+      std::array<double, 3> b;
+      std::array<double, 2> a;
+      std::array<double, 2> state{};
+    };
+    std::vector<Section> sections_;
+  };
 };
 
 }  // namespace gyrostat::effects
