@@ -10,8 +10,10 @@
 
 namespace gyrostat::gap {
 
+struct Beside;
 class Conditions;
 struct Evidence;
+struct NoiseLaw;
 struct Start;
 
 /// What an effect adds to a recording, seen over replicas of one scenario.
@@ -30,9 +32,17 @@ struct CauseType {
   /// The parameters that the recording decides; the others would move nothing that the baseline
   /// does not, or are found at the start and kept.
   std::vector<std::string_view> free_parameters;
+  /// How many of them, the first, are amplitudes of a slow signature.
+  std::size_t amplitudes;
   Effect (*effect)();  ///< with its default parameters
-  /// First parameters from the recording, one set or several; none where it shows nothing alike.
+  /// First parameters from what a set leaves of the recording, one or several; none where it shows
+  /// nothing alike, nullptr where `guesses` finds them.
   std::vector<Start> (*starts)(const Evidence& evidence);
+  /// First parameters beside what a set already has, for a fit by likelihood; nullptr where
+  /// `starts` on what the set leaves finds them.
+  std::vector<Effect> (*guesses)(const Beside& beside);
+  /// What the effect adds to the law of the noise; nullptr where it has none.
+  void (*enter)(const Effect& effect, NoiseLaw& law);
   /// Why the recording cannot show the effect, with how much more it would need; empty where it
   /// can.
   std::string (*why_not_assessable)(const Conditions& conditions);

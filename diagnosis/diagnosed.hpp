@@ -5,8 +5,8 @@
 #include <span>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/likelihood/beside.hpp>
 #include <gyrostat/diagnosis/start.hpp>
-#include <gyrostat/diagnosis/starts/slow_signature.hpp>
 
 namespace gyrostat::gap {
 
@@ -17,7 +17,9 @@ namespace gyrostat::gap {
 ///   struct Diagnosed<effects::Mine> {
 ///     static constexpr auto signature = Signature::none;
 ///     static constexpr std::array free_parameters = {&effects::Mine::std_dps};
-///     static std::vector<Start> starts(const Evidence& evidence);
+///     static std::vector<effects::Mine> guesses(const Beside& beside);    // where it has a law,
+///     or static void enter(const effects::Mine& effect, NoiseLaw& law);      // a slow signature
+///     static std::vector<Start> starts(const Evidence& evidence);         // where it has another
 ///     static std::string why_not_assessable(const Conditions& conditions);
 ///     static bool is_what_it_is_called(const effects::Mine& effect, const Conditions& conditions);
 ///   };
@@ -36,9 +38,22 @@ concept SaysItsFreeParameters = requires {
   { Diagnosed<E>::free_parameters } -> std::convertible_to<std::span<double E::*const>>;
 };
 template <class E>
-concept SaysHowItStarts = requires(const Evidence& evidence) {
+concept HasStarts = requires(const Evidence& evidence) {
   { Diagnosed<E>::starts(evidence) } -> std::same_as<std::vector<Start>>;
 };
+template <class E>
+concept HasGuesses = requires(const Beside& beside) {
+  { Diagnosed<E>::guesses(beside) } -> std::same_as<std::vector<E>>;
+};
+template <class E>
+concept HasLaw = requires(const E& effect, NoiseLaw& law) {
+  Diagnosed<E>::enter(effect, law);
+};
+/// Repeated signatures start from what a set leaves, slow ones beside it.
+template <class E>
+concept SaysHowItStarts = (Diagnosed<E>::signature == Signature::repeated && HasStarts<E>) ||
+                          (Diagnosed<E>::signature == Signature::slow && HasGuesses<E>) ||
+                          Diagnosed<E>::signature == Signature::none;
 template <class E>
 concept SaysWhatItNeeds = requires(const Conditions& conditions) {
   { Diagnosed<E>::why_not_assessable(conditions) } -> std::same_as<std::string>;
@@ -65,14 +80,43 @@ CauseType describe_cause() {
   return {.id = effect_types().of(typeid(E)).id,
           .signature = D::signature,
           .free_parameters = std::move(free),
+          .amplitudes =
+              [] {
+                if constexpr (requires { D::amplitudes; })
+                  return std::size_t{D::amplitudes};
+                else
+                  return std::size_t{D::signature == Signature::slow};
+              }(),
           .effect = [] { return Effect(E{}); },
           .starts =
-              [](const Evidence& evidence) {
-                if constexpr (D::signature == Signature::slow)
-                  return beside_its_own_walk(D::starts, evidence);
+              [] {
+                using Starts = std::vector<Start> (*)(const Evidence&);
+                if constexpr (HasStarts<E>)
+                  return Starts(D::starts);
                 else
-                  return D::starts(evidence);
-              },
+                  return Starts(nullptr);
+              }(),
+          .guesses =
+              [] {
+                using Guesses = std::vector<Effect> (*)(const Beside&);
+                if constexpr (HasGuesses<E>)
+                  return Guesses([](const Beside& beside) {
+                    std::vector<Effect> all;
+                    for (const E& guess : D::guesses(beside)) all.emplace_back(guess);
+                    return all;
+                  });
+                else
+                  return Guesses(nullptr);
+              }(),
+          .enter =
+              [] {
+                using Enter = void (*)(const Effect&, NoiseLaw&);
+                if constexpr (HasLaw<E>)
+                  return Enter(
+                      [](const Effect& effect, NoiseLaw& law) { D::enter(*effect.as<E>(), law); });
+                else
+                  return Enter(nullptr);
+              }(),
           .why_not_assessable = D::why_not_assessable,
           .is_what_it_is_called =
               [](const Effect& effect, const Conditions& conditions) {

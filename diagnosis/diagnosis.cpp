@@ -10,9 +10,9 @@
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
-#include <gyrostat/diagnosis/contest.hpp>
 #include <gyrostat/diagnosis/gap/ensemble.hpp>
 #include <gyrostat/diagnosis/gap/scoring.hpp>
+#include <gyrostat/diagnosis/likelihood/set_search.hpp>
 #include <gyrostat/diagnosis/model_fit.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
 
@@ -22,16 +22,17 @@ namespace {
 constexpr std::size_t fewest_samples = 1000;
 constexpr std::size_t transfer_replicas = 6;
 
-/// Of each log score among all of them and `none`, the score of there being nothing.
-std::vector<double> probabilities(const std::vector<double>& scores, double none) {
-  const double best = std::max(none, *std::max_element(scores.begin(), scores.end()));
-  double total = std::exp((none - best) / Scoring::temperature);
-  std::vector<double> shares;
-  for (const double s : scores) shares.push_back(std::exp((s - best) / Scoring::temperature));
-  for (const double share : shares) total += share;
-  for (double& share : shares) share /= total;
-  return shares;
-}
+/// Replicas that say what a set lacks without one of its effects.
+constexpr std::size_t lacking_replicas = 16;
+
+/// A simulator with some of the set's effects.
+struct Rung {
+  std::string effect;  ///< the last of them
+  Scenario scenario;
+  ReplicaReadings replicas;
+};
+
+double probability_of(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
 
 using Clock = std::chrono::steady_clock;
 
@@ -41,7 +42,7 @@ class Work {
       : options_(options),
         progress_(progress),
         simulator_(recording, options.seed),
-        evidence_{simulator_, recording, Scene(simulator_.conditions(), recording), {}, 0.0},
+        recording_(recording),
         observed_(simulator_.readings(recording)) {}
 
   Diagnosis run();
@@ -57,11 +58,15 @@ class Work {
   }
   void describe(const Series& recording);
   void localise();
+  /// With the drift that the recording has beside the effects.
+  Scenario with_drift(Scenario scenario, const Series& recording) const;
   std::vector<Where> departures_of(const Ensemble& ensemble) const;
   void attribute();
-  /// A cause whose score is counted from `from`.
-  void keep(const Contender& c, double log_score, double from, double probability);
   void judge_claim();
+  Rung rung(const std::string& effect, const Scenario& scenario, std::size_t replicas) const;
+  /// The scenario with those of the set's effects that have one of the names, its noise fitted.
+  Scenario with_effects(const std::vector<std::string>& names) const;
+  void climb(const std::vector<std::string>& order);
   /// What the recording still shows that the simulator, enriched, does not.
   void see_what_is_left();
   void measure_shrinkage();
@@ -71,13 +76,14 @@ class Work {
   const DiagnosisOptions& options_;
   const DiagnosisProgress& progress_;
   Simulator simulator_;
-  Evidence evidence_;
+  const Series& recording_;
   Readings observed_;
   std::unique_ptr<Ensemble> train_, held_out_;
   std::unique_ptr<Scoring> scoring_, held_out_scoring_;
   ReplicaReadings baseline_replicas_;
-  std::unique_ptr<Contest> contest_;
-  std::vector<LogScore> held_out_scores_;  ///< of result_.causes, in their order
+  FoundSet found_;
+  std::vector<LogScore> held_out_without_;  ///< of the set without each of result_.effects
+  std::vector<Rung> rungs_;                 ///< one effect more each
   Diagnosis result_;
   Clock::time_point since_ = Clock::now();
 };
@@ -111,16 +117,13 @@ std::vector<Where> Work::departures_of(const Ensemble& ensemble) const {
 }
 
 void Work::localise() {
-  tell("fitting the baseline", 0.02);
-  const auto fit = fit_baseline(simulator_, evidence_.scene, evidence_.recording);
-  evidence_.baseline = result_.baseline = result_.enriched = fit.scenario;
-  evidence_.white_std_dps = evidence_.scene.octaves[0].empty()
-                                ? fit.scenario.random_error.measurement_noise_std_dps
-                                : std::sqrt(0.5 * evidence_.scene.octaves[0][0].mean_square);
-  took("baseline fit");
-  tell("simulating the baseline", 0.05);
+  found_ = find_set(simulator_, recording_, {.without = options_.without},
+                    [this](const std::string& what, double share) { tell(what, 0.5 * share); });
+  took("search");
+  tell("simulating the baseline", 0.5);
+  const auto fit = linearised(simulator_, with_drift(found_.baseline, recording_));
+  result_.baseline = result_.enriched = fit.scenario;
   simulator_.remember(fit.scenario, 0, options_.baseline_replicas);
-  simulator_.remember_more(judging_replicas, fit_replicas);
   baseline_replicas_ = simulator_.ensemble(fit.scenario, 0, options_.baseline_replicas);
   train_ = std::make_unique<Ensemble>(simulator_.instrument(Part::train), baseline_replicas_[0],
                                       fit.train_jacobian);
@@ -128,141 +131,214 @@ void Work::localise() {
                                          baseline_replicas_[1], Eigen::MatrixXd());
   scoring_ = std::make_unique<Scoring>(*train_, observed_[0]);
   held_out_scoring_ = std::make_unique<Scoring>(*held_out_, observed_[1]);
-  contest_ = std::make_unique<Contest>(
-      evidence_, *scoring_, observed_[0], baseline_replicas_, options_,
-      [this](const std::string& what, double share) { tell(what, share); },
-      [this](const std::string& part) { took(part); });
-  result_.p_before = result_.p_after = train_->p_value(observed_[0]);
+  result_.p_after = train_->p_value(observed_[0]);
+  double most_odds = 0.0;
+  for (const auto& m : found_.members) most_odds = std::max(most_odds, m.log_odds);
+  result_.p_before = std::min({1.0, result_.p_after / thresholds::level_of_lenses,
+                               std::exp(-most_odds) / (1.0 - thresholds::level_of_lenses)});
   result_.where = departures_of(*train_);
   took("localisation");
 }
 
-void Work::keep(const Contender& c, double log_score, double from, double probability) {
-  result_.causes.push_back({.effect = c.effect,
-                            .scenario = c.scenario,
-                            .log_score = log_score,
-                            .recovered = recovered(c, from),
-                            .probability = probability});
-  held_out_scores_.push_back(held_out_scoring_->of(c.replicas[1]));
+Scenario Work::with_drift(Scenario scenario, const Series& recording) const {
+  const auto& conditions = simulator_.conditions();
+  Scenario quiet = scenario;
+  quiet.random_error = {
+      .phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.0};
+  quiet.thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = 0.0};
+  quiet.effects.clear();
+  Series bare, with, left = recording;
+  synthesise_rate_under(quiet, conditions.series(), {}, bare);
+  for (const auto& effect : scenario.effects) {
+    const auto* cause = cause_types().find(effect.id());
+    if (cause != nullptr && cause->is_deterministic() && effect.stage() != Stage::compass)
+      quiet.effects.push_back(effect);
+  }
+  synthesise_rate_under(quiet, conditions.series(), {}, with);
+  for (std::size_t i = 0; i < left.size(); ++i)
+    left.gyro_dps[i] -= with.gyro_dps[i] - bare.gyro_dps[i];
+  left.heading_deg.clear();
+  scenario.thermal_drift = fit_drift(conditions, Scene(conditions, left, train_alone));
+  return scenario;
+}
+
+Rung Work::rung(const std::string& effect, const Scenario& scenario, std::size_t replicas) const {
+  return {effect, scenario, simulator_.ensemble(scenario, 0, replicas)};
+}
+
+Scenario Work::with_effects(const std::vector<std::string>& names) const {
+  if (!options_.claim) return with_drift(found_.subset(names), recording_);
+  Scenario scenario = result_.enriched;
+  std::erase_if(scenario.effects, [&](const auto& effect) {
+    return std::find(names.begin(), names.end(), effect.id()) == names.end();
+  });
+  return scenario;
+}
+
+/// One effect of the set after another.
+void Work::climb(const std::vector<std::string>& order) {
+  std::vector<std::string> names;
+  for (const auto& name : order) {
+    names.push_back(name);
+    tell("adding " + name,
+         0.6 + 0.2 * static_cast<double>(names.size() - 1) / static_cast<double>(order.size()));
+    const bool is_whole = names.size() == order.size();
+    rungs_.push_back(
+        rung(name, is_whole ? result_.enriched : with_effects(names), options_.candidate_replicas));
+  }
 }
 
 void Work::attribute() {
-  const auto ranked = contest_->contend();
-  std::vector<double> scores;
-  for (const auto& c : ranked) scores.push_back(c.gain() - c.score.penalty(c.parameters));
   const bool significant = result_.p_before <= options_.significance;
-  const bool gained = !ranked.empty() &&
-                      scores.front() > (significant ? thresholds::gain_of_gap : thresholds::gain);
-  if (!gained) {
+  for (const auto& [effect, gain] : found_.screening) result_.screening.emplace_back(effect, gain);
+  if (found_.members.empty()) {
     if (!significant) return;
     result_.verdict = Verdict::unknown();
     result_.verdict_set = {Verdict::unknown()};
     return;
   }
-  const auto shares = probabilities(scores, -std::numeric_limits<double>::infinity());
-  for (std::size_t k = 0; k < ranked.size(); ++k)
-    keep(ranked[k], scores[k], ranked[k].baseline, shares[k]);
-  contest_->add(ranked.front());
-  const double by_chance =
-      static_cast<double>(cause_types().size()) * std::exp(-scores.front() / Scoring::temperature);
-  result_.p_before = std::min(result_.p_before, by_chance);
-
-  // More effects, while the log score gains what a true cause would. In a long recording, where
-  // trying takes time, only while something is seen to be left.
-  const bool is_long = result_.samples > thresholds::long_recording;
-  const int most = is_long ? std::min(options_.most_effects, thresholds::most_effects_of_long)
-                           : options_.most_effects;
-  while (static_cast<int>(contest_->added().size()) < most) {
-    const auto& last = contest_->added().back();
-    if (is_long && last.score.deficit() < thresholds::deficit_of_a_miss) break;
-    const auto next = contest_->contend();
-    if (next.empty()) break;
-    std::vector<double> gains;
-    for (const auto& c : next)
-      gains.push_back(c.gain() - c.score.penalty(c.parameters - last.parameters));
-    const double lack = last.score.expected - last.score.value;
-    if (gains.front() < std::max(thresholds::gain, thresholds::share_of_lack * lack)) break;
-    const auto likely = probabilities(gains, 0.0);
-    for (std::size_t k = 0; k < next.size(); ++k)
-      if (k == 0 || likely[k] >= thresholds::member_probability)
-        keep(next[k], gains[k], next[k].before, likely[k]);
-    contest_->add(next.front());
+  result_.enriched = with_drift(found_.scenario, recording_);
+  // What lacks most without it comes first.
+  std::vector<std::string> names;
+  for (const auto& m : found_.members) names.push_back(m.effect);
+  const auto whole = rung({}, result_.enriched, lacking_replicas);
+  const auto truth = scoring_->of(whole.replicas[0]);
+  for (const auto& m : found_.members) {
+    tell("weighing " + m.effect, 0.55);
+    auto others = names;
+    std::erase(others, m.effect);
+    const auto without = simulator_.ensemble(with_effects(others), 0, lacking_replicas);
+    result_.effects.push_back({.effect = m.effect,
+                               .inclusion = probability_of(m.log_odds),
+                               .log_odds = m.log_odds,
+                               .lack = truth.value - scoring_->of(without[0]).value,
+                               .gap_without = 0.0,
+                               .parameters = {}});
+    held_out_without_.push_back(held_out_scoring_->of(without[1]));
+    for (const auto& effect : result_.enriched.effects)
+      if (effect.id() == m.effect) result_.effects.back().parameters.push_back(effect);
   }
-  const auto& final = contest_->added().back();
-  result_.enriched = final.scenario;
-  const double share = recovered(final, final.baseline);
+  std::vector<std::size_t> order(names.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return result_.effects[a].lack > result_.effects[b].lack;
+  });
+  std::vector<Included> effects;
+  std::vector<LogScore> lacking;
+  std::vector<std::string> ordered;
+  for (const std::size_t k : order) {
+    effects.push_back(result_.effects[k]);
+    lacking.push_back(held_out_without_[k]);
+    ordered.push_back(names[k]);
+  }
+  result_.effects = std::move(effects);
+  held_out_without_ = std::move(lacking);
+  climb(ordered);
+
+  const auto before = scoring_->of(
+      baseline_replicas_[0].leftCols(static_cast<Eigen::Index>(options_.candidate_replicas)));
+  const auto after = scoring_->of(rungs_.back().replicas[0]);
+  result_.recovered = (after.value - before.value) / std::max(1e-9, after.expected - before.value);
   see_what_is_left();
-  const bool misses = final.score.deficit() > thresholds::deficit_of_a_miss ||
+  const bool misses = after.deficit() > thresholds::deficit_of_a_miss ||
                       result_.p_after < thresholds::strictness_after * options_.significance;
-  const bool unexplained = share < thresholds::recovery && misses;
+  const bool unexplained = result_.recovered < thresholds::recovery && misses;
   result_.verdict =
-      unexplained ? Verdict::unknown() : Verdict::cause(result_.causes.front().effect);
-  if (unexplained)
-    for (auto& cause : result_.causes) cause.probability *= std::clamp(share, 0.0, 1.0);
+      unexplained ? Verdict::unknown() : Verdict::cause(result_.effects.front().effect);
   auto& set = result_.verdict_set;
-  if (unexplained) set.push_back(Verdict::unknown());
-  for (const auto& cause : result_.causes)
-    if (const auto member = Verdict::cause(cause.effect);
-        cause.probability >= thresholds::member_probability &&
-        std::find(set.begin(), set.end(), member) == set.end())
-      set.push_back(member);
+  const auto add = [&](const Verdict& verdict) {
+    if (std::find(set.begin(), set.end(), verdict) == set.end()) set.push_back(verdict);
+  };
+  if (unexplained) add(Verdict::unknown());
+  for (const auto& effect : result_.effects) add(Verdict::cause(effect.effect));
+  for (const auto& rival : found_.rivals)
+    if (probability_of(rival.log_odds) >= thresholds::member_probability)
+      add(Verdict::cause(rival.effect));
+  for (const auto& effect : result_.effects)
+    result_.causes.push_back(
+        {.effect = effect.effect,
+         .scenario = with_effects({effect.effect}),
+         .log_score = effect.log_odds,
+         .recovered = result_.recovered,
+         .probability = unexplained ? effect.inclusion * std::clamp(result_.recovered, 0.0, 1.0)
+                                    : effect.inclusion});
+  for (const auto& rival : found_.rivals) {
+    Scenario scenario = result_.enriched;
+    scenario.effects = {rival.found};
+    result_.causes.push_back({.effect = rival.effect,
+                              .scenario = scenario,
+                              .log_score = rival.log_odds,
+                              .recovered = result_.recovered,
+                              .probability = probability_of(rival.log_odds)});
+  }
 }
 
 /// The claimed effects, one after another, beside the claimed random error.
 void Work::judge_claim() {
   Scenario scenario = result_.baseline;
   scenario.random_error = options_.claim->random_error;
-  for (const auto& effect : options_.claim->effects) {
-    const std::string name(effect.id());
-    tell("judging " + name, 0.6);
-    scenario.effects.push_back(effect);
-    contest_->add(contest_->judged(name, scenario, options_.candidate_replicas,
-                                   std::numeric_limits<double>::infinity()));
-    const auto& c = contest_->added().back();
-    keep(c, c.gain(), c.before, 1.0);
-    result_.verdict_set.push_back(Verdict::cause(name));
-  }
+  scenario.effects = options_.claim->effects;
   result_.enriched = scenario;
-  result_.verdict = Verdict::cause(contest_->added().front().effect);
+  std::vector<std::string> names;
+  for (const auto& effect : scenario.effects) {
+    names.emplace_back(effect.id());
+    result_.verdict_set.push_back(Verdict::cause(names.back()));
+    result_.causes.push_back({.effect = names.back(), .scenario = with_effects({names.back()})});
+    result_.causes.back().probability = 1.0;
+  }
+  climb(names);
+  result_.verdict = Verdict::cause(names.front());
   result_.claimed = true;
   see_what_is_left();
 }
 
 void Work::see_what_is_left() {
-  const Ensemble enriched(simulator_.instrument(Part::train), contest_->added().back().replicas[0],
-                          {});
+  const Ensemble enriched(simulator_.instrument(Part::train), rungs_.back().replicas[0], {});
   result_.p_after = enriched.p_value(observed_[0]);
   result_.where_after = departures_of(enriched);
 }
 
 void Work::measure_shrinkage() {
   const auto& instrument = simulator_.instrument(Part::held_out);
-  const auto& added = contest_->added();
-  const auto before = held_out_scoring_->of(baseline_replicas_[1]);
-  const auto truth = added.empty() ? before : held_out_scoring_->of(added.back().replicas[1]);
+  const auto held_out = [&](const ReplicaReadings& replicas) {
+    return held_out_scoring_->of(replicas[1].leftCols(
+        std::min(replicas[1].cols(), static_cast<Eigen::Index>(options_.candidate_replicas))));
+  };
+  const auto before = held_out(baseline_replicas_);
+  const auto truth = rungs_.empty() ? before : held_out(rungs_.back().replicas);
   result_.gap_before = result_.gap_after = gap_of(before, truth);
   result_.enrichments.push_back({"", result_.gap_before});
   const auto closed = [&](double to) {
     return result_.gap_before > 0.0 ? 1.0 - to / result_.gap_before : 0.0;
   };
-  for (std::size_t k = 0; k < result_.causes.size(); ++k) {
-    result_.causes[k].gap_after = gap_of(held_out_scores_[k], truth);
-    result_.causes[k].closed = closed(result_.causes[k].gap_after);
+  for (std::size_t k = 0; k < result_.effects.size(); ++k)
+    result_.effects[k].gap_without = gap_of(held_out_without_[k], truth);
+  if (rungs_.empty()) return;
+  for (const auto& r : rungs_)
+    result_.enrichments.push_back({r.effect, gap_of(held_out(r.replicas), truth)});
+  // Where something is seen to be left, something is left.
+  if (result_.p_after < thresholds::departure) {
+    auto& last = result_.enrichments.back().gap;
+    last = std::max(last, thresholds::least_left * result_.gap_before);
   }
-  if (added.empty()) return;
-  for (const auto& c : added)
-    result_.enrichments.push_back({c.effect, gap_of(held_out_scoring_->of(c.replicas[1]), truth)});
   result_.gap_after = result_.enrichments.back().gap;
   result_.closed = closed(result_.gap_after);
-  const auto interval = bootstrap_closed(instrument, before, truth, truth, options_.seed);
+  for (auto& cause : result_.causes) {
+    const auto alone = rung(cause.effect, cause.scenario, lacking_replicas);
+    cause.gap_after = gap_of(held_out_scoring_->of(alone.replicas[1]), truth);
+    cause.closed = closed(cause.gap_after);
+  }
+  const auto after = held_out(rungs_.back().replicas);
+  const double most_closed =
+      result_.p_after < thresholds::departure ? 1.0 - thresholds::least_left : 1.0;
+  const auto interval = bootstrap_closed(instrument, before, after, truth, options_.seed);
   result_.closed_low = interval[0];
-  result_.closed_high = interval[1];
+  result_.closed_high = std::max(result_.closed, std::min(interval[1], most_closed));
 }
 
 void Work::keep_bands() {
   const auto& instrument = simulator_.instrument(Part::held_out);
-  const auto& added = contest_->added();
-  const auto& last = added.empty() ? baseline_replicas_[1] : added.back().replicas[1];
+  const auto& last = rungs_.empty() ? baseline_replicas_[1] : rungs_.back().replicas[1];
   const Ensemble after(instrument, last, {});
   for (const auto& lens : instrument.lenses()) {
     Band band{.lens = std::string(lens.id),
@@ -291,30 +367,42 @@ void Work::keep_bands() {
 
 /// Only where the verdict does not stand alone.
 void Work::look_ahead() {
-  std::vector<const Cause*> rivals;
-  for (const auto& cause : result_.causes)
-    if (cause.scenario.effects.size() == 1 && cause.probability >= thresholds::member_probability)
-      rivals.push_back(&cause);
-  if (rivals.size() < 2) return;
+  const Cause *first = nullptr, *second = nullptr;
+  const auto cause_of = [&](const std::string& effect) -> const Cause* {
+    const auto at = std::find_if(result_.causes.begin(), result_.causes.end(),
+                                 [&](const auto& cause) { return cause.effect == effect; });
+    return at == result_.causes.end() ? nullptr : &*at;
+  };
+  const auto closest =
+      std::max_element(found_.rivals.begin(), found_.rivals.end(),
+                       [](const auto& a, const auto& b) { return a.log_odds < b.log_odds; });
+  if (closest != found_.rivals.end() &&
+      probability_of(closest->log_odds) >= thresholds::member_probability) {
+    first = cause_of(closest->instead_of);
+    second = cause_of(closest->effect);
+  } else if (result_.verdict.is_unknown() && result_.causes.size() > 1) {
+    first = &result_.causes[0];
+    second = &result_.causes[1];
+  }
+  if (first == nullptr || second == nullptr) return;
   tell("looking for the next experiment", 0.95);
   result_.next =
-      next_experiment(rivals[0]->scenario, rivals[1]->scenario, result_.duration_s, options_.seed);
+      next_experiment(first->scenario, second->scenario, result_.duration_s, options_.seed);
 }
 
 Diagnosis Work::run() {
-  describe(evidence_.recording);
+  describe(recording_);
   localise();
   if (options_.claim)
     judge_claim();
   else
     attribute();
-  result_.screening = contest_->screening();
   measure_shrinkage();
   keep_bands();
   took("shrinkage");
   tell("running the filters", 0.92);
-  result_.transfer = transfer(simulator_, evidence_.recording, result_.baseline, result_.enriched,
-                              transfer_replicas);
+  result_.transfer =
+      transfer(simulator_, recording_, result_.baseline, result_.enriched, transfer_replicas);
   took("transfer");
   look_ahead();
   took("next experiment");

@@ -19,8 +19,6 @@ struct DiagnosisOptions {
   std::optional<Scenario> claim;
   std::size_t baseline_replicas = 100;
   std::size_t candidate_replicas = 32;
-  std::size_t shortlist = 5;
-  int most_effects = 4;  ///< fewer in a long recording (thresholds.hpp)
   double significance = 0.01;
 };
 
@@ -39,6 +37,16 @@ struct Cause {
   double probability = 0.0;
   double gap_after = 0.0;  ///< held-out
   double closed = 0.0;
+};
+
+/// An effect of the set that was found.
+struct Included {
+  std::string effect;
+  double inclusion = 0.0;          ///< probability that it is there
+  double log_odds = 0.0;           ///< of the set against the best without it
+  double lack = 0.0;               ///< log score of the train part that the set loses without it
+  double gap_without = 0.0;        ///< held-out, of the set without it
+  std::vector<Effect> parameters;  ///< fitted; several where it is there several times
 };
 
 /// The simulator with one more effect.
@@ -66,7 +74,9 @@ struct Diagnosis {
   std::vector<Where> where, where_after;  ///< on the train part, before and after the effects
   double gap_before = 0.0, gap_after = 0.0, closed = 0.0, closed_low = 0.0, closed_high = 0.0;
   double p_before = 1.0, p_after = 1.0;  ///< of the train part
-  std::vector<Cause> causes;             ///< most probable first
+  std::vector<Included> effects;         ///< the set, those that close most first
+  double recovered = 0.0;     ///< share of the log score that a true simulator would have gained
+  std::vector<Cause> causes;  ///< those of the set, then their rivals
   Verdict verdict = Verdict::none();
   bool claimed = false;                 ///< the causes were given, not found
   std::vector<Verdict> verdict_set;     ///< what the recording cannot rule out

@@ -67,6 +67,16 @@ Json to_json(const Diagnosis& d) {
                               {"log_score", c.log_score},
                               {"recovered", c.recovered},
                               {"parameters", parameters_json(c.scenario.effects.back())}});
+  json["effects"] = Json::array();
+  for (const auto& e : d.effects) {
+    Json found = {{"effect", e.effect}, {"inclusion", e.inclusion}, {"log_odds", e.log_odds}};
+    found["parameters"] = parameters_json(e.parameters.front());
+    for (std::size_t k = 1; k < e.parameters.size(); ++k)
+      found["further"].push_back(parameters_json(e.parameters[k]));
+    found["gap_without"] = e.gap_without;
+    json["effects"].push_back(found);
+  }
+  json["remainder"] = {{"gap", d.gap_after}, {"where", departures_json(d.where_after)}};
   json["verdict"] = d.verdict.text();
   json["verdict_set"] = Json::array();
   for (const auto& verdict : d.verdict_set) json["verdict_set"].push_back(verdict.text());

@@ -1,5 +1,7 @@
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -18,8 +20,12 @@ std::string parameters_in_words(const Effect& effect) {
 
 std::string others_of(const Diagnosis& d) {
   std::vector<std::string> others;
+  const auto is_found = [&](const Verdict& verdict) {
+    return std::any_of(d.effects.begin(), d.effects.end(),
+                       [&](const auto& e) { return verdict.names(e.effect); });
+  };
   for (const auto& verdict : d.verdict_set)
-    if (verdict != d.verdict) others.push_back(verdict.text());
+    if (verdict != d.verdict && !is_found(verdict)) others.push_back(verdict.text());
   return fmt::format("{}", fmt::join(others, ", "));
 }
 
@@ -42,9 +48,9 @@ std::string in_words(const Diagnosis& d, const std::string& name) {
         "The recording leaves the simulator (p = {:.2g}), and no effect of the catalogue explains "
         "it.",
         d.p_before);
-    if (!d.causes.empty())
-      text += fmt::format(" The nearest is {}, which recovers {:.0f} % of what a true cause would.",
-                          d.causes.front().effect, 100.0 * d.causes.front().recovered);
+    if (!d.effects.empty())
+      text += fmt::format(" The nearest is {}: the set recovers {:.0f} % of what a true one would.",
+                          d.effects.front().effect, 100.0 * d.recovered);
     return text + '\n';
   }
   const auto gap = fmt::format(
@@ -57,8 +63,10 @@ std::string in_words(const Diagnosis& d, const std::string& name) {
       "The recording leaves the simulator (p = {:.2g}). Cause: {} ({}; probability {:.2f}).",
       d.p_before, cause.effect, parameters_in_words(cause.scenario.effects.back()),
       cause.probability);
-  for (std::size_t k = 2; k < d.enrichments.size(); ++k)
-    text += fmt::format(" Then: {}.", d.enrichments[k].added);
+  for (std::size_t k = 1; k < d.effects.size(); ++k)
+    text += fmt::format("{} {} ({:.2f})", k == 1 ? " With it:" : ",", d.effects[k].effect,
+                        d.effects[k].inclusion);
+  if (d.effects.size() > 1) text += '.';
   if (const auto others = others_of(d); !others.empty())
     text += fmt::format(" This recording cannot rule out: {}.", others);
   text += gap;

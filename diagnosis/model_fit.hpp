@@ -1,12 +1,8 @@
 #pragma once
 
 #include <gyrostat/diagnosis/simulator.hpp>
-#include <gyrostat/diagnosis/start.hpp>
 
 namespace gyrostat::gap {
-
-/// Replicas from here on are for fitting, those before for judging.
-inline constexpr std::uint32_t judging_replicas = 200;
 
 /// A scenario fitted to the train part of a recording, and the change of its mean readings with the
 /// parameters that every fit moves: white noise, random walk and compass noise (logarithms).
@@ -15,17 +11,14 @@ struct BaselineFit {
   Eigen::MatrixXd train_jacobian;
 };
 
-/// Random error by its Allan variances, and a T + b T' + c by least squares, from the train part.
-Rest fit_rest(const Conditions& conditions, const Scene& scene);
+/// a T + b T' + c by least squares, from the train part of a scene.
+ThermalDrift<double> fit_drift(const Conditions& conditions, const Scene& scene);
 
-/// White noise + ARIMA(1,1,1) + a T + b T' + c and white compass noise.
-BaselineFit fit_baseline(const Simulator& simulator, const Scene& scene, const Series& recording);
+/// White noise, random walk, a T + b T' + c and white compass noise, without effects: those under
+/// which the train part of the recording is likeliest.
+BaselineFit fit_baseline(const Simulator& simulator, const Series& recording);
 
-/// Moves the scenario's noise and the free parameters of its effects until its mean simulated
-/// readings lie nearest the recording's, robustly: Gauss-Newton on `replicas` common random numbers
-/// (simulated minimum distance; Duffie & Singleton, Econometrica 61, 1993). `readings` is the train
-/// part's.
-Scenario refine(const Simulator& simulator, Scenario scenario, const Eigen::VectorXd& readings,
-                const Eigen::VectorXd& spread, int iterations, std::size_t replicas);
+/// What moves the readings of a fitted scenario without effects.
+BaselineFit linearised(const Simulator& simulator, const Scenario& scenario);
 
 }  // namespace gyrostat::gap

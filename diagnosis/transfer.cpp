@@ -105,9 +105,9 @@ ParameterMap parameters_of(const Scenario& scenario, const Series& recording) {
 std::vector<Values> all_values(const std::vector<const FilterType*>& filters,
                                const ParameterMap& parameters, const Series& series) {
   std::vector<Values> all(filters.size());
-  const auto samples = static_cast<std::size_t>(random_error_s * series.rate_hz());
+  const auto begun = static_cast<std::size_t>(random_error_s * series.rate_hz());
   const Series beginning =
-      series.slice(0, std::min(series.size(), std::max<std::size_t>(samples, 2)));
+      series.slice(0, std::min(series.size(), std::max<std::size_t>(begun, 2)));
   Track track;
   for (std::size_t f = 0; f < filters.size(); ++f) {
     all[f].fill(no_value);

@@ -5,8 +5,6 @@
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
-#include <gyrostat/diagnosis/starts/train_steps.hpp>
 #include <gyrostat/generators/effects/angle_quantization.hpp>
 
 namespace gyrostat::gap {
@@ -17,21 +15,14 @@ struct Diagnosed<effects::AngleQuantization> {
   static constexpr auto signature = Signature::none;
   static constexpr std::array free_parameters = {&effects::AngleQuantization::coefficient_deg};
 
-  /// With q = (Q / interval)^2 beside white noise of variance w, the steps from sample to sample
-  /// have the variance 2 w + 6 q and the lag-1 autocovariance -w - 4 q.
-  static std::vector<Start> starts(const Evidence& e) {
-    const auto steps = train_steps(e);
-    double square = 0.0, lagged = 0.0;
-    for (std::size_t i = 1; i < steps.size(); ++i) {
-      square += steps[i] * steps[i];
-      lagged += steps[i] * steps[i - 1];
-    }
-    const auto count = static_cast<double>(std::max<std::size_t>(2, steps.size()) - 1);
-    const double q = -(lagged + 0.5 * square) / count;
-    if (!(q > 0.0)) return {};
-    const double white = std::max(0.5 * square / count - 3.0 * q, 0.01 * q);
-    return {{effects::AngleQuantization{std::sqrt(q) * e.conditions().interval_s()},
-             with_white(e, std::sqrt(white))}};
+  static std::vector<effects::AngleQuantization> guesses(const Beside& beside) {
+    const auto& noise = beside.fit.scenario.random_error;
+    return {{0.5 * noise.measurement_noise_std_dps * beside.conditions.interval_s()}};
+  }
+
+  static void enter(const effects::AngleQuantization& effect, NoiseLaw& law) {
+    const double std_dps = effect.coefficient_deg / law.interval_s;
+    law.angle += 2.0 * std_dps * std_dps;
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }

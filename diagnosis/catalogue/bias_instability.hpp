@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/slow_noise.hpp>
 #include <gyrostat/generators/effects/bias_instability.hpp>
 
 namespace gyrostat::gap {
@@ -13,9 +15,16 @@ struct Diagnosed<effects::BiasInstability> {
   static constexpr auto signature = Signature::none;
   static constexpr std::array free_parameters = {&effects::BiasInstability::coefficient_dps};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    return slow_noise(e, SlowComponent::flicker,
-                      [](const auto& fit) { return effects::BiasInstability{fit.slow_std_dps}; });
+  static std::vector<effects::BiasInstability> guesses(const Beside& beside) {
+    return {{0.3 * beside.slow_std_dps()}, {beside.slow_std_dps()}};
+  }
+
+  /// Decaying errors of equal variance, their memories four times apart.
+  static void enter(const effects::BiasInstability& effect, NoiseLaw& law) {
+    const double variance = effect.coefficient_dps * effect.coefficient_dps * 2.0 *
+                            std::numbers::ln2 / std::numbers::pi;
+    for (double memory = 1.0; memory * law.interval_s <= 4.0 * law.duration_s; memory *= 4.0)
+      law.decaying.push_back({variance, memory * law.interval_s});
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::time(c); }

@@ -15,9 +15,9 @@ struct Diagnosed<effects::CompassLag> {
   static constexpr std::array free_parameters = {&effects::CompassLag::time_constant_s};
 
   static std::vector<Start> starts(const Evidence& e) {
-    return cleaned(
-        e, shaped(e, Trace::heading, effects::CompassLag{}, &effects::CompassLag::time_constant_s,
-                  0.5 * e.conditions().interval_s(), 30.0));
+    return only(shaped(e, Trace::heading, effects::CompassLag{},
+                       &effects::CompassLag::time_constant_s, 0.5 * e.conditions().interval_s(),
+                       30.0));
   }
 
   static std::string why_not_assessable(const Conditions& c) {

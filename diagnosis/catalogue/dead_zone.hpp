@@ -22,7 +22,7 @@ struct Diagnosed<effects::DeadZone> {
       const auto effect =
           shaped(e, Trace::rate, effects::DeadZone{.lost_beyond = lost},
                  &effects::DeadZone::half_width_dps, 0.001 * fastest_dps(e), 0.5 * fastest_dps(e));
-      found.push_back({effect, rest_without(e, effect)});
+      found.push_back({effect});
     }
     return found;
   }

@@ -6,7 +6,6 @@
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/g_sensitivity.hpp>
 
 namespace gyrostat::gap {
@@ -19,13 +18,9 @@ struct Diagnosed<effects::GSensitivity> {
                                                  &effects::GSensitivity::y_dps_per_mps2,
                                                  &effects::GSensitivity::z_dps_per_mps2};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    const auto columns =
-        signatures(e, Trace::slow_rate,
-                   {effects::GSensitivity{1.0, 0.0, 0.0}, effects::GSensitivity{0.0, 1.0, 0.0},
-                    effects::GSensitivity{0.0, 0.0, 1.0}});
-    const auto found = match(columns, trace_of(e, Trace::slow_rate)).amplitudes;
-    return cleaned(e, effects::GSensitivity{found[0], found[1], found[2]});
+  static constexpr std::size_t amplitudes = 3;
+  static std::vector<effects::GSensitivity> guesses(const Beside& /*beside*/) {
+    return {{1.0, 1.0, 1.0}};
   }
 
   static std::string why_not_assessable(const Conditions& c) {

@@ -14,10 +14,15 @@ struct Diagnosed<effects::GaussMarkov> {
   static constexpr std::array free_parameters = {&effects::GaussMarkov::std_dps,
                                                  &effects::GaussMarkov::correlation_time_s};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    return slow_noise(e, SlowComponent::gauss_markov, [](const auto& fit) {
-      return effects::GaussMarkov{fit.slow_std_dps, fit.correlation_time_s};
-    });
+  static std::vector<effects::GaussMarkov> guesses(const Beside& beside) {
+    std::vector<effects::GaussMarkov> all;
+    for (const double memory_s : beside.memories_s())
+      all.push_back({0.7 * beside.slow_std_dps(), memory_s});
+    return all;
+  }
+
+  static void enter(const effects::GaussMarkov& effect, NoiseLaw& law) {
+    law.decaying.push_back({effect.std_dps * effect.std_dps, effect.correlation_time_s});
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }

@@ -15,9 +15,7 @@ struct Diagnosed<effects::HardIron> {
   static constexpr std::array free_parameters = {&effects::HardIron::amplitude_deg,
                                                  &effects::HardIron::phase_deg};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    return with_noise_of(e, iron<effects::HardIron>(e));
-  }
+  static std::vector<Start> starts(const Evidence& e) { return only(iron<effects::HardIron>(e)); }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::turns(c); }
 

@@ -22,7 +22,7 @@ struct Diagnosed<effects::Misalignment> {
     const auto columns = signatures(
         e, Trace::rate, {effects::Misalignment{1.0, 0.0}, effects::Misalignment{0.0, 1.0}});
     const auto found = match(columns, trace_of(e, Trace::rate)).amplitudes;
-    return cleaned(e, effects::Misalignment{found[0], found[1]});
+    return only(effects::Misalignment{found[0], found[1]});
   }
 
   static std::string why_not_assessable(const Conditions& c) {

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
-#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/rate_ramp.hpp>
 
 namespace gyrostat::gap {
@@ -14,10 +12,7 @@ struct Diagnosed<effects::RateRamp> {
   static constexpr auto signature = Signature::slow;
   static constexpr std::array free_parameters = {&effects::RateRamp::slope_dps_per_s};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    return cleaned(e, scaled(e, Trace::slow_rate, effects::RateRamp{},
-                             [](auto& p, double a) { p.slope_dps_per_s = a; }));
-  }
+  static std::vector<effects::RateRamp> guesses(const Beside& /*beside*/) { return {{1.0}}; }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::time(c); }
 

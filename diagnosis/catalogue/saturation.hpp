@@ -16,8 +16,8 @@ struct Diagnosed<effects::Saturation> {
   static constexpr std::array free_parameters = {&effects::Saturation::limit_dps};
 
   static std::vector<Start> starts(const Evidence& e) {
-    return cleaned(e, shaped(e, Trace::rate, effects::Saturation{}, &effects::Saturation::limit_dps,
-                             0.05 * fastest_dps(e), 1.02 * fastest_dps(e)));
+    return only(shaped(e, Trace::rate, effects::Saturation{}, &effects::Saturation::limit_dps,
+                       0.05 * fastest_dps(e), 1.02 * fastest_dps(e)));
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

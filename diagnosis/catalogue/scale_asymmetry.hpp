@@ -15,8 +15,8 @@ struct Diagnosed<effects::ScaleAsymmetry> {
   static constexpr std::array free_parameters = {&effects::ScaleAsymmetry::error};
 
   static std::vector<Start> starts(const Evidence& e) {
-    return cleaned(e, scaled(e, Trace::rate, effects::ScaleAsymmetry{},
-                             [](auto& p, double a) { p.error = a; }));
+    return only(
+        scaled(e, Trace::rate, effects::ScaleAsymmetry{}, [](auto& p, double a) { p.error = a; }));
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

@@ -20,8 +20,8 @@ struct Diagnosed<effects::ScaleTemperature> {
   static std::vector<Start> starts(const Evidence& e) {
     const auto& T = e.conditions().slow_temperature_C();
     const double middle = 0.5 * (std::ranges::min(T) + std::ranges::max(T));
-    return cleaned(e, scaled(e, Trace::rate, effects::ScaleTemperature{1.0, middle},
-                             [](auto& p, double a) { p.scale_per_C = a; }));
+    return only(scaled(e, Trace::rate, effects::ScaleTemperature{1.0, middle},
+                       [](auto& p, double a) { p.scale_per_C = a; }));
   }
 
   static std::string why_not_assessable(const Conditions& c) {

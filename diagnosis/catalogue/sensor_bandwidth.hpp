@@ -16,8 +16,8 @@ struct Diagnosed<effects::SensorBandwidth> {
 
   static std::vector<Start> starts(const Evidence& e) {
     const double rate_hz = e.conditions().rate_hz();
-    return cleaned(e, shaped(e, Trace::rate, effects::SensorBandwidth{},
-                             &effects::SensorBandwidth::cutoff_hz, 0.002 * rate_hz, 0.5 * rate_hz));
+    return only(shaped(e, Trace::rate, effects::SensorBandwidth{},
+                       &effects::SensorBandwidth::cutoff_hz, 0.002 * rate_hz, 0.5 * rate_hz));
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

@@ -58,7 +58,7 @@ struct Diagnosed<effects::Sinusoidal> {
       const double lost = slow && x > 0.0 ? std::sin(x) / x : 1.0;
       const effects::Sinusoidal sine{std::abs(line) / lost, best, wrap_degrees(phase)};
       if (follows_motion(e, sine)) continue;
-      found.push_back({sine, rest_without(e, sine)});
+      found.push_back({sine});
     }
     return found;
   }

@@ -15,9 +15,7 @@ struct Diagnosed<effects::SoftIron> {
   static constexpr std::array free_parameters = {&effects::SoftIron::amplitude_deg,
                                                  &effects::SoftIron::phase_deg};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    return with_noise_of(e, iron<effects::SoftIron>(e));
-  }
+  static std::vector<Start> starts(const Evidence& e) { return only(iron<effects::SoftIron>(e)); }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::turns(c); }
 

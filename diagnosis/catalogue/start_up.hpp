@@ -1,9 +1,7 @@
 #pragma once
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
-#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/start_up.hpp>
 
 namespace gyrostat::gap {
@@ -15,12 +13,10 @@ struct Diagnosed<effects::StartUp> {
   static constexpr std::array free_parameters = {&effects::StartUp::amplitude_dps,
                                                  &effects::StartUp::settling_time_s};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    const auto& c = e.conditions();
-    return cleaned(
-        e, scaled_over(e, Trace::slow_rate, effects::StartUp{}, &effects::StartUp::settling_time_s,
-                       2.0 * c.slow_interval_s(), 0.25 * duration_s(c),
-                       [](auto& p, double a) { p.amplitude_dps = a; }));
+  static std::vector<effects::StartUp> guesses(const Beside& beside) {
+    std::vector<effects::StartUp> all;
+    for (const double memory_s : beside.memories_s()) all.push_back({1.0, memory_s});
+    return all;
   }
 
   static std::string why_not_assessable(const Conditions& c) {
@@ -30,7 +26,7 @@ struct Diagnosed<effects::StartUp> {
 
   /// It has settled: else it were a ramp.
   static bool is_what_it_is_called(const effects::StartUp& effect, const Conditions& c) {
-    return effect.settling_time_s < 0.5 * duration_s(c);
+    return effect.settling_time_s < 0.25 * duration_s(c);
   }
 
  private:

@@ -15,10 +15,15 @@ struct Diagnosed<effects::Telegraph> {
   static constexpr std::array free_parameters = {&effects::Telegraph::amplitude_dps,
                                                  &effects::Telegraph::mean_dwell_s};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    return slow_noise(e, SlowComponent::gauss_markov, [](const auto& fit) {
-      return effects::Telegraph{fit.slow_std_dps, 2.0 * fit.correlation_time_s};
-    });
+  static std::vector<effects::Telegraph> guesses(const Beside& beside) {
+    std::vector<effects::Telegraph> all;
+    for (const double memory_s : beside.memories_s())
+      all.push_back({0.7 * beside.slow_std_dps(), 2.0 * memory_s});
+    return all;
+  }
+
+  static void enter(const effects::Telegraph& effect, NoiseLaw& law) {
+    law.jumps = {Jumps::To::the_other_level, effect.amplitude_dps, 1.0 / effect.mean_dwell_s};
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }

@@ -3,9 +3,7 @@
 #include <algorithm>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
-#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/thermal_curvature.hpp>
 
 namespace gyrostat::gap {
@@ -17,12 +15,8 @@ struct Diagnosed<effects::ThermalCurvature> {
   static constexpr auto signature = Signature::slow;
   static constexpr std::array free_parameters = {&effects::ThermalCurvature::curvature_dps_per_C2};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    const auto& T = e.conditions().slow_temperature_C();
-    const double middle =
-        0.5 * (*std::min_element(T.begin(), T.end()) + *std::max_element(T.begin(), T.end()));
-    return cleaned(e, scaled(e, Trace::slow_rate, effects::ThermalCurvature{1.0, middle},
-                             [](auto& p, double a) { p.curvature_dps_per_C2 = a; }));
+  static std::vector<effects::ThermalCurvature> guesses(const Beside& beside) {
+    return {{1.0, beside.middle_temperature_C()}};
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::warming(c); }

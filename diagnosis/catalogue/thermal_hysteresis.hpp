@@ -5,9 +5,7 @@
 #include <fmt/format.h>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
-#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/thermal_hysteresis.hpp>
 
 namespace gyrostat::gap {
@@ -19,13 +17,11 @@ struct Diagnosed<effects::ThermalHysteresis> {
   static constexpr std::array free_parameters = {&effects::ThermalHysteresis::amplitude_dps,
                                                  &effects::ThermalHysteresis::width_C};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    const auto& T = e.conditions().slow_temperature_C();
-    const double span =
-        *std::max_element(T.begin(), T.end()) - *std::min_element(T.begin(), T.end());
-    return cleaned(e, scaled_over(e, Trace::slow_rate, effects::ThermalHysteresis{},
-                                  &effects::ThermalHysteresis::width_C, 0.02 * span, 0.45 * span,
-                                  [](auto& p, double a) { p.amplitude_dps = a; }));
+  static std::vector<effects::ThermalHysteresis> guesses(const Beside& beside) {
+    std::vector<effects::ThermalHysteresis> all;
+    const double span_C = extent(beside.conditions.slow_temperature_C());
+    for (const double share : {0.03, 0.08, 0.2, 0.4}) all.push_back({1.0, share * span_C});
+    return all;
   }
 
   static std::string why_not_assessable(const Conditions& c) {

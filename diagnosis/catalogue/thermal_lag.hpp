@@ -1,9 +1,7 @@
 #pragma once
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
-#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/thermal_lag.hpp>
 
 namespace gyrostat::gap {
@@ -15,18 +13,17 @@ struct Diagnosed<effects::ThermalLag> {
   static constexpr std::array free_parameters = {&effects::ThermalLag::sensitivity_dps_per_C,
                                                  &effects::ThermalLag::time_constant_s};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    const auto& c = e.conditions();
-    return cleaned(e, scaled_over(e, Trace::slow_rate, effects::ThermalLag{},
-                                  &effects::ThermalLag::time_constant_s, 2.0 * c.slow_interval_s(),
-                                  0.5 * c.slow_interval_s() * static_cast<double>(c.slow_size()),
-                                  [](auto& p, double a) { p.sensitivity_dps_per_C = a; }));
+  static std::vector<effects::ThermalLag> guesses(const Beside& beside) {
+    std::vector<effects::ThermalLag> all;
+    for (const double memory_s : beside.memories_s()) all.push_back({1.0, memory_s});
+    return all;
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::warming(c); }
 
-  static bool is_what_it_is_called(const effects::ThermalLag& /*effect*/, const Conditions& /*c*/) {
-    return true;
+  /// One that takes most of the recording is a ramp.
+  static bool is_what_it_is_called(const effects::ThermalLag& effect, const Conditions& c) {
+    return effect.time_constant_s < 0.3 * c.interval_s() * static_cast<double>(c.size());
   }
 };
 

@@ -28,7 +28,7 @@ struct Diagnosed<effects::TimeOffset> {
       const effects::TimeOffset trial{std::copysign(offset_s, first_s)};
       return (seen - signatures(e, Trace::rate, {trial})).squaredNorm();
     });
-    return cleaned(e, effects::TimeOffset{std::copysign(best_s, first_s)});
+    return only(effects::TimeOffset{std::copysign(best_s, first_s)});
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::told_motion(c); }

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
-#include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/vibration_rectification.hpp>
 
 namespace gyrostat::gap {
@@ -17,9 +15,8 @@ struct Diagnosed<effects::VibrationRectification> {
   static constexpr std::array free_parameters = {
       &effects::VibrationRectification::coefficient_dps_per_m2ps4};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    return cleaned(e, scaled(e, Trace::slow_rate, effects::VibrationRectification{},
-                             [](auto& p, double a) { p.coefficient_dps_per_m2ps4 = a; }));
+  static std::vector<effects::VibrationRectification> guesses(const Beside& /*beside*/) {
+    return {{1.0}};
   }
 
   static std::string why_not_assessable(const Conditions& c) {

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/gap/spectral_bands.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
-#include <gyrostat/diagnosis/starts/spectral_peak.hpp>
 #include <gyrostat/generators/effects/wandering_line.hpp>
 
 namespace gyrostat::gap {
@@ -21,17 +20,13 @@ struct Diagnosed<effects::WanderingLine> {
       &effects::WanderingLine::amplitude_dps, &effects::WanderingLine::frequency_hz,
       &effects::WanderingLine::wander_hz, &effects::WanderingLine::correlation_time_s};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    const auto peak = highest_peak(e.scene.spectra[0]);
-    if (peak.frequency_hz <= 0.0 || peak.power <= 0.0) return {};
-    const double white = e.baseline.random_error.measurement_noise_std_dps;
-    const double rest = std::max(0.1 * white * white, white * white - peak.power);
-    std::vector<Start> found;
-    for (const double widths : {1.0, 10.0})
-      found.push_back({effects::WanderingLine{std::sqrt(2.0 * peak.power), peak.frequency_hz,
-                                              0.25 * peak.width_hz, widths / peak.width_hz},
-                       with_white(e, std::sqrt(rest))});
-    return found;
+  /// The line that its frequency leaves, as wide as the frequency wanders while it is remembered.
+  static void enter(const effects::WanderingLine& effect, NoiseLaw& law) {
+    const double slow_hz = 2.0 * effect.wander_hz;
+    const double fast_hz =
+        4.0 * std::numbers::pi * effect.wander_hz * effect.wander_hz * effect.correlation_time_s;
+    law.resonances.push_back({0.5 * effect.amplitude_dps * effect.amplitude_dps,
+                              effect.frequency_hz, std::min(slow_hz, fast_hz)});
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }

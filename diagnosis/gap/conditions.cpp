@@ -16,6 +16,7 @@ namespace gyrostat::gap {
 namespace {
 
 constexpr std::size_t slow_points = 3000;
+constexpr std::size_t shortest_cluster = 4;
 constexpr std::size_t shortest_span = 64;
 constexpr std::size_t shortest_slow_span = 2;
 constexpr double warming_interval_s = 10.0;
@@ -64,7 +65,7 @@ Conditions::Conditions(const Series& recording) : series_(recording) {
     interpolate_missing(*channel);
   const std::size_t n = series_.size();
   interval_s_ = n > 1 ? series_.duration_s() / static_cast<double>(n - 1) : 1.0;
-  cluster_ = std::max<std::size_t>(1, n / slow_points);
+  cluster_ = std::max(shortest_cluster, n / slow_points);
   find_spans();
 
   slow_time_s_ = slow_means(series_.t_s);

@@ -27,7 +27,8 @@ struct Span {
 ///
 /// Time is cut into eight equal blocks of whole clusters, of which the third and the seventh are
 /// held out; what is bridged or averaged never mixes the parts. Fast readings come from single
-/// samples, slow ones from the means of `cluster` samples, of which there are about three thousand.
+/// samples, slow ones from the means of `cluster` samples, of which there are about three thousand,
+/// or fewer of four samples.
 class Conditions {
  public:
   /// Of an evenly sampled series; NaN marks a missing sample. Gaps of up to `bridged` samples are

@@ -9,11 +9,10 @@
 namespace gyrostat::gap {
 
 /// Which series a signature is looked for in.
-enum class Trace { rate, slow_rate, heading };
+enum class Trace { rate, heading };
 
 /// What effects without noise add to the trace of the train part, under the recording's conditions,
-/// as one column an effect. Slow columns are whitened for the baseline's random walk and are free
-/// of what the thermal drift explains.
+/// as one column an effect, without their means.
 Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
                            const std::vector<Effect>& effects);
 /// The recording's own trace, treated alike.
@@ -25,9 +24,6 @@ struct Match {
   double unexplained;
 };
 Match match(const Eigen::MatrixXd& columns, const Eigen::VectorXd& trace);
-
-/// What is left of the recording's rate once the effect's signature is taken out of it.
-Rest rest_without(const Evidence& evidence, const Effect& effect);
 
 /// The value in [low, high] (logarithmic) with the least `cost`, by a grid and a golden section.
 double best_of(double low, double high, const std::function<double(double)>& cost);

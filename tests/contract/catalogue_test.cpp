@@ -7,6 +7,7 @@
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/evidence.hpp>
+#include <gyrostat/diagnosis/likelihood/beside.hpp>
 #include <gyrostat/diagnosis/model_fit.hpp>
 #include <gyrostat/generators/effects/list.hpp>
 #include <gyrostat/generators/environment/acceleration/list.hpp>
@@ -26,7 +27,7 @@ struct WithoutAnything {};
 
 template <class E>
 struct SaysSignature {
-  static constexpr auto signature = Signature::none;
+  static constexpr auto signature = Signature::repeated;
 };
 template <class E>
 struct SaysFree {
@@ -134,20 +135,33 @@ TEST(CatalogueContract, WhatARecordingLacksIsSaidWhereItIsLacking) {
   }
 }
 
+void expect_sound(const CauseType& cause, const Effect& effect) {
+  EXPECT_EQ(effect.id(), cause.id);
+  for (std::size_t f = 0; f < effect.fields().size(); ++f)
+    EXPECT_TRUE(std::isfinite(effect.value(f))) << cause.id << "." << effect.fields()[f].name;
+}
+
 TEST(CatalogueContract, StartsAreTheEffectWithSoundParameters) {
   const Series recording = rich_recording();
   const Simulator simulator(recording, 1);
-  Evidence evidence{simulator, recording, Scene(simulator.conditions(), recording), {}, 0.0};
-  evidence.baseline = fit_baseline(simulator, evidence.scene, recording).scenario;
-  evidence.white_std_dps = std::sqrt(0.5 * evidence.scene.octaves[0][0].mean_square);
-  for (const auto& cause : cause_types())
-    for (const auto& start : cause.starts(evidence)) {
-      EXPECT_EQ(start.effect.id(), cause.id);
-      EXPECT_EQ(std::isinf(start.most_gain), cause.signature != Signature::slow) << cause.id;
-      for (std::size_t f = 0; f < start.effect.fields().size(); ++f)
-        EXPECT_TRUE(std::isfinite(start.effect.value(f)))
-            << cause.id << "." << start.effect.fields()[f].name;
-    }
+  const auto& conditions = simulator.conditions();
+  const auto baseline = fit_baseline(simulator, recording).scenario;
+  const Evidence evidence{simulator, recording, Scene(conditions, recording), baseline,
+                          baseline.random_error.measurement_noise_std_dps};
+  const SetFitter fitter(
+      conditions, std::make_shared<const ReducedRate>(conditions, evidence.scene.rate_error_dps,
+                                                      std::vector<char>(recording.size(), 0)));
+  SetFit fit;
+  fit.scenario = baseline;
+  const Beside beside{conditions, fitter, fit};
+  for (const auto& cause : cause_types()) {
+    EXPECT_FALSE(cause.starts != nullptr && cause.guesses != nullptr) << cause.id;
+    if (cause.starts != nullptr)
+      for (const auto& start : cause.starts(evidence)) expect_sound(cause, start.effect);
+    if (cause.guesses == nullptr) continue;
+    EXPECT_TRUE(cause.enter != nullptr || cause.signature == Signature::slow) << cause.id;
+    for (const auto& guess : cause.guesses(beside)) expect_sound(cause, guess);
+  }
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ std::vector<double> own_p_values(bool fitted) {
     const Series series = recorded(s, 1000 + k, false);
     const Simulator simulator(series, k);
     BaselineFit fit{.scenario = s, .train_jacobian = {}};
-    if (fitted) fit = fit_baseline(simulator, Scene(simulator.conditions(), series), series);
+    if (fitted) fit = fit_baseline(simulator, series);
     const Ensemble ensemble(simulator.instrument(Part::train),
                             simulator.ensemble(fit.scenario, 0, 80)[0], fit.train_jacobian);
     p.push_back(ensemble.p_value(simulator.readings(series)[0]));

@@ -7,13 +7,13 @@
 
 namespace gyrostat::gap {
 
-/// Starts from its defaults; the amplitude is refined.
+/// Starts from its defaults; the amplitude is fitted.
 template <>
 struct Diagnosed<effects::SquareWave> {
-  static constexpr auto signature = Signature::none;
+  static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::SquareWave::amplitude_dps};
 
-  static std::vector<Start> starts(const Evidence& e) { return cleaned(e, effects::SquareWave{}); }
+  static std::vector<Start> starts(const Evidence& /*e*/) { return only(effects::SquareWave{}); }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 

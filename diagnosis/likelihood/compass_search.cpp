@@ -1,0 +1,298 @@
+#include <gyrostat/diagnosis/likelihood/compass_search.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+
+#include <gyrostat/core/values.hpp>
+#include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/evidence.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/start.hpp>
+#include <gyrostat/diagnosis/starts/train_steps.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+constexpr double prior_odds = 3.0;
+
+class CompassSearch {
+ public:
+  CompassSearch(const Simulator& simulator, const Series& recording, FoundSet& found)
+      : simulator_(simulator),
+        conditions_(simulator.conditions()),
+        recording_(recording),
+        found_(found),
+        hidden_(conditions_.slow_size(), 0) {
+    const auto error = error_of({});
+    double sine = 0.0, cosine = 0.0;
+    for (const auto& span : conditions_.spans(Part::train))
+      for (std::size_t i = span.first; i < span.last; ++i)
+        if (!is_missing(error[i])) {
+          sine += std::sin(error[i] * std::numbers::pi / 180.0);
+          cosine += std::cos(error[i] * std::numbers::pi / 180.0);
+        }
+    centre_deg_ = std::atan2(sine, cosine) * 180.0 / std::numbers::pi;
+  }
+
+  void run(const SetSearchOptions& options);
+
+ private:
+  struct Law {
+    double count, variance;  ///< effective number of values
+
+    double std_deg() const { return std::sqrt(variance); }
+    /// Log-likelihood beyond another law's.
+    double gain_on(const Law& other) const {
+      return 0.5 * count * std::log(other.variance / variance);
+    }
+  };
+
+  /// The heading less the reference's and what the effects add, NaN where it is not known.
+  std::vector<double> error_of(const std::vector<Effect>& effects) const;
+  /// Of white noise about a level; clusters with bursts do not count.
+  Law law_of(const std::vector<Effect>& effects) const;
+  /// One step of Gauss and Newton in all free parameters.
+  std::vector<Effect> stepped(const std::vector<Effect>& set) const;
+  void find_bursts(const std::vector<Effect>& effects);
+
+  const Simulator& simulator_;
+  const Conditions& conditions_;
+  const Series& recording_;
+  FoundSet& found_;
+  std::vector<char> hidden_;
+  double centre_deg_ = 0.0;
+  double burst_gain_ = 0.0, bursts_per_hour_ = 0.0, burst_s_ = 0.0, burst_deg_ = 0.0;
+};
+
+std::vector<double> CompassSearch::error_of(const std::vector<Effect>& effects) const {
+  Scenario quiet = found_.baseline;
+  quiet.effects = effects;
+  quiet.compass.noise_std_deg = 0.0;
+  quiet.compass.initial_heading_deg = centre_deg_;
+  Series ideal;
+  synthesise_heading_under(quiet, conditions_.series(), {}, ideal);
+  std::vector<double> error(recording_.size(), no_value);
+  for (std::size_t i = 0; i < error.size(); ++i)
+    if (!is_missing(recording_.heading_deg[i]) &&
+        (recording_.mag_valid.empty() || recording_.mag_valid[i] > 0.5))
+      error[i] = wrap_degrees(recording_.heading_deg[i] - ideal.heading_deg[i]);
+  return error;
+}
+
+CompassSearch::Law CompassSearch::law_of(const std::vector<Effect>& effects) const {
+  const auto error = error_of(effects);
+  double count = 0.0, sum = 0.0, square = 0.0, lagged = 0.0;
+  for (int pass = 0; pass < 2; ++pass) {
+    const double mean = pass == 0 ? 0.0 : sum / count;
+    double before = no_value;
+    for (const auto& span : conditions_.spans(Part::train))
+      for (std::size_t i = span.first; i < span.last; ++i) {
+        const double e = error[i] - mean;
+        const std::size_t k = std::min(i / conditions_.cluster(), hidden_.size() - 1);
+        if (is_missing(e) || hidden_[k] != 0) continue;
+        if (pass == 0) {
+          count += 1.0;
+          sum += e;
+        } else {
+          square += e * e;
+          if (!is_missing(before)) lagged += e * before;
+          before = e;
+        }
+      }
+  }
+  if (count < 10.0) return {0.0, 1.0};
+  const double variance = std::max(square / count, 1e-18);
+  // Neighbours that are alike count as fewer.
+  const double alike = std::clamp(lagged / std::max(square, 1e-300), 0.0, 0.99);
+  const double effective = count * (1.0 - alike) / (1.0 + alike);
+  return {std::max(effective, 10.0), variance};
+}
+
+std::vector<Effect> CompassSearch::stepped(const std::vector<Effect>& set) const {
+  struct Place {
+    std::size_t effect, field;
+    double step;
+  };
+  std::vector<Place> places;
+  for (std::size_t k = 0; k < set.size(); ++k) {
+    const auto& free = cause_types().named(set[k].id(), "effects").free_parameters;
+    for (std::size_t f = 0; f < set[k].fields().size(); ++f)
+      if (std::find(free.begin(), free.end(), set[k].fields()[f].name) != free.end())
+        places.push_back(
+            {k, f,
+             set[k].fields()[f].unit == "deg" ? 0.01 : 1e-3 * std::abs(set[k].value(f)) + 1e-6});
+  }
+  const auto here = error_of(set);
+  std::vector<std::vector<double>> moved;
+  for (const auto& place : places) {
+    auto other = set;
+    other[place.effect].value(place.field) += place.step;
+    moved.push_back(error_of(other));
+  }
+  const auto columns = static_cast<Eigen::Index>(places.size()) + 1;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns, columns);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(columns), row(columns);
+  for (const auto& span : conditions_.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i) {
+      const std::size_t k = std::min(i / conditions_.cluster(), hidden_.size() - 1);
+      if (is_missing(here[i]) || hidden_[k] != 0) continue;
+      row[0] = 1.0;
+      for (std::size_t c = 0; c < places.size(); ++c)
+        row[static_cast<Eigen::Index>(c) + 1] =
+            wrap_degrees(here[i] - moved[c][i]) / places[c].step;
+      normal += row * row.transpose();
+      right += here[i] * row;
+    }
+  normal.diagonal() *= 1.0 + 1e-9;
+  normal.diagonal().array() += 1e-12;
+  const Eigen::VectorXd by = normal.ldlt().solve(right);
+  auto better = set;
+  for (std::size_t c = 0; c < places.size(); ++c) {
+    auto& value = better[places[c].effect].value(places[c].field);
+    const auto& range = better[places[c].effect].fields()[places[c].field].range;
+    value = std::clamp(value + by[static_cast<Eigen::Index>(c) + 1], range.from, range.to);
+  }
+  return better;
+}
+
+void CompassSearch::find_bursts(const std::vector<Effect>& effects) {
+  const auto slow = conditions_.slow_means(error_of(effects));
+  std::vector<double> sizes;
+  for (const auto& span : conditions_.slow_spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (!is_missing(slow[i])) sizes.push_back(slow[i]);
+  if (sizes.size() < 50) return;
+  const double centre = quantile(sizes, 0.5);
+  for (double& s : sizes) s = std::abs(s - centre);
+  const double deviation = std::max(quantile(sizes, 0.5) / normal_quartile, 1e-9);
+  std::fill(hidden_.begin(), hidden_.end(), char{0});
+  double hit = 0.0, bursts = 0.0, square = 0.0, gain = 0.0, count = 0.0;
+  for (const auto& span : conditions_.slow_spans(Part::train)) {
+    bool inside = false;
+    for (std::size_t i = span.first; i < span.last; ++i) {
+      const double z = std::abs(slow[i] - centre) / deviation;
+      const bool now = z > 5.0;
+      count += 1.0;
+      if (now) {
+        hidden_[i] = 1;
+        hit += 1.0;
+        square += z * z;
+        gain += 0.5 * z * z - std::log(z) - 5.0;
+        bursts += inside ? 0.0 : 1.0;
+      }
+      inside = now;
+    }
+  }
+  burst_gain_ = gain;
+  if (hit == 0.0) return;
+  const double hours = count * conditions_.slow_interval_s() / 3600.0;
+  bursts_per_hour_ = bursts / hours;
+  burst_s_ = std::max(hit / bursts, 1.0) * conditions_.slow_interval_s();
+  burst_deg_ = deviation * std::sqrt(square / hit);
+}
+
+void CompassSearch::run(const SetSearchOptions& options) {
+  std::vector<const CauseType*> candidates;
+  for (const auto& cause : cause_types()) {
+    const auto& without = options.without;
+    if (cause.effect().stage() == Stage::compass && cause.id != "magnetic_bursts" &&
+        std::find(without.begin(), without.end(), cause.id) == without.end() &&
+        cause.why_not_assessable(conditions_).empty())
+      candidates.push_back(&cause);
+  }
+  const double values = 0.5 * std::log(static_cast<double>(recording_.size()));
+  const auto cost = [&](const Effect& effect) {
+    return prior_odds +
+           values * static_cast<double>(
+                        cause_types().named(effect.id(), "effects").free_parameters.size());
+  };
+  const auto starts = [&](const CauseType& cause, const std::vector<Effect>& beside) {
+    const auto error = error_of(beside), plain = error_of({});
+    Series left = recording_;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      const std::size_t k = std::min(i / conditions_.cluster(), hidden_.size() - 1);
+      left.heading_deg[i] = hidden_[k] != 0 || is_missing(error[i])
+                                ? no_value
+                                : wrap_degrees(left.heading_deg[i] + error[i] - plain[i]);
+    }
+    left.gyro_dps.clear();
+    Evidence evidence{simulator_, recording_, Scene(conditions_, left), found_.baseline, 0.0};
+    evidence.baseline.compass.initial_heading_deg = centre_deg_;
+    return cause.starts(evidence);
+  };
+  const auto polished = [&](std::vector<Effect> set) {
+    for (int pass = 0; pass < 4; ++pass) {
+      auto better = stepped(set);
+      if (law_of(better).variance >= law_of(set).variance) break;
+      set = std::move(better);
+    }
+    return set;
+  };
+  std::vector<Effect> set;
+  find_bursts(set);
+  for (std::size_t step = 0; step <= candidates.size(); ++step) {
+    const Law before = law_of(set);
+    std::vector<Effect> best;
+    double most = 0.0;
+    for (const auto* cause : candidates) {
+      if (std::any_of(set.begin(), set.end(), [&](const auto& e) { return e.id() == cause->id; }))
+        continue;
+      // What iron does depends on the heading that it sees: that of the sensor, or one that trails.
+      for (const auto& start : starts(*cause, set))
+        for (std::size_t place = 0; place <= set.size(); ++place) {
+          auto trial = set;
+          trial.insert(trial.begin() + static_cast<std::ptrdiff_t>(place), start.effect);
+          trial = polished(trial);
+          const double gain = law_of(trial).gain_on(before) - cost(start.effect);
+          if (gain > most) {
+            most = gain;
+            best = trial;
+          }
+        }
+    }
+    if (best.empty()) break;
+    set = best;
+    find_bursts(set);
+  }
+  for (std::size_t k = 0; k < set.size();) {
+    auto rest = set;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+    rest = polished(rest);
+    const double odds = law_of(set).gain_on(law_of(rest)) - cost(set[k]);
+    if (odds <= 0.0) {
+      set = rest;
+      k = 0;
+      continue;
+    }
+    found_.members.push_back({std::string(set[k].id()), odds});
+    ++k;
+  }
+  const auto law = law_of(set);
+  found_.scenario.compass.noise_std_deg = law.std_deg();
+  found_.scenario.compass.initial_heading_deg = centre_deg_;
+  found_.baseline.compass.noise_std_deg = law_of({}).std_deg();
+  found_.baseline.compass.initial_heading_deg = centre_deg_;
+  found_.scenario.effects.insert(found_.scenario.effects.end(), set.begin(), set.end());
+  const auto& without = options.without;
+  const bool allowed =
+      std::find(without.begin(), without.end(), "magnetic_bursts") == without.end();
+  if (allowed && burst_gain_ > prior_odds + 3.0 * values) {
+    const Effect bursts = with_values("magnetic_bursts", {{"bursts_per_hour", bursts_per_hour_},
+                                                          {"mean_duration_s", burst_s_},
+                                                          {"std_deg", burst_deg_}});
+    found_.scenario.effects.push_back(bursts);
+    found_.members.push_back({"magnetic_bursts", burst_gain_ - 3.0 * values - prior_odds});
+  }
+}
+
+}  // namespace
+
+void search_compass(const Simulator& simulator, const Series& recording,
+                    const SetSearchOptions& options, FoundSet& found) {
+  CompassSearch(simulator, recording, found).run(options);
+}
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,111 @@
+#include <gyrostat/diagnosis/likelihood/line_shape.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <numeric>
+
+#include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/starts/train_steps.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+/// A block is this share of the time that the line remembers: it hardly turns on its way through.
+constexpr double block_of_memory = 0.35;
+constexpr std::size_t shortest_block = 4;
+
+/// Squared envelopes, block after block of each span of the train part.
+std::vector<std::vector<double>> squared_envelopes(const Conditions& conditions,
+                                                   const std::vector<double>& left,
+                                                   const Resonance& line, std::size_t block) {
+  const double turn = -2.0 * std::numbers::pi * line.centre_hz * conditions.interval_s();
+  std::vector<std::vector<double>> all;
+  for (const auto& span : conditions.spans(Part::train)) {
+    all.emplace_back();
+    for (std::size_t at = span.first; at + block <= span.last; at += block) {
+      std::complex<double> sum = 0.0;
+      for (std::size_t i = at; i < at + block; ++i)
+        if (!is_missing(left[i])) sum += std::polar(left[i], turn * static_cast<double>(i - at));
+      all.back().push_back(4.0 * std::norm(sum) / static_cast<double>(block * block));
+    }
+  }
+  return all;
+}
+
+double log_bessel_i0(double x) {
+  if (x < 30.0) return std::log(std::cyl_bessel_i(0.0, x));
+  return x - 0.5 * std::log(2.0 * std::numbers::pi * x) + 0.125 / x;
+}
+
+}  // namespace
+
+LineShape line_shape(const Conditions& conditions, const std::vector<double>& left_dps,
+                     const Resonance& line) {
+  LineShape shape;
+  const double memory_s = 1.0 / (std::numbers::pi * std::max(line.bandwidth_hz, 1e-9));
+  const double block_s = std::max(block_of_memory * memory_s, 1.0 / line.centre_hz);
+  const std::size_t block = std::max(
+      shortest_block, static_cast<std::size_t>(std::lround(block_s * conditions.rate_hz())));
+  const auto envelopes = squared_envelopes(conditions, left_dps, line, block);
+  std::vector<double> squares;
+  for (const auto& e : envelopes) squares.insert(squares.end(), e.begin(), e.end());
+  if (squares.size() < 50) return shape;
+  const auto n = static_cast<double>(squares.size());
+  const double mean = std::accumulate(squares.begin(), squares.end(), 0.0) / n;
+  // Blocks within one memory are alike: together they count as one.
+  const double block_memories = static_cast<double>(block) * conditions.interval_s() / memory_s;
+  const double independent = std::min(1.0, block_memories);
+  const double exponential = -n * (std::log(mean) + 1.0);
+
+  double best = exponential;
+  for (double share = 0.05; share < 0.999; share += 0.05) {
+    const double steady = share * mean, noise = mean - steady;
+    double sum = 0.0;
+    for (const double q : squares)
+      sum += -std::log(noise) - (q + steady) / noise +
+             log_bessel_i0(2.0 * std::sqrt(q * steady) / noise);
+    if (sum > best) {
+      best = sum;
+      shape.amplitude_dps = std::sqrt(steady);
+    }
+  }
+  shape.wandering = independent * (best - exponential);
+
+  // Two exponentials by expectation-maximisation.
+  double share = 0.2, on = 3.0 * mean, off = 0.4 * mean;
+  for (int pass = 0; pass < 80; ++pass) {
+    double weight = 0.0, of_on = 0.0, of_off = 0.0;
+    for (const double q : squares) {
+      const double odds = share / (1.0 - share) * off / on * std::exp(q / off - q / on);
+      const double p = std::isfinite(odds) ? odds / (1.0 + odds) : 1.0;
+      weight += p;
+      of_on += p * q;
+      of_off += (1.0 - p) * q;
+    }
+    share = std::clamp(weight / n, 1e-4, 0.9);
+    on = of_on / std::max(weight, 1e-9);
+    off = std::max(of_off / std::max(n - weight, 1e-9), 1e-6 * mean);
+  }
+  double mixed = 0.0;
+  for (const double q : squares)
+    mixed += std::log(share / on * std::exp(-q / on) + (1.0 - share) / off * std::exp(-q / off) +
+                      1e-300);
+  shape.bursts = on > 3.0 * off ? independent * (mixed - exponential) : 0.0;
+  shape.share_on = share;
+  shape.on_std_dps = std::sqrt(std::max(0.5 * (on - off), 0.0));
+  const double limit = std::sqrt(on * off);
+  double begun = 0.0, with = 0.0;
+  for (const auto& e : envelopes)
+    for (std::size_t k = 0; k < e.size(); ++k) {
+      with += e[k] > limit;
+      begun += e[k] > limit && (k == 0 || e[k - 1] <= limit);
+    }
+  const double seconds = static_cast<double>(block) * conditions.interval_s();
+  shape.on_s = begun > 0.0 ? with / begun * seconds : seconds;
+  shape.off_s = begun > 0.0 ? (n - with) / begun * seconds : n * seconds;
+  return shape;
+}
+
+}  // namespace gyrostat::gap

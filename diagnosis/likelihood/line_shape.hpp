@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include <gyrostat/diagnosis/gap/conditions.hpp>
+#include <gyrostat/diagnosis/likelihood/noise_law.hpp>
+
+namespace gyrostat::gap {
+
+/// What the envelope of a narrow band tells beyond its spectrum: log-likelihoods over that of
+/// normal noise, whose squared envelope is exponential. A sine of constant amplitude that wanders
+/// has Rice's (Bell Syst. Tech. J. 24, 1945, 3.10); one that comes and goes a mixture of two.
+struct LineShape {
+  double wandering = 0.0;
+  double bursts = 0.0;
+  double amplitude_dps = 0.0;  ///< of the sine
+  double share_on = 1.0;       ///< of the time that bursts take
+  double on_s = 0.0, off_s = 0.0;
+  double on_std_dps = 0.0;
+};
+
+LineShape line_shape(const Conditions& conditions, const std::vector<double>& left_dps,
+                     const Resonance& line);
+
+}  // namespace gyrostat::gap

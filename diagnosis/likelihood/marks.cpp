@@ -1,0 +1,133 @@
+#include <gyrostat/diagnosis/likelihood/marks.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/starts/train_steps.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+constexpr std::size_t values_inspected = 50'000;
+/// A repeat is one where as many are beyond chance by so many standard deviations.
+constexpr double clear = 6.0;
+constexpr double least_share = 3e-4;
+
+/// The step of the values' grid, where so few values are used that they repeat.
+double grid_step(const Simulator& simulator, const std::vector<double>& z) {
+  std::vector<double> sorted;
+  for (const auto& span : simulator.conditions().spans(Part::train))
+    for (std::size_t i = span.first; i < span.last && sorted.size() < values_inspected; ++i)
+      if (!is_missing(z[i])) sorted.push_back(z[i]);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> gaps;
+  const double least = std::max(1.5 * simulator.resolution_dps(), 1e-12);
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    if (sorted[i] - sorted[i - 1] > least) gaps.push_back(sorted[i] - sorted[i - 1]);
+  if (gaps.size() < 2 || gaps.size() > sorted.size() / 5) return 0.0;
+  const double step = quantile(gaps, 0.2);
+  double whole = 0.0;
+  for (const double g : gaps)
+    if (std::abs(g / step - std::nearbyint(g / step)) <
+        0.05 + 0.6 * simulator.resolution_dps() / step)
+      whole += 1.0;
+  return whole > 0.95 * static_cast<double>(gaps.size()) ? step : 0.0;
+}
+
+/// Where far more samples than beside it have the largest value, or the smallest.
+double clipped_at(const Conditions& conditions, const std::vector<double>& z, double end) {
+  constexpr double fewest = 8.0, beside = 4.0;
+  double at_end = 0.0, next = 0.0, nearest = -1e300;
+  const double sign = end > 0.0 ? 1.0 : -1.0;
+  for (const auto& span : conditions.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (z[i] != end && !is_missing(z[i])) nearest = std::max(nearest, sign * z[i]);
+  for (const auto& span : conditions.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i) {
+      at_end += z[i] == end ? 1.0 : 0.0;
+      next += sign * z[i] == nearest ? 1.0 : 0.0;
+    }
+  return at_end >= fewest && at_end > beside * next ? std::abs(end) : 0.0;
+}
+
+/// Samples that would equal the one before if none was repeated, by how many differ from it by one
+/// and by two steps of the grid: differences are normal.
+double equal_by_chance(const std::vector<double>& differences, double step) {
+  double ones = 0.0, twos = 0.0;
+  for (const double d : differences) {
+    const double steps = std::abs(d) / step;
+    ones += std::abs(steps - 1.0) < 0.3 ? 0.5 : 0.0;
+    twos += std::abs(steps - 2.0) < 0.3 ? 0.5 : 0.0;
+  }
+  // On a coarser grid it matters where between two of its values the level is.
+  if (twos < 50.0 || twos < 0.2 * ones) return -1.0;
+  return ones * std::pow(std::max(ones / twos, 1.0), 1.0 / 3.0);
+}
+
+/// Standard deviation of white noise of which a sample equals the one before with this probability
+/// once both are rounded: a difference d is rounded to nothing with that of 1 - |d| / lsb.
+double white_under_grid(double lsb_dps, double equal) {
+  double low = 1e-3 * lsb_dps, high = 10.0 * lsb_dps;
+  for (int k = 0; k < 60; ++k) {
+    const double std_dps = std::sqrt(low * high);
+    const double u = lsb_dps / (std::numbers::sqrt2 * std_dps);
+    const double expected = std::erf(u / std::numbers::sqrt2) -
+                            std::sqrt(2.0 / std::numbers::pi) / u * -std::expm1(-0.5 * u * u);
+    (expected > equal ? low : high) = std_dps;
+  }
+  return low;
+}
+
+}  // namespace
+
+Marks marks_of(const Simulator& simulator, const Series& recording) {
+  Marks marks;
+  const auto& z = recording.gyro_dps;
+  marks.lsb_dps = grid_step(simulator, z);
+  double equal = 0.0, twice = 0.0, count = 0.0;
+  double low = 1e300, high = -1e300;
+  for (const auto& span : simulator.conditions().spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (!is_missing(z[i])) low = std::min(low, z[i]), high = std::max(high, z[i]);
+  marks.limit_dps = std::max(clipped_at(simulator.conditions(), z, high),
+                             clipped_at(simulator.conditions(), z, low));
+  if (marks.limit_dps > 0.0) {
+    marks.clipped.assign(z.size(), 0);
+    for (std::size_t i = 0; i < z.size(); ++i)
+      marks.clipped[i] = std::abs(z[i]) >= marks.limit_dps ? 1 : 0;
+  }
+  std::vector<double> differences;
+  for (const auto& span : simulator.conditions().spans(Part::train))
+    for (std::size_t i = span.first + 2; i < span.last; ++i) {
+      count += 1.0;
+      differences.push_back(z[i] - z[i - 1]);
+      if (z[i] != z[i - 1] || z[i] == low || z[i] == high) continue;  // clipped is not repeated
+      equal += 1.0;
+      if (z[i - 1] == z[i - 2]) twice += 1.0;
+    }
+  if (marks.lsb_dps > 0.0 && count > 0.0)
+    marks.white_under_grid_dps = white_under_grid(marks.lsb_dps, equal / count);
+  double by_chance = 0.0;
+  if (marks.lsb_dps > 0.0)
+    by_chance = equal_by_chance(differences, marks.lsb_dps);
+  else if (simulator.resolution_dps() > 0.0)
+    by_chance = equal_by_chance(differences, simulator.resolution_dps());
+  if (by_chance < 0.0)
+    by_chance = simulator.resolution_dps() > 0.0 && marks.lsb_dps == 0.0 ? 0.0 : equal;
+  const double beyond = equal - by_chance;
+  if (beyond < clear * std::sqrt(by_chance + 1.0) + 0.1 * by_chance || beyond < least_share * count)
+    return marks;
+  // Of the repeats by chance, nearly none follow a repeat.
+  const double share = std::clamp(twice / std::max(equal, 1.0), 0.0, 0.95);
+  const double base = count > 0.0 ? equal / count : 0.0;
+  marks.stale_run = share > 1.5 * base ? 1.0 / (1.0 - share) : 1.0;
+  marks.stale_probability = std::clamp(beyond / marks.stale_run / count, 1e-6, 1.0);
+  marks.repeats.assign(z.size(), 0);
+  for (std::size_t i = 1; i < z.size(); ++i)
+    marks.repeats[i] = z[i] == z[i - 1] && z[i] != low && z[i] != high ? 1 : 0;
+  return marks;
+}
+
+}  // namespace gyrostat::gap

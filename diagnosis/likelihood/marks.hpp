@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <gyrostat/diagnosis/simulator.hpp>
+
+namespace gyrostat::gap {
+
+/// What the values of a recording show beyond doubt, before anything is fitted.
+struct Marks {
+  double lsb_dps = 0.0;               ///< step of the grid that the values lie on; 0: none
+  double white_under_grid_dps = 0.0;  ///< white noise that moves as many samples across the grid
+  double stale_probability = 0.0;     ///< chance that a repeat begins at a sample; 0: no repeats
+  double stale_run = 1.0;             ///< mean length of a repeat
+  double limit_dps = 0.0;             ///< beyond which the output is clipped; 0: none is
+  std::vector<char> clipped;          ///< a flag a sample, where there is a limit
+  std::vector<char> repeats;  ///< a flag a sample: repeats the one before, where there are such
+};
+
+/// Reads the train part for the numbers, all samples for the flags.
+Marks marks_of(const Simulator& simulator, const Series& recording);
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,85 @@
+#include <gyrostat/diagnosis/likelihood/rate_likelihood.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace gyrostat::gap {
+namespace {
+
+/// A decaying error with a memory of less than so many clusters is noise to their means.
+constexpr double shortest_memory = 0.5;
+
+/// Variance of the mean of a decaying error over u memories, and the covariance of two neighbouring
+/// means, both over the variance (Papoulis, "Probability, Random Variables and Stochastic
+/// Processes", 3rd ed., 10-1).
+struct MeanOf {
+  double variance, neighbours;
+};
+MeanOf mean_over(double u) {
+  if (u < 1e-4) return {1.0 - u / 3.0, 1.0 - u};
+  const double lost = -std::expm1(-u);
+  return {2.0 * (u - lost) / (u * u), lost * lost / (u * u)};
+}
+
+}  // namespace
+
+SlowLaw slow_law(const ReducedRate& reduced, const NoiseLaw& law, std::size_t cluster) {
+  const double interval_s = law.interval_s * static_cast<double>(cluster);
+  NoiseLaw fast = law;
+  fast.walk = 0.0;
+  fast.jumps.reset();
+  fast.decaying.clear();
+  SlowLaw slow{.white = 0.0,
+               .walk = law.walk * interval_s,
+               .parts = {},
+               .jumps = law.jumps,
+               .interval_s = interval_s};
+  for (const auto& d : law.decaying) {
+    if (d.memory_s < shortest_memory * interval_s) {
+      fast.decaying.push_back(d);
+      continue;
+    }
+    const auto mean = mean_over(interval_s / d.memory_s);
+    slow.parts.push_back({d.variance * mean.variance, mean.neighbours / mean.variance});
+  }
+  const auto density = density_of(fast, reduced.angles(), reduced.cosines());
+  const auto& weights = reduced.of_a_mean();
+  slow.white = std::inner_product(density.begin(), density.end(), weights.begin(), 0.0) /
+               std::max(reduced.kept(), 0.05);
+  // The mean of a walk over its cluster has a sixth of a step's variance less than its end.
+  slow.white = std::max(slow.white - slow.walk / 6.0, 0.05 * (slow.white + slow.walk));
+  return slow;
+}
+
+RateTerms rate_terms(const ReducedRate& reduced, Part part, const NoiseLaw& law,
+                     const Eigen::MatrixXd& regressors, const Eigen::VectorXd& prior_std) {
+  RateTerms terms;
+  const auto& slow = reduced.slow(part);
+  if (slow.points.size() > 1) {
+    const Eigen::VectorXd& values = slow.means;
+    Eigen::MatrixXd chosen(values.size(), regressors.cols());
+    for (Eigen::Index k = 0; k < values.size(); ++k) {
+      const auto at = slow.points[static_cast<std::size_t>(k)];
+      if (regressors.cols() > 0) chosen.row(k) = regressors.row(static_cast<Eigen::Index>(at));
+    }
+    const auto cluster =
+        static_cast<std::size_t>(std::lround(reduced.cluster_s() / law.interval_s));
+    terms.slow =
+        slow_terms(slow_law(reduced, law, cluster), slow.points, values, chosen, prior_std);
+    terms.log_likelihood = terms.slow.log_likelihood;
+  }
+  const auto& seen = reduced.periodogram(part);
+  if (seen.empty()) return terms;
+  const auto density = reduced.shown(density_of(law, reduced.angles(), reduced.cosines()));
+  double sum = 0.0;
+  for (std::size_t k = reduced.first_fast_bin(); k + 1 < density.size(); ++k) {
+    const double log_density = std::log(density[k]);
+    terms.log_density.push_back(log_density);
+    sum += log_density + seen[k] / density[k];
+  }
+  terms.log_likelihood -= reduced.degrees(part) * sum;
+  return terms;
+}
+
+}  // namespace gyrostat::gap

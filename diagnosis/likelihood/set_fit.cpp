@@ -1,0 +1,257 @@
+#include <gyrostat/diagnosis/likelihood/set_fit.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <Eigen/Cholesky>
+
+#include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+/// A parameter of a scenario on the scale that a fit moves it on.
+struct Dial {
+  std::function<double(const Scenario&)> get;
+  std::function<void(Scenario&, double)> set;
+  double furthest = 1.0;  ///< in one iteration
+};
+
+Dial logarithmic(const std::function<double&(Scenario&)>& value, double low, double high) {
+  return {[=](const Scenario& s) {
+            Scenario copy = s;
+            return std::log(std::clamp(value(copy), low, high));
+          },
+          [=](Scenario& s, double x) { value(s) = std::clamp(std::exp(x), low, high); }, 1.5};
+}
+
+Dial linear(const std::function<double&(Scenario&)>& value, double unit) {
+  return {[=](const Scenario& s) {
+            Scenario copy = s;
+            return value(copy) / unit;
+          },
+          [=](Scenario& s, double x) { value(s) = unit * x; }, 1.0};
+}
+
+std::vector<Dial> dials_of(const Scenario& scenario) {
+  std::vector<Dial> dials;
+  const double white = scenario.random_error.measurement_noise_std_dps;
+  dials.push_back(
+      logarithmic([](Scenario& s) -> double& { return s.random_error.measurement_noise_std_dps; },
+                  1e-6 * white, 1e6 * white));
+  dials.push_back(logarithmic([](Scenario& s) -> double& { return s.random_error.delta1_dps; },
+                              1e-9 * white, 1e3 * white));
+  for (std::size_t k = 0; k < scenario.effects.size(); ++k) {
+    const auto& effect = scenario.effects[k];
+    const auto& cause = cause_types().named(effect.id(), "effects");
+    if (cause.enter == nullptr && cause.signature != Signature::slow) continue;
+    const auto amplitudes = cause.signature == Signature::slow ? cause.amplitudes : 0;
+    for (std::size_t f = 0; f < effect.fields().size(); ++f) {
+      const auto& field = effect.fields()[f];
+      if (std::find(cause.free_parameters.begin() + static_cast<std::ptrdiff_t>(amplitudes),
+                    cause.free_parameters.end(), field.name) == cause.free_parameters.end())
+        continue;
+      const auto value = [k, f](Scenario& s) -> double& { return s.effects[k].value(f); };
+      const double start = effect.value(f);
+      double largest = 1e-12;
+      for (std::size_t g = 0; g < effect.fields().size(); ++g)
+        if (effect.fields()[g].unit == field.unit)
+          largest = std::max(largest, std::abs(effect.value(g)));
+      if (field.range.from >= 0.0 && start > 0.0)
+        dials.push_back(logarithmic(value, std::max(field.range.from, 1e-3 * start),
+                                    std::min(field.range.to, 1e3 * start)));
+      else
+        dials.push_back(linear(value, largest));
+    }
+  }
+  return dials;
+}
+
+Scenario moved(Scenario scenario, const std::vector<Dial>& dials, const Eigen::VectorXd& by) {
+  for (std::size_t d = 0; d < dials.size(); ++d)
+    dials[d].set(scenario, dials[d].get(scenario) + by[static_cast<Eigen::Index>(d)]);
+  return scenario;
+}
+
+}  // namespace
+
+NoiseLaw law_of(const Scenario& scenario, double interval_s) {
+  const auto& e = scenario.random_error;
+  const double step = (e.delta1_dps - e.delta2_dps) / (1.0 - e.phi);
+  NoiseLaw law{.interval_s = interval_s,
+               .duration_s = scenario.sampling.duration_s,
+               .white = e.measurement_noise_std_dps * e.measurement_noise_std_dps,
+               .walk = step * step / interval_s};
+  for (const auto& effect : scenario.effects)
+    if (const auto* cause = cause_types().find(effect.id());
+        cause != nullptr && cause->enter != nullptr)
+      cause->enter(effect, law);
+  return law;
+}
+
+SetFitter::SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced)
+    : conditions_(conditions), reduced_(std::move(reduced)) {
+  slow_series_.t_s = conditions.slow_time_s();
+  slow_series_.temperature_C = conditions.slow_temperature_C();
+  slow_series_.gyro_dps.assign(slow_series_.size(), 0.0);
+  for (const auto channel : {&Series::acc_x_mps2, &Series::acc_y_mps2, &Series::acc_z_mps2})
+    if (const auto& values = conditions.series().*channel; !values.empty())
+      slow_series_.*channel = conditions.slow_means(values);
+  const auto& drift = conditions.drift_regressors();
+  drift_ = drift.rightCols(drift.cols() - 1);
+  for (Eigen::Index c = 0; c < drift_.cols(); ++c) {
+    drift_spreads_.push_back(std::max(
+        1e-12, std::sqrt(drift_.col(c).squaredNorm() / static_cast<double>(drift_.rows()))));
+    drift_.col(c) /= drift_spreads_.back();
+  }
+  const auto& means = reduced_->slow(Part::train).means;
+  amplitude_dps_ =
+      means.size() > 1 ? std::sqrt((means.array() - means.mean()).square().mean()) : 1.0;
+}
+
+/// From all samples, once: it depends on nothing that is fitted.
+Eigen::VectorXd SetFitter::fixed_signature(const Scenario& alone, std::size_t unit) const {
+  const std::scoped_lock lock(mutex_);
+  auto& known = fixed_[{std::string(alone.effects.front().id()), unit}];
+  if (known.size() == 0) {
+    Series with;
+    synthesise_rate_under(alone, conditions_.series(), {}, with);
+    const auto means = conditions_.slow_means(with.gyro_dps);
+    known =
+        Eigen::Map<const Eigen::VectorXd>(means.data(), static_cast<Eigen::Index>(means.size()));
+    for (double& value : known)
+      if (is_missing(value)) value = 0.0;
+  }
+  return known;
+}
+
+SetFitter::Regressors SetFitter::regressors_of(const Scenario& scenario) const {
+  Regressors found{drift_, drift_spreads_};
+  auto& regressors = found.columns;
+  Scenario alone;
+  alone.sampling = scenario.sampling;
+  alone.random_error = {
+      .phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.0};
+  alone.thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = 0.0};
+  Series with;
+  for (const auto& effect : scenario.effects) {
+    const auto* cause = cause_types().find(effect.id());
+    if (cause == nullptr || cause->signature != Signature::slow) continue;
+    const bool is_fixed = cause->free_parameters.size() == cause->amplitudes;
+    for (std::size_t unit = 0; unit < cause->amplitudes; ++unit) {
+      Effect one = effect;
+      for (std::size_t a = 0; a < cause->amplitudes; ++a)
+        one.value(field_of(one, cause->free_parameters[a])) = a == unit ? 1.0 : 0.0;
+      alone.effects = {one};
+      regressors.conservativeResize(static_cast<Eigen::Index>(slow_series_.size()),
+                                    regressors.cols() + 1);
+      auto column = regressors.col(regressors.cols() - 1);
+      if (is_fixed) {
+        column = fixed_signature(alone, unit);
+      } else {
+        synthesise_rate_under(alone, slow_series_, {}, with);
+        column = Eigen::Map<const Eigen::VectorXd>(with.gyro_dps.data(), column.size());
+      }
+      // In units of its own spread, so that one prior holds for all.
+      column.array() -= column.mean();
+      const double spread = std::sqrt(column.squaredNorm() / static_cast<double>(column.size()));
+      column /= std::max(spread, 1e-300);
+      found.spreads.push_back(spread);
+    }
+  }
+  return found;
+}
+RateTerms SetFitter::terms_with(const Scenario& scenario, const Regressors& regressors, Part part,
+                                Jumping jumping) const {
+  const auto law = law_of(scenario, conditions_.interval_s());
+  constexpr double drift_prior = 3.0;  // drifts are larger than what is found beside them
+  Eigen::VectorXd prior_std = Eigen::VectorXd::Constant(regressors.columns.cols(), amplitude_dps_);
+  prior_std.head(drift_.cols()) *= drift_prior;
+  return rate_terms(*reduced_, part, jumping == Jumping::yes ? law : law.without_jumps(),
+                    regressors.columns, prior_std);
+}
+
+RateTerms SetFitter::terms(const Scenario& scenario, Part part, Jumping jumping) const {
+  return terms_with(scenario, regressors_of(scenario), part, jumping);
+}
+
+void SetFitter::take_coefficients(const RateTerms& terms, SetFit& fit) const {
+  const auto& found = terms.slow.coefficients;
+  if (found.size() == 0) return;
+  const auto spreads = regressors_of(fit.scenario).spreads;
+  auto at = static_cast<std::size_t>(drift_.cols());
+  fit.drift = found.head(drift_.cols());
+  for (std::size_t c = 0; c < at; ++c) fit.drift[static_cast<Eigen::Index>(c)] /= spreads[c];
+  for (auto& effect : fit.scenario.effects) {
+    const auto* cause = cause_types().find(effect.id());
+    if (cause == nullptr || cause->signature != Signature::slow) continue;
+    for (std::size_t a = 0; a < cause->amplitudes; ++a, ++at)
+      effect.value(field_of(effect, cause->free_parameters[a])) =
+          found[static_cast<Eigen::Index>(at)] / spreads[at];
+  }
+}
+
+SetFit SetFitter::maximise(const Scenario& start, int iterations, Jumping jumping) const {
+  SetFit fit{.scenario = start, .drift = {}};
+  const auto dials = dials_of(start);
+  const auto count = static_cast<Eigen::Index>(dials.size());
+  fit.parameters = dials.size();
+  RateTerms here = terms(fit.scenario, Part::train, jumping);
+  double damping = 1e-2;
+  constexpr double step = 1e-3;
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    const auto rows = static_cast<Eigen::Index>(here.slow.innovations.size());
+    const auto bins = static_cast<Eigen::Index>(here.log_density.size());
+    Eigen::MatrixXd slopes(2 * rows + bins, count);
+    Eigen::VectorXd gradient(count);
+    const double root = std::sqrt(reduced_->degrees(Part::train));
+    for (Eigen::Index d = 0; d < count; ++d) {
+      const auto there = terms(moved(fit.scenario, dials, step * Eigen::VectorXd::Unit(count, d)),
+                               Part::train, jumping);
+      gradient[d] = (there.log_likelihood - here.log_likelihood) / step;
+      for (Eigen::Index k = 0; k < rows; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        slopes(k, d) =
+            std::sqrt(0.5) * (there.slow.log_variances[i] - here.slow.log_variances[i]) / step;
+        slopes(rows + k, d) = (there.slow.innovations[i] - here.slow.innovations[i]) / step;
+      }
+      for (Eigen::Index k = 0; k < bins; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        slopes(2 * rows + k, d) = root * (there.log_density[i] - here.log_density[i]) / step;
+      }
+    }
+    const Eigen::MatrixXd information = slopes.transpose() * slopes;
+    bool better = false;
+    for (int attempt = 0; attempt < 4 && !better; ++attempt) {
+      Eigen::MatrixXd damped = information;
+      damped.diagonal() +=
+          damping * information.diagonal() + Eigen::VectorXd::Constant(count, 1e-3);
+      Eigen::VectorXd by = damped.ldlt().solve(gradient);
+      for (Eigen::Index d = 0; d < count; ++d) {
+        const double furthest = dials[static_cast<std::size_t>(d)].furthest;
+        by[d] = std::clamp(by[d], -furthest, furthest);
+      }
+      const Scenario trial = moved(fit.scenario, dials, by);
+      auto there = terms(trial, Part::train, jumping);
+      if (there.log_likelihood > here.log_likelihood) {
+        const bool settled = there.log_likelihood - here.log_likelihood < 0.02;
+        fit.scenario = trial;
+        here = std::move(there);
+        better = true;
+        damping *= 0.2;
+        if (settled) iteration = iterations;
+      } else {
+        damping = std::max(10.0 * damping, 0.1);
+      }
+    }
+    if (!better) break;
+  }
+  fit.log_likelihood = here.log_likelihood;
+  take_coefficients(here, fit);
+  return fit;
+}
+
+}  // namespace gyrostat::gap

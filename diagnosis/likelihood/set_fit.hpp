@@ -1,0 +1,63 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <gyrostat/diagnosis/likelihood/rate_likelihood.hpp>
+#include <gyrostat/generators/scenario.hpp>
+
+namespace gyrostat::gap {
+
+/// A scenario with the parameters under which a recording is likeliest.
+struct SetFit {
+  Scenario scenario;
+  double log_likelihood = -1e300;
+  Eigen::VectorXd drift;  ///< coefficients of Conditions::drift_regressors() without the constant
+  std::size_t parameters = 0;
+};
+
+/// Whether jumps are followed, or stood in for by a Gaussian law of the same covariance.
+enum class Jumping { no, yes };
+
+/// The law of what is random in a scenario's rate error.
+NoiseLaw law_of(const Scenario& scenario, double interval_s);
+
+/// Fits sets of effects to the train part of one reduced recording. Moved are the white noise, the
+/// random walk and, of each effect with a law or a slow signature, its free parameters; amplitudes
+/// of slow signatures are found by least squares. Effects
+/// whose signature is not slow must have been taken out of the recording.
+class SetFitter {
+ public:
+  SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced);
+
+  const ReducedRate& reduced() const { return *reduced_; }
+  /// Fisher scoring from `start`, damped (Levenberg and Marquardt), for at most `iterations`.
+  SetFit maximise(const Scenario& start, int iterations, Jumping jumping = Jumping::yes) const;
+  RateTerms terms(const Scenario& scenario, Part part, Jumping jumping = Jumping::yes) const;
+
+ private:
+  const Conditions& conditions_;
+  std::shared_ptr<const ReducedRate> reduced_;
+  /// Columns of unit spread: the drift's regressors, and the signatures of the scenario's slow
+  /// effects.
+  struct Regressors {
+    Eigen::MatrixXd columns;
+    std::vector<double> spreads;  ///< that they had
+  };
+  Regressors regressors_of(const Scenario& scenario) const;
+  RateTerms terms_with(const Scenario& scenario, const Regressors& regressors, Part part,
+                       Jumping jumping) const;
+  Eigen::VectorXd fixed_signature(const Scenario& alone, std::size_t unit) const;
+  void take_coefficients(const RateTerms& terms, SetFit& fit) const;
+
+  mutable std::mutex mutex_;
+  mutable std::map<std::pair<std::string, std::size_t>, Eigen::VectorXd> fixed_;
+  Series slow_series_;
+  Eigen::MatrixXd drift_;
+  std::vector<double> drift_spreads_;
+  double amplitude_dps_;  ///< to be expected of a slow signature
+};
+
+}  // namespace gyrostat::gap

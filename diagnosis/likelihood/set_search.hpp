@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gyrostat/diagnosis/likelihood/beside.hpp>
+#include <gyrostat/diagnosis/simulator.hpp>
+
+namespace gyrostat::gap {
+
+struct SetSearchOptions {
+  std::vector<std::string> without;  ///< effects left out of the catalogue
+  std::size_t most_effects = 8;
+};
+
+/// An effect of the set, with what speaks for it.
+struct Member {
+  std::string effect;
+  double log_odds;  ///< of the set against the set without it
+};
+
+/// A set that was tried in place of the best one.
+struct Rival {
+  Effect found;        ///< fitted
+  std::string effect;  ///< that stands where `instead_of` does; alone where that is empty
+  std::string instead_of;
+  double log_odds;  ///< against the best set, at most 0 or so
+};
+
+struct FoundSet {
+  Scenario baseline;  ///< no effects, fitted
+  Scenario scenario;  ///< the set, fitted, with drift
+  std::vector<Member> members;
+  std::vector<Rival> rivals;
+  /// What each effect would have gained at each step of the search.
+  std::vector<std::pair<std::string, double>> screening;
+  double log_likelihood_baseline = 0.0, log_likelihood = 0.0;  ///< train part
+  /// The scenario with those effects of the set alone that have one of the names, its noise fitted
+  /// anew. Outlives neither the simulator nor the recording.
+  std::function<Scenario(const std::vector<std::string>&)> subset;
+};
+
+using SetSearchProgress = std::function<void(const std::string&, double)>;
+
+/// White noise, a random walk and white compass noise: those under which the train part of a
+/// recording is likeliest.
+Scenario likeliest_baseline(const Simulator& simulator, const Series& recording);
+
+/// The set of effects under which the train part of a recording is likeliest, by a search forward,
+/// backward and by exchange.
+FoundSet find_set(const Simulator& simulator, const Series& recording,
+                  const SetSearchOptions& options, const SetSearchProgress& progress = {});
+
+}  // namespace gyrostat::gap

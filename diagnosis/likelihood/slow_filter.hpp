@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/diagnosis/likelihood/noise_law.hpp>
+
+namespace gyrostat::gap {
+
+/// Cluster means of the rate error as a level that walks, decaying errors and white noise, with
+/// nothing known of where the level began.
+struct SlowLaw {
+  double white;  ///< variance of a mean
+  double walk;   ///< variance of the level's step from one mean to the next
+  struct Part {
+    double variance, decay;  ///< decay from one mean to the next
+  };
+  std::vector<Part> parts;
+  std::optional<Jumps> jumps;
+  double interval_s = 1.0;
+};
+
+/// What a filter makes of values: the log-likelihood, and what a Fisher score needs.
+struct SlowTerms {
+  double log_likelihood = 0.0;
+  Eigen::VectorXd coefficients;       ///< of the regressors, most likely
+  double cost_of_coefficients = 0.0;  ///< log-likelihood lost by not knowing them
+  std::vector<double> log_variances;  ///< of the innovations but the first
+  std::vector<double> innovations;    ///< in units of their standard deviation
+};
+
+/// Exact likelihood by the Kalman filter with a diffuse level (Harvey, "Forecasting, Structural
+/// Time Series Models and the Kalman Filter", 1989, 3.4.3), of `values` at the strictly rising
+/// `points`. The coefficients of `regressors` (points x any) are integrated out, with normal priors
+/// of the standard deviations `prior_std` (Harvey 1989, 3.4.4, where they are infinite). Jumps,
+/// where the law has them, are followed by the likeliest of their histories (a Gaussian sum:
+/// Alspach and Sorenson, IEEE Trans. AC-17, 1972), with the coefficients of the Gaussian law of the
+/// same covariance.
+SlowTerms slow_terms(const SlowLaw& law, std::span<const std::size_t> points,
+                     const Eigen::VectorXd& values, const Eigen::MatrixXd& regressors,
+                     const Eigen::VectorXd& prior_std);
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,185 @@
+#include <gyrostat/diagnosis/likelihood/tails.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/starts/train_steps.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+constexpr std::size_t order = 16;
+constexpr double cut = 4.0;  ///< standard deviations beyond which a sample does not count at first
+
+/// Prediction coefficients by Levinson's recursion.
+std::vector<double> levinson(const std::vector<double>& r) {
+  std::vector<double> a;
+  double error = r[0];
+  for (std::size_t m = 1; m < r.size(); ++m) {
+    double k = r[m];
+    for (std::size_t j = 0; j + 1 < m; ++j) k -= a[j] * r[m - 1 - j];
+    k /= error;
+    const auto before = a;
+    a.push_back(k);
+    for (std::size_t j = 0; j + 1 < m; ++j) a[j] = before[j] - k * before[m - 2 - j];
+    error *= std::max(1e-6, 1.0 - k * k);
+  }
+  return a;
+}
+
+double robust_deviation(std::vector<double> values) {
+  for (double& v : values) v = std::abs(v);
+  return quantile(std::move(values), 0.5) / normal_quartile;
+}
+
+struct Whitened {
+  std::vector<std::size_t> samples;
+  std::vector<double> innovations;
+};
+
+Whitened whiten(const Conditions& conditions, const std::vector<double>& left, Part part,
+                const std::vector<double>& coefficients) {
+  Whitened w;
+  for (const auto& span : conditions.spans(part))
+    for (std::size_t i = span.first + order; i < span.last; ++i) {
+      double e = left[i];
+      for (std::size_t j = 0; j < order; ++j) e -= coefficients[j] * left[i - 1 - j];
+      if (is_missing(e)) continue;
+      w.samples.push_back(i);
+      w.innovations.push_back(e);
+    }
+  return w;
+}
+
+std::vector<double> covariances(const Conditions& conditions, const std::vector<double>& left,
+                                double limit) {
+  std::vector<double> sums(order + 1, 0.0), counts(order + 1, 0.0);
+  for (const auto& span : conditions.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i) {
+      if (!(std::abs(left[i]) < limit)) continue;
+      for (std::size_t lag = 0; lag <= order && i >= span.first + lag; ++lag)
+        if (std::abs(left[i - lag]) < limit) {
+          sums[lag] += left[i] * left[i - lag];
+          counts[lag] += 1.0;
+        }
+    }
+  for (std::size_t lag = 0; lag <= order; ++lag)
+    sums[lag] /= std::max(1.0, counts[lag]) * (1.0 + 1e-3 * (lag > 0 ? 1.0 : 0.0));
+  return sums;
+}
+
+}  // namespace
+
+Tails tails_of(const Conditions& conditions, const std::vector<double>& given, bool temperature) {
+  Tails tails;
+  std::vector<double> present;
+  for (const auto& span : conditions.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (!is_missing(given[i])) present.push_back(given[i]);
+  tails.outliers.assign(given.size(), 0);
+  if (present.size() < 500) return tails;
+  const double limit = 5.0 * robust_deviation(present);
+  const auto coefficients = levinson(covariances(conditions, given, limit));
+  // The predictions are from cut values, so that an outlier is one innovation and not seventeen.
+  std::vector<double> left = given;
+  for (double& v : left)
+    if (!is_missing(v)) v = std::clamp(v, -limit, limit);
+  auto w = whiten(conditions, left, Part::train, coefficients);
+  for (std::size_t k = 0; k < w.samples.size(); ++k)
+    w.innovations[k] += given[w.samples[k]] - left[w.samples[k]];
+  if (w.innovations.size() < 500) return tails;
+  double deviation = robust_deviation(w.innovations);
+  const auto n = static_cast<double>(w.innovations.size());
+  tails.white_std_dps = deviation;
+
+  std::vector<double> relative(w.innovations.size(), 1.0);
+  if (temperature) {
+    const auto& T = conditions.series().temperature_C;
+    double mean = 0.0;
+    for (const std::size_t i : w.samples) mean += T[i] / n;
+    tails.reference_C = mean;
+    double square = 0.0;
+    for (int pass = 0; pass < 8;
+         ++pass) {  // Fisher scoring of log sigma = log s + log(1 + b (T - T0))
+      double tt = 0.0, tv = 0.0, ss = 0.0, count = 0.0;
+      for (std::size_t k = 0; k < w.samples.size(); ++k) {
+        const double off = T[w.samples[k]] - mean;
+        const double gain = std::max(0.05, 1.0 + tails.noise_per_C * off);
+        const double e = w.innovations[k] / (gain * deviation);
+        if (std::abs(e) > cut) continue;
+        const double slope = off / gain;
+        tt += 2.0 * slope * slope;
+        tv += slope * (e * e - 1.0);
+        ss += e * e;
+        count += 1.0;
+      }
+      square = ss / std::max(1.0, count);
+      deviation *= std::sqrt(square);
+      tails.noise_per_C += tt > 0.0 ? std::clamp(tv / tt, -0.05, 0.05) : 0.0;
+    }
+    double even = 0.0, with = 0.0, square_even = 0.0, count = 0.0, logs = 0.0;
+    double square_with = 0.0;
+    for (std::size_t k = 0; k < w.samples.size(); ++k) {
+      const double gain = std::max(0.05, 1.0 + tails.noise_per_C * (T[w.samples[k]] - mean));
+      relative[k] = gain;
+      const double e = w.innovations[k];
+      if (std::abs(e) > cut * deviation * gain) continue;
+      count += 1.0;
+      square_even += e * e;
+      square_with += e * e / (gain * gain);
+      logs += std::log(gain);
+    }
+    even = -0.5 * count * std::log(square_even / count);
+    with = -0.5 * count * std::log(square_with / count) - logs;
+    tails.temperature_gain = std::max(0.0, with - even);
+    // What does not show does not scale the others.
+    if (tails.temperature_gain < 7.0) std::fill(relative.begin(), relative.end(), 1.0);
+  }
+
+  // Two normal components by expectation-maximisation (Dempster, Laird and Rubin 1977).
+  double narrow = 0.0, all = 0.0;
+  std::vector<double> squares(w.innovations.size());
+  for (std::size_t k = 0; k < squares.size(); ++k) {
+    const double e = w.innovations[k] / relative[k];
+    squares[k] = e * e;
+    all += squares[k] / n;
+  }
+  narrow = deviation * deviation;
+  double wide = 25.0 * narrow, share = 0.003;
+  for (int pass = 0; pass < 60; ++pass) {
+    const double log_odds = std::log(share / (1.0 - share)) + 0.5 * std::log(narrow / wide);
+    const double curve = 0.5 * (1.0 / narrow - 1.0 / wide);
+    double weight = 0.0, of_wide = 0.0, of_narrow = 0.0;
+    for (const double s : squares) {
+      const double hit = 1.0 / (1.0 + std::exp(-(log_odds + curve * s)));
+      weight += hit;
+      of_wide += hit * s;
+      of_narrow += (1.0 - hit) * s;
+    }
+    share = std::clamp(weight / n, 1e-6, 0.5);
+    narrow = of_narrow / std::max(1.0, n - weight);
+    wide = std::max(of_wide / std::max(1e-9, weight), 2.0 * narrow);
+  }
+  double mixed = 0.0;
+  for (const double s : squares)
+    mixed += std::log((1.0 - share) * std::exp(-0.5 * s / narrow) / std::sqrt(narrow) +
+                      share * std::exp(-0.5 * s / wide) / std::sqrt(wide) + 1e-300);
+  tails.outlier_gain = mixed + 0.5 * n * (std::log(all) + 1.0);
+  tails.outlier_probability = share;
+  tails.outlier_std_dps = std::sqrt(std::max(wide - narrow, 0.0));
+  tails.white_std_dps = std::sqrt(narrow);
+  const double odd = 4.5 * std::sqrt(narrow);
+  for (const Part part : parts)
+    for (const auto& span : conditions.spans(part))
+      for (std::size_t i = span.first; i < span.last; ++i) {
+        double e = given[i];
+        for (std::size_t j = 0; j < std::min(order, i - span.first); ++j)
+          e -= coefficients[j] * (is_missing(left[i - 1 - j]) ? 0.0 : left[i - 1 - j]);
+        if (std::abs(e) > odd) tails.outliers[i] = 1;
+      }
+  return tails;
+}
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include <gyrostat/diagnosis/gap/conditions.hpp>
+
+namespace gyrostat::gap {
+
+/// What the sizes of innovations say, whatever their order.
+struct Tails {
+  double outlier_probability = 0.0, outlier_std_dps = 0.0;
+  double outlier_gain = 0.0;  ///< log-likelihood beyond normal innovations
+  double noise_per_C = 0.0, reference_C = 0.0;
+  double temperature_gain = 0.0;  ///< log-likelihood beyond even noise
+  double white_std_dps = 0.0;     ///< of innovations that are not outliers, at the reference
+  std::vector<char> outliers;     ///< a flag a sample, of all samples
+};
+
+/// Innovations of an autoregression fitted to the train part of `left_dps` (NaN: unknown): what a
+/// set of effects leaves of the rate, without its slow part. `temperature` says whether the noise
+/// may follow it.
+Tails tails_of(const Conditions& conditions, const std::vector<double>& left_dps, bool temperature);
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,105 @@
+// Sets of effects by likelihood, on recordings whose effects are known.
+
+#include <gyrostat/diagnosis/likelihood/set_search.hpp>
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <gyrostat/generators/effects/list.hpp>
+#include <gyrostat/generators/environment/motion/list.hpp>
+#include <gyrostat/generators/environment/temperature/list.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+Scenario still() {
+  Scenario s;
+  s.sampling = {1200.0, 20.0};
+  s.random_error = {
+      .phi = 0.8, .delta1_dps = 3e-4, .delta2_dps = 2.8e-4, .measurement_noise_std_dps = 0.05};
+  s.thermal_drift = {.a_dps_per_C = -0.002, .b_dps_s_per_C = 0.1, .c_dps = 0.1};
+  s.temperature = temperature::Cycle{23.0, 57.0, 800.0};
+  s.compass.noise_std_deg = 0.3;
+  return s;
+}
+
+Series recorded(const Scenario& scenario, std::uint64_t seed, bool with_rate) {
+  Series series;
+  synthesise(scenario, {seed, 0}, series);
+  series.thermal_bias_dps.clear();
+  series.random_error_dps.clear();
+  series.mag_valid.clear();
+  if (!with_rate) series.rate_ref_dps.clear();
+  return series;
+}
+
+std::set<std::string> found_in(const Series& series) {
+  const Simulator simulator(series, 1);
+  std::set<std::string> names;
+  for (const auto& member : find_set(simulator, series, {}).members) names.insert(member.effect);
+  return names;
+}
+
+struct Known {
+  std::string name;
+  std::vector<Effect> effects;
+  bool moves = false;
+};
+
+class StrongSet : public testing::TestWithParam<Known> {};
+
+TEST_P(StrongSet, IsFoundWhole) {
+  Scenario s = still();
+  if (GetParam().moves) {
+    s.temperature = temperature::QuietRoom{.start_C = 38.0, .end_C = 40.0};
+    s.motion = motion::Sinusoidal{80.0, 0.031};
+  }
+  s.effects = GetParam().effects;
+  std::set<std::string> expected;
+  for (const auto& effect : s.effects) expected.emplace(effect.id());
+  EXPECT_EQ(found_in(recorded(s, 77, GetParam().moves)), expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    SetSearch, StrongSet,
+    testing::Values(Known{"noise",
+                          {effects::NoiseBandwidth{2.0}, effects::Vibration{0.04, 4.0, 0.4},
+                           effects::Outliers{0.005, 0.5}}},
+                    Known{"slow",
+                          {effects::GaussMarkov{0.02, 15.0}, effects::ThermalCurvature{6e-4, 40.0},
+                           effects::StaleSamples{0.05, 1.0}}},
+                    Known{"levels",
+                          {effects::Telegraph{0.03, 40.0}, effects::Quantization{0.1},
+                           effects::NoiseTemperature{0.03}}},
+                    Known{"motion",
+                          {effects::ScaleFactor{0.01}, effects::SensorBandwidth{1.0},
+                           effects::HardIron{5.0, 40.0}},
+                          true}),
+    [](const auto& known) { return known.param.name; });
+
+/// A search that names something in one of a hundred recordings without effects names something in
+/// three of twenty once in a thousand families.
+TEST(SetSearch, FindsNothingInNothing) {
+  int alarms = 0;
+  for (std::uint64_t seed = 500; seed < 520; ++seed)
+    alarms += found_in(recorded(still(), seed, false)).empty() ? 0 : 1;
+  EXPECT_LT(alarms, 3);
+}
+
+/// Noise that belongs in R is there, for quantised and for coloured sensors alike.
+TEST(SetSearch, WhiteNoiseIsInTheMeasurementNoise) {
+  for (const Effect& effect :
+       {Effect(effects::Quantization{0.05}), Effect(effects::NoiseAveraging{.length = 1.43})}) {
+    Scenario s = still();
+    s.effects = {effect};
+    const Series series = recorded(s, 9, false);
+    const Simulator simulator(series, 1);
+    const auto found = find_set(simulator, series, {});
+    EXPECT_NEAR(found.scenario.random_error.measurement_noise_std_dps, 0.05, 0.005) << effect.id();
+    EXPECT_GT(found.baseline.random_error.measurement_noise_std_dps, 0.03) << effect.id();
+  }
+}
+
+}  // namespace
+}  // namespace gyrostat::gap

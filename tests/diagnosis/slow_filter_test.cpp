@@ -1,0 +1,110 @@
+// The likelihood of cluster means against dense matrices, and against all histories of jumps.
+
+#include <gyrostat/diagnosis/likelihood/slow_filter.hpp>
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include <gyrostat/core/random.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+const std::vector<std::size_t> points = {0, 1, 2, 3, 7, 8, 9, 15, 16, 17};
+
+Eigen::VectorXd drawn(std::string_view name, Eigen::Index count) {
+  const NormalStream stream(7, 0, name);
+  Eigen::VectorXd values(count);
+  for (Eigen::Index k = 0; k < count; ++k) values[k] = stream.normal(static_cast<std::uint64_t>(k));
+  return values;
+}
+
+/// Log density of zero-mean normal values.
+double log_normal(const Eigen::VectorXd& values, const Eigen::MatrixXd& covariance) {
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  const Eigen::VectorXd white = root.matrixL().solve(values);
+  return -0.5 * white.squaredNorm() - root.matrixLLT().diagonal().array().log().sum() -
+         0.5 * static_cast<double>(values.size()) * std::log(2.0 * std::numbers::pi);
+}
+
+/// Covariance of what the law makes at the points, from a level that is 0 at the first.
+Eigen::MatrixXd covariance_of(const SlowLaw& law) {
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd c(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto first = static_cast<double>(points[static_cast<std::size_t>(std::min(i, j))]);
+      const auto last = static_cast<double>(points[static_cast<std::size_t>(std::max(i, j))]);
+      c(i, j) = law.walk * first + (i == j ? law.white : 0.0);
+      for (const auto& part : law.parts)
+        c(i, j) += part.variance * std::pow(part.decay, last - first);
+    }
+  return c;
+}
+
+/// Differences from one value to the next know nothing of the level: their density is the diffuse
+/// likelihood.
+Eigen::MatrixXd differences() {
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd d = Eigen::MatrixXd::Zero(n - 1, n);
+  for (Eigen::Index k = 0; k + 1 < n; ++k) d(k, k) = -1.0, d(k, k + 1) = 1.0;
+  return d;
+}
+
+TEST(SlowFilter, IsTheDensityOfDifferences) {
+  const SlowLaw law{.white = 0.5, .walk = 0.03, .parts = {{0.8, 0.7}, {0.2, 0.95}}, .jumps = {}};
+  const auto values = drawn("values", 10);
+  const Eigen::MatrixXd d = differences();
+  const double expected = log_normal(d * values, d * covariance_of(law) * d.transpose());
+  const auto terms = slow_terms(law, points, values, Eigen::MatrixXd(10, 0), Eigen::VectorXd());
+  EXPECT_NEAR(terms.log_likelihood, expected, 1e-5);
+}
+
+TEST(SlowFilter, CoefficientsAreIntegratedOutUnderTheirPriors) {
+  const SlowLaw law{.white = 0.5, .walk = 0.03, .parts = {{0.8, 0.7}}, .jumps = {}};
+  const auto values = drawn("values", 10);
+  Eigen::MatrixXd regressors(10, 2);
+  regressors << drawn("first", 10), drawn("second", 10);
+  const Eigen::Vector2d prior_std(0.7, 2.0);
+  const Eigen::MatrixXd of_priors =
+      regressors * prior_std.cwiseAbs2().asDiagonal() * regressors.transpose();
+  const Eigen::MatrixXd d = differences();
+  const double expected =
+      log_normal(d * values, d * (covariance_of(law) + of_priors) * d.transpose());
+  const auto terms = slow_terms(law, points, values, regressors, prior_std);
+  EXPECT_NEAR(terms.log_likelihood, expected, 1e-5);
+}
+
+/// Of all histories of two levels, with a walk beside them.
+TEST(SlowFilter, FollowsTwoLevelsAsTheSumOverAllHistoriesDoes) {
+  SlowLaw law{.white = 0.1, .walk = 0.01, .parts = {}, .jumps = {}};
+  const double half = 0.8, per_step = 0.2;
+  const Eigen::MatrixXd d = differences();
+  const Eigen::MatrixXd covariance = d * covariance_of(law) * d.transpose();
+  Eigen::VectorXd values = 0.3 * drawn("values", 10);
+  for (const Eigen::Index k : {3, 4, 5, 8}) values[k] += 2.0 * half;
+  double sum = 0.0;
+  for (int history = 0; history < 1024; ++history) {
+    double weight = 0.5;
+    Eigen::VectorXd level(10);
+    for (Eigen::Index k = 0; k < 10; ++k) {
+      level[k] = (history >> k & 1) != 0 ? half : -half;
+      if (k == 0) continue;
+      const auto i = static_cast<std::size_t>(k);
+      const double mean = per_step * static_cast<double>(points[i] - points[i - 1]);
+      const double change = 0.5 * (1.0 - std::exp(-2.0 * mean));
+      weight *= level[k] == level[k - 1] ? 1.0 - change : change;
+    }
+    sum += weight * std::exp(log_normal(d * (values - level), covariance));
+  }
+  law.jumps = {Jumps::To::the_other_level, half, per_step};
+  const auto terms = slow_terms(law, points, values, Eigen::MatrixXd(10, 0), Eigen::VectorXd());
+  // Histories are merged and dropped: a few hundredths of a nat.
+  EXPECT_NEAR(terms.log_likelihood, std::log(sum), 0.1);
+}
+
+}  // namespace
+}  // namespace gyrostat::gap
