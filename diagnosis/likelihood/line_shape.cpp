@@ -1,6 +1,7 @@
 #include <gyrostat/diagnosis/likelihood/line_shape.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -12,8 +13,9 @@
 namespace gyrostat::gap {
 namespace {
 
-/// A block is this share of the time that the line remembers: it hardly turns on its way through.
-constexpr double block_of_memory = 0.35;
+/// A block is such a share of the time that the line remembers: in short ones the line hardly turns
+/// on its way through, in long ones it stands out of the noise.
+constexpr std::array blocks_of_memory = {0.35, 0.7, 1.4};
 constexpr std::size_t shortest_block = 4;
 
 /// Squared envelopes, block after block of each span of the train part.
@@ -39,10 +41,8 @@ double log_bessel_i0(double x) {
   return x - 0.5 * std::log(2.0 * std::numbers::pi * x) + 0.125 / x;
 }
 
-}  // namespace
-
-LineShape line_shape(const Conditions& conditions, const std::vector<double>& left_dps,
-                     const Resonance& line) {
+LineShape shape_in_blocks(const Conditions& conditions, const std::vector<double>& left_dps,
+                          const Resonance& line, double block_of_memory) {
   LineShape shape;
   const double memory_s = 1.0 / (std::numbers::pi * std::max(line.bandwidth_hz, 1e-9));
   const double block_s = std::max(block_of_memory * memory_s, 1.0 / line.centre_hz);
@@ -106,6 +106,19 @@ LineShape line_shape(const Conditions& conditions, const std::vector<double>& le
   shape.on_s = begun > 0.0 ? with / begun * seconds : seconds;
   shape.off_s = begun > 0.0 ? (n - with) / begun * seconds : n * seconds;
   return shape;
+}
+
+}  // namespace
+
+LineShape line_shape(const Conditions& conditions, const std::vector<double>& left_dps,
+                     const Resonance& line) {
+  LineShape best;
+  for (const double block_of_memory : blocks_of_memory) {
+    const auto shape = shape_in_blocks(conditions, left_dps, line, block_of_memory);
+    if (std::max(shape.wandering, shape.bursts) > std::max(best.wandering, best.bursts))
+      best = shape;
+  }
+  return best;
 }
 
 }  // namespace gyrostat::gap

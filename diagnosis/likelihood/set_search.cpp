@@ -356,7 +356,7 @@ Standing Search::searched(Standing standing) const {
 
 /// Narrow bands have the names that their envelopes say.
 void Search::name_lines(FoundSet& found) const {
-  constexpr double clear = 3.0;
+  constexpr double clear = 4.0;
   for (auto& effect : found.scenario.effects) {
     if (effect.id() != "vibration") continue;
     const double std_dps = effect.value(field_of(effect, "std_dps"));
