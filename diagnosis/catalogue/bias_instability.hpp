@@ -9,7 +9,7 @@
 
 namespace gyrostat::gap {
 
-/// The flat part of the Allan variance.
+/// Decaying errors of all memories, alike.
 template <>
 struct Diagnosed<effects::BiasInstability> {
   static constexpr auto signature = Signature::none;

@@ -7,7 +7,7 @@
 
 namespace gyrostat::gap {
 
-/// The hump that a correlation time leaves in the Allan variance.
+/// A decaying error of one memory.
 template <>
 struct Diagnosed<effects::GaussMarkov> {
   static constexpr auto signature = Signature::none;

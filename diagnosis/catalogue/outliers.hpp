@@ -9,7 +9,7 @@
 
 namespace gyrostat::gap {
 
-/// Steps of two widths.
+/// Innovations of two widths (`tails`).
 template <>
 struct Diagnosed<effects::Outliers> {
   static constexpr auto signature = Signature::none;
