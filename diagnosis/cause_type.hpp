@@ -14,7 +14,6 @@ struct Beside;
 class Conditions;
 struct Evidence;
 struct NoiseLaw;
-struct Start;
 
 /// What an effect adds to a recording, seen over replicas of one scenario.
 enum class Signature {
@@ -37,7 +36,7 @@ struct CauseType {
   Effect (*effect)();  ///< with its default parameters
   /// First parameters from what a set leaves of the recording, one or several; none where it shows
   /// nothing alike, nullptr where `guesses` finds them.
-  std::vector<Start> (*starts)(const Evidence& evidence);
+  std::vector<Effect> (*starts)(const Evidence& evidence);
   /// First parameters beside what a set already has, for a fit by likelihood; nullptr where
   /// `starts` on what the set leaves finds them.
   std::vector<Effect> (*guesses)(const Beside& beside);

@@ -6,7 +6,6 @@
 
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
-#include <gyrostat/diagnosis/start.hpp>
 
 namespace gyrostat::gap {
 
@@ -19,7 +18,7 @@ namespace gyrostat::gap {
 ///     static constexpr std::array free_parameters = {&effects::Mine::std_dps};
 ///     static std::vector<effects::Mine> guesses(const Beside& beside);    // where it has a law,
 ///     or static void enter(const effects::Mine& effect, NoiseLaw& law);      // a slow signature
-///     static std::vector<Start> starts(const Evidence& evidence);         // where it has another
+///     static std::vector<effects::Mine> starts(const Evidence& evidence); // where it has another
 ///     static std::string why_not_assessable(const Conditions& conditions);
 ///     static bool is_what_it_is_called(const effects::Mine& effect, const Conditions& conditions);
 ///   };
@@ -39,7 +38,7 @@ concept SaysItsFreeParameters = requires {
 };
 template <class E>
 concept HasStarts = requires(const Evidence& evidence) {
-  { Diagnosed<E>::starts(evidence) } -> std::same_as<std::vector<Start>>;
+  { Diagnosed<E>::starts(evidence) } -> std::same_as<std::vector<E>>;
 };
 template <class E>
 concept HasGuesses = requires(const Beside& beside) {
@@ -90,9 +89,13 @@ CauseType describe_cause() {
           .effect = [] { return Effect(E{}); },
           .starts =
               [] {
-                using Starts = std::vector<Start> (*)(const Evidence&);
+                using Starts = std::vector<Effect> (*)(const Evidence&);
                 if constexpr (HasStarts<E>)
-                  return Starts(D::starts);
+                  return Starts([](const Evidence& evidence) {
+                    std::vector<Effect> all;
+                    for (const E& start : D::starts(evidence)) all.emplace_back(start);
+                    return all;
+                  });
                 else
                   return Starts(nullptr);
               }(),

@@ -9,11 +9,9 @@ struct Evidence {
   const Simulator& simulator;
   const Series& recording;
   Scene scene;
-  Scenario baseline;     ///< fitted to the recording
-  double white_std_dps;  ///< of the recording, from its single steps
+  Scenario baseline;  ///< fitted to the recording
 
   const Conditions& conditions() const { return simulator.conditions(); }
-  double seconds_of_train() const;
 };
 
 }  // namespace gyrostat::gap

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include <Eigen/QR>
 
+#include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
 
 namespace gyrostat::gap {
@@ -14,20 +14,7 @@ namespace {
 /// Replicas from here on are for fitting, those before for judging.
 constexpr std::uint32_t judging_replicas = 200;
 
-/// A parameter of a scenario on the scale that a fit moves it on.
-struct Dial {
-  std::function<double(const Scenario&)> get;
-  std::function<void(Scenario&, double)> set;
-  double step;  ///< for a difference quotient
-};
-
-Dial logarithmic(const std::function<double&(Scenario&)>& value, double low, double high) {
-  return {[=](const Scenario& s) {
-            Scenario copy = s;
-            return std::log(std::max(value(copy), 1e-300));
-          },
-          [=](Scenario& s, double x) { value(s) = std::clamp(std::exp(x), low, high); }, 0.1};
-}
+constexpr double step = 0.1;  ///< of a dial, for a difference quotient
 
 std::vector<Dial> noise_dials(const Conditions& conditions) {
   std::vector<Dial> dials;
@@ -39,14 +26,6 @@ std::vector<Dial> noise_dials(const Conditions& conditions) {
   dials.push_back(
       logarithmic([](Scenario& s) -> double& { return s.random_error.delta1_dps; }, 1e-12, 1e6));
   return dials;
-}
-
-Scenario moved(Scenario scenario, const std::vector<Dial>& dials, const Eigen::VectorXd& by) {
-  std::vector<double> to;
-  for (std::size_t d = 0; d < dials.size(); ++d)
-    to.push_back(dials[d].get(scenario) + by[static_cast<Eigen::Index>(d)]);
-  for (std::size_t d = 0; d < dials.size(); ++d) dials[d].set(scenario, to[d]);
-  return scenario;
 }
 
 }  // namespace
@@ -84,7 +63,6 @@ BaselineFit linearised(const Simulator& simulator, const Scenario& scenario) {
   const Eigen::VectorXd middle = simulator.mean_train(scenario, judging_replicas, replicas);
   fit.train_jacobian.resize(middle.size(), count);
   for (Eigen::Index d = 0; d < count; ++d) {
-    const double step = dials[static_cast<std::size_t>(d)].step;
     const Scenario there = moved(scenario, dials, step * Eigen::VectorXd::Unit(count, d));
     fit.train_jacobian.col(d) =
         (simulator.mean_train(there, judging_replicas, replicas) - middle) / step;

@@ -3,7 +3,6 @@
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/compass_lag.hpp>
 
 namespace gyrostat::gap {
@@ -14,10 +13,9 @@ struct Diagnosed<effects::CompassLag> {
   static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::CompassLag::time_constant_s};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    return only(shaped(e, Trace::heading, effects::CompassLag{},
-                       &effects::CompassLag::time_constant_s, 0.5 * e.conditions().interval_s(),
-                       30.0));
+  static std::vector<effects::CompassLag> starts(const Evidence& e) {
+    return {shaped(e, Trace::heading, effects::CompassLag{}, &effects::CompassLag::time_constant_s,
+                   0.5 * e.conditions().interval_s(), 30.0)};
   }
 
   static std::string why_not_assessable(const Conditions& c) {

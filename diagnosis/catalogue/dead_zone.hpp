@@ -4,7 +4,6 @@
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/motion.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/dead_zone.hpp>
 
 namespace gyrostat::gap {
@@ -16,13 +15,13 @@ struct Diagnosed<effects::DeadZone> {
   static constexpr std::array free_parameters = {&effects::DeadZone::half_width_dps,
                                                  &effects::DeadZone::lost_beyond};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    std::vector<Start> found;
+  static std::vector<effects::DeadZone> starts(const Evidence& e) {
+    std::vector<effects::DeadZone> found;
     for (const double lost : {0.0, 1.0}) {
       const auto effect =
           shaped(e, Trace::rate, effects::DeadZone{.lost_beyond = lost},
                  &effects::DeadZone::half_width_dps, 0.001 * fastest_dps(e), 0.5 * fastest_dps(e));
-      found.push_back({effect});
+      found.push_back(effect);
     }
     return found;
   }

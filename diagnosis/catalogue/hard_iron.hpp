@@ -3,7 +3,6 @@
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/iron.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/hard_iron.hpp>
 
 namespace gyrostat::gap {
@@ -15,7 +14,9 @@ struct Diagnosed<effects::HardIron> {
   static constexpr std::array free_parameters = {&effects::HardIron::amplitude_deg,
                                                  &effects::HardIron::phase_deg};
 
-  static std::vector<Start> starts(const Evidence& e) { return only(iron<effects::HardIron>(e)); }
+  static std::vector<effects::HardIron> starts(const Evidence& e) {
+    return {iron<effects::HardIron>(e)};
+  }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::turns(c); }
 

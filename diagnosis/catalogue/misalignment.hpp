@@ -6,7 +6,7 @@
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
+#include <gyrostat/diagnosis/starts/signature.hpp>
 #include <gyrostat/generators/effects/misalignment.hpp>
 
 namespace gyrostat::gap {
@@ -18,11 +18,11 @@ struct Diagnosed<effects::Misalignment> {
   static constexpr std::array free_parameters = {&effects::Misalignment::share_1,
                                                  &effects::Misalignment::share_2};
 
-  static std::vector<Start> starts(const Evidence& e) {
+  static std::vector<effects::Misalignment> starts(const Evidence& e) {
     const auto columns = signatures(
         e, Trace::rate, {effects::Misalignment{1.0, 0.0}, effects::Misalignment{0.0, 1.0}});
     const auto found = match(columns, trace_of(e, Trace::rate)).amplitudes;
-    return only(effects::Misalignment{found[0], found[1]});
+    return {effects::Misalignment{found[0], found[1]}};
   }
 
   static std::string why_not_assessable(const Conditions& c) {

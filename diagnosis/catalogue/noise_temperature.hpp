@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
 #include <gyrostat/generators/effects/noise_temperature.hpp>

@@ -4,7 +4,6 @@
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/motion.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/saturation.hpp>
 
 namespace gyrostat::gap {
@@ -15,9 +14,9 @@ struct Diagnosed<effects::Saturation> {
   static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::Saturation::limit_dps};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    return only(shaped(e, Trace::rate, effects::Saturation{}, &effects::Saturation::limit_dps,
-                       0.05 * fastest_dps(e), 1.02 * fastest_dps(e)));
+  static std::vector<effects::Saturation> starts(const Evidence& e) {
+    return {shaped(e, Trace::rate, effects::Saturation{}, &effects::Saturation::limit_dps,
+                   0.05 * fastest_dps(e), 1.02 * fastest_dps(e))};
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

@@ -3,7 +3,6 @@
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/scale_asymmetry.hpp>
 
 namespace gyrostat::gap {
@@ -14,9 +13,9 @@ struct Diagnosed<effects::ScaleAsymmetry> {
   static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::ScaleAsymmetry::error};
 
-  static std::vector<Start> starts(const Evidence& e) {
-    return only(
-        scaled(e, Trace::rate, effects::ScaleAsymmetry{}, [](auto& p, double a) { p.error = a; }));
+  static std::vector<effects::ScaleAsymmetry> starts(const Evidence& e) {
+    return {
+        scaled(e, Trace::rate, effects::ScaleAsymmetry{}, [](auto& p, double a) { p.error = a; })};
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

@@ -5,7 +5,6 @@
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/remedies.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/scale_temperature.hpp>
 
 namespace gyrostat::gap {
@@ -17,11 +16,11 @@ struct Diagnosed<effects::ScaleTemperature> {
   static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::ScaleTemperature::scale_per_C};
 
-  static std::vector<Start> starts(const Evidence& e) {
+  static std::vector<effects::ScaleTemperature> starts(const Evidence& e) {
     const auto& T = e.conditions().slow_temperature_C();
     const double middle = 0.5 * (std::ranges::min(T) + std::ranges::max(T));
-    return only(scaled(e, Trace::rate, effects::ScaleTemperature{1.0, middle},
-                       [](auto& p, double a) { p.scale_per_C = a; }));
+    return {scaled(e, Trace::rate, effects::ScaleTemperature{1.0, middle},
+                   [](auto& p, double a) { p.scale_per_C = a; })};
   }
 
   static std::string why_not_assessable(const Conditions& c) {

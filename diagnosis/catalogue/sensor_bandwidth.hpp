@@ -3,7 +3,6 @@
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/sensor_bandwidth.hpp>
 
 namespace gyrostat::gap {
@@ -14,10 +13,10 @@ struct Diagnosed<effects::SensorBandwidth> {
   static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::SensorBandwidth::cutoff_hz};
 
-  static std::vector<Start> starts(const Evidence& e) {
+  static std::vector<effects::SensorBandwidth> starts(const Evidence& e) {
     const double rate_hz = e.conditions().rate_hz();
-    return only(shaped(e, Trace::rate, effects::SensorBandwidth{},
-                       &effects::SensorBandwidth::cutoff_hz, 0.002 * rate_hz, 0.5 * rate_hz));
+    return {shaped(e, Trace::rate, effects::SensorBandwidth{}, &effects::SensorBandwidth::cutoff_hz,
+                   0.002 * rate_hz, 0.5 * rate_hz)};
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

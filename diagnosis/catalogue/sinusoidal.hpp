@@ -7,7 +7,7 @@
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
+#include <gyrostat/diagnosis/starts/signature.hpp>
 #include <gyrostat/diagnosis/starts/spectral_peak.hpp>
 #include <gyrostat/generators/effects/scale_asymmetry.hpp>
 #include <gyrostat/generators/effects/scale_factor.hpp>
@@ -25,9 +25,9 @@ struct Diagnosed<effects::Sinusoidal> {
                                                  &effects::Sinusoidal::frequency_hz,
                                                  &effects::Sinusoidal::phase_deg};
 
-  static std::vector<Start> starts(const Evidence& e) {
+  static std::vector<effects::Sinusoidal> starts(const Evidence& e) {
     const auto& conditions = e.conditions();
-    std::vector<Start> found;
+    std::vector<effects::Sinusoidal> found;
     for (const bool slow : {false, true}) {
       const auto peak = highest_peak(slow ? e.scene.slow_spectra[0] : e.scene.spectra[0]);
       if (peak.frequency_hz <= 0.0) continue;
@@ -58,7 +58,7 @@ struct Diagnosed<effects::Sinusoidal> {
       const double lost = slow && x > 0.0 ? std::sin(x) / x : 1.0;
       const effects::Sinusoidal sine{std::abs(line) / lost, best, wrap_degrees(phase)};
       if (follows_motion(e, sine)) continue;
-      found.push_back({sine});
+      found.push_back(sine);
     }
     return found;
   }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
 #include <gyrostat/generators/effects/stale_samples.hpp>

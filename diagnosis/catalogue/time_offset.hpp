@@ -5,7 +5,6 @@
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/remedies.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/time_offset.hpp>
 
 namespace gyrostat::gap {
@@ -17,7 +16,7 @@ struct Diagnosed<effects::TimeOffset> {
   static constexpr std::array free_parameters = {&effects::TimeOffset::offset_s};
 
   /// Its sign and first size by the rate's derivative, then its size by the rate itself.
-  static std::vector<Start> starts(const Evidence& e) {
+  static std::vector<effects::TimeOffset> starts(const Evidence& e) {
     const auto seen = trace_of(e, Trace::rate);
     const double interval_s = e.conditions().interval_s();
     const double first_s =
@@ -28,7 +27,7 @@ struct Diagnosed<effects::TimeOffset> {
       const effects::TimeOffset trial{std::copysign(offset_s, first_s)};
       return (seen - signatures(e, Trace::rate, {trial})).squaredNorm();
     });
-    return only(effects::TimeOffset{std::copysign(best_s, first_s)});
+    return {effects::TimeOffset{std::copysign(best_s, first_s)}};
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::told_motion(c); }

@@ -8,9 +8,7 @@
 #include <Eigen/QR>
 
 #include <gyrostat/core/error.hpp>
-#include <gyrostat/core/random.hpp>
 #include <gyrostat/core/step.hpp>
-#include <gyrostat/diagnosis/gap/octaves.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -93,7 +91,6 @@ Conditions::Conditions(const Series& recording) : series_(recording) {
     }
   }
   find_drift();
-  find_walk_left();
 }
 
 Part Conditions::part_of(std::size_t sample) const {
@@ -190,25 +187,6 @@ Eigen::VectorXd Conditions::drift_of(const std::vector<double>& slow) const {
 std::vector<double> Conditions::drift(const Eigen::VectorXd& coefficients) const {
   const Eigen::VectorXd values = drift_regressors_ * coefficients;
   return {values.begin(), values.end()};
-}
-
-/// By a hundred random walks with unit steps from cluster to cluster.
-void Conditions::find_walk_left() {
-  constexpr std::uint32_t walks = 100;
-  const auto& spans = slow_spans(Part::train);
-  walk_left_.assign(octave_count(spans), 0.0);
-  std::vector<double> walk(slow_size());
-  for (std::uint32_t k = 0; k < walks; ++k) {
-    NormalStream(1, k, "walk_left").fill(0, walk);
-    std::partial_sum(walk.begin(), walk.end(), walk.begin());
-    const auto drift_there = drift(drift_of(walk));
-    std::transform(walk.begin(), walk.end(), drift_there.begin(), walk.begin(), std::minus<>());
-    const auto left = octaves(walk, spans);
-    for (std::size_t level = 0; level < left.size(); ++level) {
-      const auto m = static_cast<double>(left[level].cluster);
-      walk_left_[level] += left[level].mean_square / ((2.0 * m * m + 1.0) / (3.0 * m)) / walks;
-    }
-  }
 }
 
 void Conditions::bridge(std::vector<double>& values) const {

@@ -74,9 +74,6 @@ class Conditions {
   Eigen::VectorXd train_values(const std::vector<double>& slow) const;
   /// All regressors but the constant at those points.
   Eigen::MatrixXd train_regressors() const;
-  /// What taking the drift out leaves of a random walk's Allan variance, an octave of clusters
-  /// each: the longest octaves lose most of theirs to it.
-  const std::vector<double>& walk_left() const { return walk_left_; }
   /// The slow points of the train part.
   const std::vector<std::size_t>& train_points() const { return train_points_; }
 
@@ -90,7 +87,6 @@ class Conditions {
  private:
   void find_spans();
   void find_drift();
-  void find_walk_left();
 
   Series series_;
   double interval_s_ = 0.0;
@@ -101,7 +97,6 @@ class Conditions {
   Eigen::MatrixXd drift_fit_, drift_regressors_;
   std::optional<LocalLevel> level_;
   std::vector<std::size_t> train_points_;
-  std::vector<double> walk_left_;
 };
 
 /// A series whose intervals are all multiples of one, with NaN rows for what is missing. Throws

@@ -10,8 +10,7 @@
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/evidence.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
-#include <gyrostat/diagnosis/start.hpp>
-#include <gyrostat/diagnosis/starts/train_steps.hpp>
+#include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -219,7 +218,7 @@ void CompassSearch::run(const SetSearchOptions& options) {
                                 : wrap_degrees(left.heading_deg[i] + error[i] - plain[i]);
     }
     left.gyro_dps.clear();
-    Evidence evidence{simulator_, recording_, Scene(conditions_, left), found_.baseline, 0.0};
+    Evidence evidence{simulator_, recording_, Scene(conditions_, left), found_.baseline};
     evidence.baseline.compass.initial_heading_deg = centre_deg_;
     return cause.starts(evidence);
   };
@@ -244,9 +243,9 @@ void CompassSearch::run(const SetSearchOptions& options) {
       for (const auto& start : starts(*cause, set))
         for (std::size_t place = 0; place <= set.size(); ++place) {
           auto trial = set;
-          trial.insert(trial.begin() + static_cast<std::ptrdiff_t>(place), start.effect);
+          trial.insert(trial.begin() + static_cast<std::ptrdiff_t>(place), start);
           trial = polished(trial);
-          const double gain = law_of(trial).gain_on(before) - cost(start.effect);
+          const double gain = law_of(trial).gain_on(before) - cost(start);
           if (gain > most) {
             most = gain;
             best = trial;

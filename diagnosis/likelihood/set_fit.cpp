@@ -2,39 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include <Eigen/Cholesky>
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 
 namespace gyrostat::gap {
 namespace {
-
-/// A parameter of a scenario on the scale that a fit moves it on.
-struct Dial {
-  std::function<double(const Scenario&)> get;
-  std::function<void(Scenario&, double)> set;
-  double furthest = 1.0;  ///< in one iteration
-};
-
-Dial logarithmic(const std::function<double&(Scenario&)>& value, double low, double high) {
-  return {[=](const Scenario& s) {
-            Scenario copy = s;
-            return std::log(std::clamp(value(copy), low, high));
-          },
-          [=](Scenario& s, double x) { value(s) = std::clamp(std::exp(x), low, high); }, 1.5};
-}
-
-Dial linear(const std::function<double&(Scenario&)>& value, double unit) {
-  return {[=](const Scenario& s) {
-            Scenario copy = s;
-            return value(copy) / unit;
-          },
-          [=](Scenario& s, double x) { value(s) = unit * x; }, 1.0};
-}
 
 std::vector<Dial> dials_of(const Scenario& scenario) {
   std::vector<Dial> dials;
@@ -68,12 +45,6 @@ std::vector<Dial> dials_of(const Scenario& scenario) {
     }
   }
   return dials;
-}
-
-Scenario moved(Scenario scenario, const std::vector<Dial>& dials, const Eigen::VectorXd& by) {
-  for (std::size_t d = 0; d < dials.size(); ++d)
-    dials[d].set(scenario, dials[d].get(scenario) + by[static_cast<Eigen::Index>(d)]);
-  return scenario;
 }
 
 }  // namespace

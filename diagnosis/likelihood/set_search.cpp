@@ -16,7 +16,6 @@
 #include <gyrostat/diagnosis/likelihood/line_shape.hpp>
 #include <gyrostat/diagnosis/likelihood/marks.hpp>
 #include <gyrostat/diagnosis/likelihood/tails.hpp>
-#include <gyrostat/diagnosis/start.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -209,8 +208,7 @@ Standing Search::fitted(const Scenario& scenario, std::shared_ptr<const SetFitte
 
 Evidence Search::evidence_of(const Standing& standing) const {
   const Series left = left_by(standing.scenario);
-  Evidence evidence{simulator_, recording_, Scene(conditions_, left), standing.scenario,
-                    standing.scenario.random_error.measurement_noise_std_dps};
+  Evidence evidence{simulator_, recording_, Scene(conditions_, left), standing.scenario};
   evidence.baseline.effects.clear();
   return evidence;
 }
@@ -236,7 +234,7 @@ Standing Search::with(const Standing& standing, const CauseType& cause,
   if (left == nullptr || !is_taken_out(cause.effect())) return best;
   for (const auto& start : cause.starts(*left)) {
     Scenario scenario = standing.scenario;
-    scenario.effects.push_back(start.effect);
+    scenario.effects.push_back(start);
     keep(refitted(scenario, 6));
   }
   if (best.score > standing.score - within_reach_of_polish) keep(polished(best));
@@ -508,7 +506,6 @@ FoundSet Search::run() {
   const auto baseline = baseline_fit();
   masked_ = repeats_;
   found.baseline = baseline.scenario;
-  found.log_likelihood_baseline = baseline.fit.log_likelihood;
 
   // Rounding to more than the noise is no longer noise: what it does to the fast part and to slow
   // noise has no law here.
@@ -598,7 +595,6 @@ FoundSet Search::run() {
                          [&](const auto& m) { return !is_marked(m.effect, marked_saturation_); }),
           found.members.end());
   }
-  found.log_likelihood = standing.fit.log_likelihood;
   found.screening = screening_;
   found.scenario = standing.scenario;
   outliers_ = tails.outliers;

@@ -35,7 +35,6 @@ struct FoundSet {
   std::vector<Rival> rivals;
   /// What each effect would have gained at each step of the search.
   std::vector<std::pair<std::string, double>> screening;
-  double log_likelihood_baseline = 0.0, log_likelihood = 0.0;  ///< train part
   /// The scenario with those effects of the set alone that have one of the names, its noise fitted
   /// anew. Outlives neither the simulator nor the recording.
   std::function<Scenario(const std::vector<std::string>&)> subset;

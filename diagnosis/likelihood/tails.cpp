@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include <gyrostat/core/step.hpp>
-#include <gyrostat/diagnosis/starts/train_steps.hpp>
+#include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gyrostat/diagnosis/starts/rest.hpp>
+#include <gyrostat/diagnosis/starts/signature.hpp>
 
 namespace gyrostat::gap {
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include <gyrostat/diagnosis/evidence.hpp>
-#include <gyrostat/diagnosis/start.hpp>
 
 namespace gyrostat::gap {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <gyrostat/diagnosis/starts/train_steps.hpp>
+#include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
 

@@ -35,7 +35,7 @@ struct SaysFree {
 };
 template <class E>
 struct SaysStarts {
-  static std::vector<Start> starts(const Evidence&);
+  static std::vector<E> starts(const Evidence&);
 };
 template <class E>
 struct SaysNeeds {
@@ -146,8 +146,7 @@ TEST(CatalogueContract, StartsAreTheEffectWithSoundParameters) {
   const Simulator simulator(recording, 1);
   const auto& conditions = simulator.conditions();
   const auto baseline = fit_baseline(simulator, recording).scenario;
-  const Evidence evidence{simulator, recording, Scene(conditions, recording), baseline,
-                          baseline.random_error.measurement_noise_std_dps};
+  const Evidence evidence{simulator, recording, Scene(conditions, recording), baseline};
   const SetFitter fitter(
       conditions, std::make_shared<const ReducedRate>(conditions, evidence.scene.rate_error_dps,
                                                       std::vector<char>(recording.size(), 0)));
@@ -157,7 +156,7 @@ TEST(CatalogueContract, StartsAreTheEffectWithSoundParameters) {
   for (const auto& cause : cause_types()) {
     EXPECT_FALSE(cause.starts != nullptr && cause.guesses != nullptr) << cause.id;
     if (cause.starts != nullptr)
-      for (const auto& start : cause.starts(evidence)) expect_sound(cause, start.effect);
+      for (const auto& start : cause.starts(evidence)) expect_sound(cause, start);
     if (cause.guesses == nullptr) continue;
     EXPECT_TRUE(cause.enter != nullptr || cause.signature == Signature::slow) << cause.id;
     for (const auto& guess : cause.guesses(beside)) expect_sound(cause, guess);

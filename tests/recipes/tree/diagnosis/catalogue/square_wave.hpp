@@ -2,7 +2,6 @@
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
-#include <gyrostat/diagnosis/starts/rest.hpp>
 #include <gyrostat/generators/effects/square_wave.hpp>
 
 namespace gyrostat::gap {
@@ -13,7 +12,9 @@ struct Diagnosed<effects::SquareWave> {
   static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::SquareWave::amplitude_dps};
 
-  static std::vector<Start> starts(const Evidence& /*e*/) { return only(effects::SquareWave{}); }
+  static std::vector<effects::SquareWave> starts(const Evidence& /*e*/) {
+    return {effects::SquareWave{}};
+  }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
