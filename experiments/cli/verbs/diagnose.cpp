@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -51,14 +53,15 @@ int run(DiagnoseArguments& arguments, Console& console) {
     });
   });
   if (console.log_is_terminal) console.log << "\r\033[K";
+  const auto name = std::filesystem::path(file).filename().string();
   if (!arguments.json_out.empty())
     write_atomically(arguments.json_out, gap::to_json(diagnosis).dump(1) + '\n');
   if (!arguments.html_out.empty())
-    write_atomically(arguments.html_out, gap::diagnosis_page(diagnosis, file));
+    write_atomically(arguments.html_out, gap::diagnosis_page(diagnosis, name));
   if (!arguments.scenario_out.empty())
     write_atomically(arguments.scenario_out, gap::scenario_json(diagnosis).dump(2) + '\n');
-  if (format == Format::text) console.out << gap::in_words(diagnosis, file) << '\n';
-  console.out << render(gap::diagnosis_tables(diagnosis, file), format);
+  if (format == Format::text) console.out << gap::in_words(diagnosis, name) << '\n';
+  console.out << render(gap::diagnosis_tables(diagnosis, name), format);
   if (arguments.timing)
     for (const auto& [part, seconds] : diagnosis.seconds)
       console.log << fmt::format("{:<16} {:.2f} s\n", part, seconds);
