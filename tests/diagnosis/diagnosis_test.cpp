@@ -17,41 +17,12 @@
 #include <gyrostat/diagnosis/model_fit.hpp>
 #include <gyrostat/diagnosis/simulator.hpp>
 #include <gyrostat/generators/effects/list.hpp>
-#include <gyrostat/generators/environment/motion/list.hpp>
 #include <gyrostat/generators/environment/temperature/list.hpp>
 #include <gyrostat/recordings/recording.hpp>
+#include <gyrostat/tests/diagnosis/known_recordings.hpp>
 
 namespace gyrostat::gap {
 namespace {
-
-Scenario still() {
-  Scenario s;
-  s.sampling = {1200.0, 20.0};
-  s.random_error = {
-      .phi = 0.8, .delta1_dps = 3e-4, .delta2_dps = 2.8e-4, .measurement_noise_std_dps = 0.05};
-  s.thermal_drift = {.a_dps_per_C = -0.002, .b_dps_s_per_C = 0.1, .c_dps = 0.1};
-  s.temperature = temperature::Cycle{23.0, 57.0, 800.0};
-  s.compass.noise_std_deg = 0.3;
-  return s;
-}
-
-Scenario moving() {
-  Scenario s = still();
-  s.temperature = temperature::QuietRoom{.start_C = 38.0, .end_C = 40.0};
-  s.motion = motion::Sinusoidal{80.0, 0.031};
-  return s;
-}
-
-/// What a recorder would keep of a simulated signal.
-Series recorded(const Scenario& scenario, std::uint64_t seed, bool with_rate) {
-  Series s;
-  synthesise(scenario, {seed, 0}, s);
-  s.thermal_bias_dps.clear();
-  s.random_error_dps.clear();
-  s.mag_valid.clear();
-  if (!with_rate) s.rate_ref_dps.clear();
-  return s;
-}
 
 /// p-values of 500 recordings of 40 s that the simulator made itself, known or fitted to each of
 /// them.

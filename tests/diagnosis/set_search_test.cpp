@@ -7,32 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <gyrostat/generators/effects/list.hpp>
-#include <gyrostat/generators/environment/motion/list.hpp>
-#include <gyrostat/generators/environment/temperature/list.hpp>
+#include <gyrostat/tests/diagnosis/known_recordings.hpp>
 
 namespace gyrostat::gap {
 namespace {
-
-Scenario still() {
-  Scenario s;
-  s.sampling = {1200.0, 20.0};
-  s.random_error = {
-      .phi = 0.8, .delta1_dps = 3e-4, .delta2_dps = 2.8e-4, .measurement_noise_std_dps = 0.05};
-  s.thermal_drift = {.a_dps_per_C = -0.002, .b_dps_s_per_C = 0.1, .c_dps = 0.1};
-  s.temperature = temperature::Cycle{23.0, 57.0, 800.0};
-  s.compass.noise_std_deg = 0.3;
-  return s;
-}
-
-Series recorded(const Scenario& scenario, std::uint64_t seed, bool with_rate) {
-  Series series;
-  synthesise(scenario, {seed, 0}, series);
-  series.thermal_bias_dps.clear();
-  series.random_error_dps.clear();
-  series.mag_valid.clear();
-  if (!with_rate) series.rate_ref_dps.clear();
-  return series;
-}
 
 std::set<std::string> found_in(const Series& series) {
   const Simulator simulator(series, 1);
@@ -50,11 +28,7 @@ struct Known {
 class StrongSet : public testing::TestWithParam<Known> {};
 
 TEST_P(StrongSet, IsFoundWhole) {
-  Scenario s = still();
-  if (GetParam().moves) {
-    s.temperature = temperature::QuietRoom{.start_C = 38.0, .end_C = 40.0};
-    s.motion = motion::Sinusoidal{80.0, 0.031};
-  }
+  Scenario s = GetParam().moves ? moving() : still();
   s.effects = GetParam().effects;
   std::set<std::string> expected;
   for (const auto& effect : s.effects) expected.emplace(effect.id());

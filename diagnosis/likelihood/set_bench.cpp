@@ -1,0 +1,234 @@
+#include <gyrostat/diagnosis/likelihood/set_bench.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/likelihood/beside.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+/// What a parameter gains by chance: half a nat, and as much again as makes chance rare.
+constexpr double of_a_parameter = 1.5;
+/// So far behind, polishing may still bring a candidate in front.
+constexpr double within_reach_of_polish = 30.0;
+constexpr int screening_iterations = 3;
+
+/// Same in every replica and not slow: taken out of the recording, sample by sample.
+bool is_taken_out(const Effect& effect) {
+  const auto* cause = cause_types().find(effect.id());
+  return cause != nullptr && cause->signature == Signature::repeated &&
+         effect.stage() != Stage::compass;
+}
+
+}  // namespace
+
+bool has(const Scenario& scenario, std::string_view effect) {
+  return std::any_of(scenario.effects.begin(), scenario.effects.end(),
+                     [&](const auto& e) { return e.id() == effect; });
+}
+
+bool SetBench::is_allowed(std::string_view effect) const {
+  if (std::find(without_.begin(), without_.end(), effect) != without_.end()) return false;
+  const auto* cause = cause_types().find(effect);
+  return cause != nullptr && cause->why_not_assessable(conditions_).empty();
+}
+
+bool SetBench::is_marked(std::string_view effect) const {
+  return (marked_saturation_ && effect == "saturation") || effect == "quantization" ||
+         effect == "stale_samples" || effect == "outliers" || effect == "noise_temperature";
+}
+
+void SetBench::mask_too(const std::vector<char>& samples) {
+  for (std::size_t i = 0; i < masked_.size(); ++i)
+    if (samples[i] != 0) masked_[i] = 1;
+}
+
+Scenario SetBench::plain() const {
+  Scenario s;
+  s.sampling.duration_s = conditions_.interval_s() * static_cast<double>(conditions_.size());
+  s.sampling.rate_hz = conditions_.rate_hz();
+  s.random_error = {
+      .phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.0};
+  s.thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = 0.0};
+  s.compass.noise_std_deg = 0.0;
+  return s;
+}
+
+Series SetBench::left_by(const Scenario& scenario) const {
+  Series left = recording_;
+  Scenario quiet = plain();
+  for (const auto& effect : scenario.effects)
+    if (is_taken_out(effect)) quiet.effects.push_back(effect);
+  if (quiet.effects.empty()) return left;
+  Series with, bare;
+  synthesise_rate_under(quiet, conditions_.series(), {}, with);
+  quiet.effects.clear();
+  synthesise_rate_under(quiet, conditions_.series(), {}, bare);
+  for (std::size_t i = 0; i < left.size(); ++i)
+    left.gyro_dps[i] -= with.gyro_dps[i] - bare.gyro_dps[i];
+  return left;
+}
+
+std::vector<double> SetBench::rate_error_beside(const Scenario& scenario) const {
+  auto error = left_by(scenario).gyro_dps;
+  const auto& reference = conditions_.series().rate_ref_dps;
+  for (std::size_t i = 0; i < reference.size(); ++i) error[i] -= reference[i];
+  conditions_.bridge(error);
+  return error;
+}
+
+std::shared_ptr<const SetFitter> SetBench::fitter_of(const Scenario& scenario) const {
+  return std::make_shared<SetFitter>(
+      conditions_,
+      std::make_shared<const ReducedRate>(conditions_, rate_error_beside(scenario), masked_));
+}
+
+/// So much for each parameter that is fitted, and the logarithm of the places looked at for lines.
+double SetBench::cost(const Scenario& scenario) const {
+  const double values = static_cast<double>(conditions_.train_points().size());
+  double sum = 0.0;
+  for (const auto& effect : scenario.effects) {
+    const auto* cause = cause_types().find(effect.id());
+    if (cause == nullptr || is_marked(effect.id())) continue;
+    sum += prior +
+           of_a_parameter * static_cast<double>(cause->free_parameters.size() - cause->amplitudes +
+                                                (effect.id() == "noise_bandwidth" ? 1 : 0));
+    if (effect.id() == "sinusoidal") sum += std::log(static_cast<double>(conditions_.size()));
+    if (effect.id() == "vibration") sum += 0.5 * std::log(values);
+  }
+  return sum;
+}
+
+Standing SetBench::fitted(const Scenario& scenario, std::shared_ptr<const SetFitter> fitter,
+                          int iterations, Jumping jumping) const {
+  Standing s{
+      .scenario = {}, .fitter = fitter, .fit = fitter->maximise(scenario, iterations, jumping)};
+  s.scenario = s.fit.scenario;
+  s.score = s.fit.log_likelihood - cost(s.scenario);
+  for (const auto& effect : s.scenario.effects)
+    if (const auto* cause = cause_types().find(effect.id());
+        cause != nullptr && !cause->is_what_it_is_called(effect, conditions_))
+      s.score = -1e300;
+  return s;
+}
+
+Evidence SetBench::evidence_of(const Standing& standing) const {
+  const Series left = left_by(standing.scenario);
+  Evidence evidence{simulator_, recording_, Scene(conditions_, left), standing.scenario};
+  evidence.baseline.effects.clear();
+  return evidence;
+}
+
+Standing SetBench::with(const Standing& standing, const CauseType& cause,
+                        const Evidence* left) const {
+  Standing best;
+  const auto keep = [&](Standing candidate) {
+    if (candidate.score > best.score) best = std::move(candidate);
+  };
+  if (cause.guesses != nullptr) {
+    const Beside beside{conditions_, *standing.fitter, standing.fit};
+    for (const auto& guess : cause.guesses(beside))
+      for (const double walk : {1.0, 0.1}) {
+        Scenario scenario = standing.scenario;
+        scenario.random_error.delta1_dps *= walk;
+        scenario.effects.push_back(guess);
+        keep(fitted(scenario, standing.fitter, screening_iterations, Jumping::no));
+      }
+    if (best.score < -1e299) return best;
+    return fitted(best.scenario, best.fitter, fitting_iterations);
+  }
+  if (left == nullptr || !is_taken_out(cause.effect())) return best;
+  for (const auto& start : cause.starts(*left)) {
+    Scenario scenario = standing.scenario;
+    scenario.effects.push_back(start);
+    keep(refitted(scenario, 6));
+  }
+  if (best.score > standing.score - within_reach_of_polish) keep(polished(best));
+  return best;
+}
+
+Standing SetBench::polished(Standing standing) const {
+  const auto likelihood = [&](const Scenario& scenario) {
+    return fitter_of(scenario)->terms(scenario, Part::train).log_likelihood;
+  };
+  Scenario scenario = standing.scenario;
+  double here = likelihood(scenario);
+  for (int pass = 0; pass < 2; ++pass)
+    for (auto& effect : scenario.effects) {
+      if (!is_taken_out(effect)) continue;
+      const auto& cause = cause_types().named(effect.id(), "effects");
+      for (const auto name : cause.free_parameters) {
+        const auto f = field_of(effect, name);
+        const double middle = effect.value(f);
+        double step = (pass == 0 ? 0.02 : 0.004) * std::max(std::abs(middle), 1e-9);
+        effect.value(f) = middle + step;
+        const double above = likelihood(scenario);
+        effect.value(f) = middle - step;
+        const double below = likelihood(scenario);
+        const double curve = above + below - 2.0 * here;
+        double by =
+            curve < 0.0 ? 0.5 * step * (below - above) / curve : (above > below ? step : -step);
+        by = std::clamp(by, -5.0 * step, 5.0 * step);
+        const auto& range = effect.fields()[f].range;
+        effect.value(f) = std::clamp(middle + by, range.from, range.to);
+        const double there = likelihood(scenario);
+        if (there > here)
+          here = there;
+        else
+          effect.value(f) = middle;
+      }
+    }
+  return refitted(scenario, 8);
+}
+
+Standing SetBench::without(const Standing& standing, std::size_t effect) const {
+  Scenario rest = standing.scenario;
+  rest.effects.erase(rest.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  // What the walk must stand in for has to begin where it can be seen.
+  auto& walk = rest.random_error.delta1_dps;
+  const Beside beside{conditions_, *standing.fitter, standing.fit};
+  const double small =
+      0.1 * beside.slow_std_dps() / std::sqrt(static_cast<double>(conditions_.cluster()));
+  Standing best = refitted(rest);
+  if (walk < small) {
+    walk = small;
+    if (auto other = refitted(rest); other.score > best.score) best = std::move(other);
+  }
+  return best;
+}
+
+std::vector<double> SetBench::rate_left_by(const Scenario& scenario,
+                                           const std::vector<char>& hidden) const {
+  auto left = rate_error_beside(scenario);
+  for (std::size_t i = 0; i < left.size(); ++i)
+    if (hidden[i] != 0) left[i] = no_value;
+  // Without its level, taken over long enough not to follow single samples, and within one part.
+  const std::size_t block = std::max<std::size_t>(conditions_.cluster(), 32);
+  for (const Part part : parts)
+    for (const auto& span : conditions_.spans(part))
+      for (std::size_t first = span.first; first < span.last; first += block) {
+        const std::size_t last = std::min(first + block, span.last);
+        double sum = 0.0, count = 0.0;
+        for (std::size_t i = first; i < last; ++i)
+          if (!is_missing(left[i])) sum += left[i], count += 1.0;
+        for (std::size_t i = first; i < last; ++i) left[i] -= count > 0.0 ? sum / count : 0.0;
+      }
+  return left;
+}
+
+Standing SetBench::baseline() {
+  masked_.assign(recording_.size(), 0);
+  Scenario base = plain();
+  const Scene scene(conditions_, recording_, train_alone);
+  const double first =
+      scene.octaves[0].empty() ? 1.0 : std::sqrt(0.5 * scene.octaves[0][0].mean_square);
+  base.random_error.measurement_noise_std_dps = std::max(first, 1e-9);
+  base.random_error.delta1_dps = 0.03 * base.random_error.measurement_noise_std_dps /
+                                 std::sqrt(static_cast<double>(conditions_.cluster()));
+  return refitted(base);
+}
+
+}  // namespace gyrostat::gap

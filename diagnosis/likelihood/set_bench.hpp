@@ -1,0 +1,85 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/evidence.hpp>
+#include <gyrostat/diagnosis/likelihood/set_fit.hpp>
+
+namespace gyrostat::gap {
+
+/// Log prior odds against any one effect more: of some thirty one or two are there.
+constexpr double prior = 4.0;
+
+/// A set with its fit.
+struct Standing {
+  Scenario scenario;  ///< every effect but those of the compass
+  std::shared_ptr<const SetFitter> fitter;
+  SetFit fit;
+  double score = -1e300;  ///< log-likelihood less what its parameters cost
+};
+
+bool has(const Scenario& scenario, std::string_view effect);
+
+/// Fits sets of effects to the train part of one recording, of which some samples may not count.
+class SetBench {
+ public:
+  /// Effects in `without` are left out of the catalogue.
+  SetBench(const Simulator& simulator, const Series& recording, std::vector<std::string> without)
+      : simulator_(simulator),
+        conditions_(simulator.conditions()),
+        recording_(recording),
+        without_(std::move(without)),
+        masked_(recording.size(), 0) {}
+
+  const Conditions& conditions() const { return conditions_; }
+  bool is_allowed(std::string_view effect) const;
+  /// Found from the values or the sizes of innovations, and not by the likelihood of the rate.
+  bool is_marked(std::string_view effect) const;
+  void mark_saturation() { marked_saturation_ = true; }
+
+  const std::vector<char>& masked() const { return masked_; }
+  void mask_only(std::vector<char> samples) { masked_ = std::move(samples); }
+  void mask_too(const std::vector<char>& samples);
+
+  /// No noise, no drift and no effects, under the recording's sampling.
+  Scenario plain() const;
+  /// Nothing masked, no effects.
+  Standing baseline();
+  Standing fitted(const Scenario& scenario, std::shared_ptr<const SetFitter> fitter, int iterations,
+                  Jumping jumping = Jumping::yes) const;
+  Standing refitted(const Scenario& scenario, int iterations = fitting_iterations) const {
+    return fitted(scenario, fitter_of(scenario), iterations);
+  }
+  /// With one more effect; a score of -1e300 where it cannot be had. `left` is what the set leaves.
+  Standing with(const Standing& standing, const CauseType& cause, const Evidence* left) const;
+  Standing without(const Standing& standing, std::size_t effect) const;
+  /// What starts of a further effect are made from.
+  Evidence evidence_of(const Standing& standing) const;
+  /// The rate error less its level and what is taken out; NaN where `hidden` (a flag a sample).
+  std::vector<double> rate_left_by(const Scenario& scenario, const std::vector<char>& hidden) const;
+
+ private:
+  static constexpr int fitting_iterations = 15;
+
+  /// The recording without what is the same in every replica of the scenario.
+  Series left_by(const Scenario& scenario) const;
+  std::vector<double> rate_error_beside(const Scenario& scenario) const;
+  std::shared_ptr<const SetFitter> fitter_of(const Scenario& scenario) const;
+  double cost(const Scenario& scenario) const;
+  /// The parameters of what is taken out, each by parabolas through the likelihood, the noise as it
+  /// is.
+  Standing polished(Standing standing) const;
+
+  const Simulator& simulator_;
+  const Conditions& conditions_;
+  const Series& recording_;
+  std::vector<std::string> without_;
+  std::vector<char> masked_;
+  bool marked_saturation_ = false;
+};
+
+}  // namespace gyrostat::gap
