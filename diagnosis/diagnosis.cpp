@@ -132,7 +132,7 @@ void Work::localise() {
   scoring_ = std::make_unique<Scoring>(*train_, observed_[0]);
   held_out_scoring_ = std::make_unique<Scoring>(*held_out_, observed_[1]);
   result_.p_after = train_->p_value(observed_[0]);
-  double most_odds = 0.0;
+  double most_odds = found_.nameless_log_odds;
   for (const auto& m : found_.members) most_odds = std::max(most_odds, m.log_odds);
   result_.p_before = std::min({1.0, result_.p_after / thresholds::level_of_lenses,
                                std::exp(-most_odds) / (1.0 - thresholds::level_of_lenses)});
@@ -242,7 +242,8 @@ void Work::attribute() {
   see_what_is_left();
   const bool misses = after.deficit() > thresholds::deficit_of_a_miss ||
                       result_.p_after < thresholds::strictness_after * options_.significance;
-  const bool unexplained = result_.recovered < thresholds::recovery && misses;
+  const bool unexplained =
+      (result_.recovered < thresholds::recovery && misses) || found_.nameless_log_odds > 0.0;
   result_.verdict =
       unexplained ? Verdict::unknown() : Verdict::cause(result_.effects.front().effect);
   auto& set = result_.verdict_set;

@@ -7,38 +7,66 @@
 #include <gyrostat/diagnosis/likelihood/line_shape.hpp>
 
 namespace gyrostat::gap {
+namespace {
+
+/// An envelope that is so many times likelier than that of normal noise, as a logarithm.
+constexpr double clear_shape = 4.0;
+
+Resonance line_of(const Effect& vibration) {
+  const auto value = [&](std::string_view name) {
+    return vibration.value(field_of(vibration, name));
+  };
+  return {value("std_dps") * value("std_dps"), value("centre_hz"), value("bandwidth_hz")};
+}
+
+bool is_bursts(const LineShape& shape) {
+  return shape.bursts > std::max(shape.wandering, clear_shape);
+}
+
+}  // namespace
+
+std::vector<char> samples_in_bursts(const SetBench& bench, const Scenario& scenario,
+                                    const std::vector<double>& left_dps) {
+  std::vector<char> inside(left_dps.size(), 0);
+  for (const auto& effect : scenario.effects) {
+    if (effect.id() != "vibration") continue;
+    const auto line = line_of(effect);
+    const auto shape = line_shape(bench.conditions(), left_dps, line);
+    if (!is_bursts(shape)) continue;
+    const auto found = samples_in_bursts(bench.conditions(), left_dps, line, shape);
+    for (std::size_t i = 0; i < inside.size(); ++i) inside[i] |= found[i];
+  }
+  return inside;
+}
 
 void name_lines(const SetBench& bench, const std::vector<char>& hidden, FoundSet& found) {
-  constexpr double clear = 4.0;
   for (auto& effect : found.scenario.effects) {
     if (effect.id() != "vibration") continue;
-    const double std_dps = effect.value(field_of(effect, "std_dps"));
-    const double centre_hz = effect.value(field_of(effect, "centre_hz"));
-    const double bandwidth_hz = effect.value(field_of(effect, "bandwidth_hz"));
+    const auto line = line_of(effect);
     const auto left = bench.rate_left_by(found.scenario, hidden);
-    const auto shape =
-        line_shape(bench.conditions(), left, {std_dps * std_dps, centre_hz, bandwidth_hz});
-    const bool bursts = shape.bursts > shape.wandering;
+    const auto shape = line_shape(bench.conditions(), left, line);
+    const bool bursts = is_bursts(shape);
     const double gain = std::max(shape.bursts, shape.wandering);
     const std::string_view name = bursts ? "vibration_bursts" : "wandering_line";
-    if (gain < clear) continue;
+    if (gain < clear_shape) continue;
     const auto known = std::find_if(found.members.begin(), found.members.end(),
                                     [](const auto& m) { return m.effect == "vibration"; });
     if (!bench.is_allowed(name)) {
-      if (known != found.members.end()) known->log_odds = -gain;
+      found.nameless_log_odds = std::max(found.nameless_log_odds, gain);
+      if (known != found.members.end()) found.members.erase(known);
       continue;
     }
     if (bursts)
       effect = with_values("vibration_bursts", {{"std_dps", shape.on_std_dps},
-                                                {"centre_hz", centre_hz},
-                                                {"bandwidth_hz", bandwidth_hz},
+                                                {"centre_hz", line.centre_hz},
+                                                {"bandwidth_hz", line.bandwidth_hz},
                                                 {"mean_duration_s", shape.on_s},
                                                 {"mean_interval_s", shape.off_s}});
     else
-      effect = with_values("wandering_line", {{"amplitude_dps", std::sqrt(2.0) * std_dps},
-                                              {"frequency_hz", centre_hz},
-                                              {"wander_hz", 0.5 * bandwidth_hz},
-                                              {"correlation_time_s", 1.0 / bandwidth_hz}});
+      effect = with_values("wandering_line", {{"amplitude_dps", std::sqrt(2.0 * line.variance)},
+                                              {"frequency_hz", line.centre_hz},
+                                              {"wander_hz", 0.5 * line.bandwidth_hz},
+                                              {"correlation_time_s", 1.0 / line.bandwidth_hz}});
     if (known != found.members.end()) {
       known->effect = name;
       known->log_odds = std::min(known->log_odds, gain);
@@ -53,9 +81,10 @@ void name_lines(const SetBench& bench, const std::vector<char>& hidden, FoundSet
     else
       ++k;
   for (const auto& effect : found.scenario.effects)
-    if (std::none_of(members.begin(), members.end(),
+    if ((effect.id() != "vibration" || found.nameless_log_odds == 0.0) &&
+        std::none_of(members.begin(), members.end(),
                      [&](const auto& m) { return m.effect == effect.id(); }))
-      members.push_back({std::string(effect.id()), clear});
+      members.push_back({std::string(effect.id()), clear_shape});
 }
 
 }  // namespace gyrostat::gap

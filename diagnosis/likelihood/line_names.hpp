@@ -5,6 +5,11 @@
 
 namespace gyrostat::gap {
 
+/// Samples of `left_dps`, which a scenario leaves, within the bursts of its narrow bands: a flag a
+/// sample.
+std::vector<char> samples_in_bursts(const SetBench& bench, const Scenario& scenario,
+                                    const std::vector<double>& left_dps);
+
 /// Gives narrow bands of a found set the names that their envelopes say (LineShape). Samples that
 /// are `hidden` do not count.
 void name_lines(const SetBench& bench, const std::vector<char>& hidden, FoundSet& found);

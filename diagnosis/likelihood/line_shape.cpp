@@ -18,13 +18,13 @@ namespace {
 constexpr std::array blocks_of_memory = {0.35, 0.7, 1.4};
 constexpr std::size_t shortest_block = 4;
 
-/// Squared envelopes, block after block of each span of the train part.
-std::vector<std::vector<double>> squared_envelopes(const Conditions& conditions,
+/// Squared envelopes, block after block of each span of the part.
+std::vector<std::vector<double>> squared_envelopes(const Conditions& conditions, Part part,
                                                    const std::vector<double>& left,
                                                    const Resonance& line, std::size_t block) {
   const double turn = -2.0 * std::numbers::pi * line.centre_hz * conditions.interval_s();
   std::vector<std::vector<double>> all;
-  for (const auto& span : conditions.spans(Part::train)) {
+  for (const auto& span : conditions.spans(part)) {
     all.emplace_back();
     for (std::size_t at = span.first; at + block <= span.last; at += block) {
       std::complex<double> sum = 0.0;
@@ -48,7 +48,7 @@ LineShape shape_in_blocks(const Conditions& conditions, const std::vector<double
   const double block_s = std::max(block_of_memory * memory_s, 1.0 / line.centre_hz);
   const std::size_t block = std::max(
       shortest_block, static_cast<std::size_t>(std::lround(block_s * conditions.rate_hz())));
-  const auto envelopes = squared_envelopes(conditions, left_dps, line, block);
+  const auto envelopes = squared_envelopes(conditions, Part::train, left_dps, line, block);
   std::vector<double> squares;
   for (const auto& e : envelopes) squares.insert(squares.end(), e.begin(), e.end());
   if (squares.size() < 50) return shape;
@@ -96,6 +96,8 @@ LineShape shape_in_blocks(const Conditions& conditions, const std::vector<double
   shape.share_on = share;
   shape.on_std_dps = std::sqrt(std::max(0.5 * (on - off), 0.0));
   const double limit = std::sqrt(on * off);
+  shape.block = block;
+  shape.limit_dps2 = limit;
   double begun = 0.0, with = 0.0;
   for (const auto& e : envelopes)
     for (std::size_t k = 0; k < e.size(); ++k) {
@@ -119,6 +121,26 @@ LineShape line_shape(const Conditions& conditions, const std::vector<double>& le
       best = shape;
   }
   return best;
+}
+
+std::vector<char> samples_in_bursts(const Conditions& conditions,
+                                    const std::vector<double>& left_dps, const Resonance& line,
+                                    const LineShape& shape) {
+  std::vector<char> inside(left_dps.size(), 0);
+  for (const Part part : parts) {
+    const auto envelopes = squared_envelopes(conditions, part, left_dps, line, shape.block);
+    const auto& spans = conditions.spans(part);
+    for (std::size_t s = 0; s < spans.size(); ++s)
+      for (std::size_t k = 0; k < envelopes[s].size(); ++k) {
+        if (envelopes[s][k] <= shape.limit_dps2) continue;
+        const std::size_t middle = spans[s].first + k * shape.block;
+        const std::size_t from = std::max(spans[s].first + shape.block, middle) - shape.block;
+        const std::size_t to = std::min(middle + 2 * shape.block, spans[s].last);
+        std::fill(inside.begin() + static_cast<std::ptrdiff_t>(from),
+                  inside.begin() + static_cast<std::ptrdiff_t>(to), char{1});
+      }
+  }
+  return inside;
 }
 
 }  // namespace gyrostat::gap

@@ -17,9 +17,16 @@ struct LineShape {
   double share_on = 1.0;       ///< of the time that bursts take
   double on_s = 0.0, off_s = 0.0;
   double on_std_dps = 0.0;
+  std::size_t block = 0;    ///< samples over which the envelope was taken
+  double limit_dps2 = 0.0;  ///< squared envelope above which a burst is on
 };
 
 LineShape line_shape(const Conditions& conditions, const std::vector<double>& left_dps,
                      const Resonance& line);
+
+/// Samples of all parts within a burst of `line`, and a block before and after: a flag a sample.
+std::vector<char> samples_in_bursts(const Conditions& conditions,
+                                    const std::vector<double>& left_dps, const Resonance& line,
+                                    const LineShape& shape);
 
 }  // namespace gyrostat::gap

@@ -45,11 +45,21 @@ SlowLaw slow_law(const ReducedRate& reduced, const NoiseLaw& law, std::size_t cl
   }
   const auto density = density_of(fast, reduced.angles(), reduced.cosines());
   const auto& weights = reduced.of_a_mean();
-  slow.white = std::inner_product(density.begin(), density.end(), weights.begin(), 0.0) /
-               std::max(reduced.kept(), 0.05);
+  slow.white = std::inner_product(density.begin(), density.end(), weights.begin(), 0.0) *
+               reduced.noise_of_means();
   // The mean of a walk over its cluster has a sixth of a step's variance less than its end.
   slow.white = std::max(slow.white - slow.walk / 6.0, 0.05 * (slow.white + slow.walk));
   return slow;
+}
+
+double fast_ratio(const ReducedRate& reduced, const NoiseLaw& law) {
+  const auto& seen = reduced.periodogram(Part::train);
+  if (seen.empty()) return 1.0;
+  const auto density = reduced.shown(density_of(law, reduced.angles(), reduced.cosines()));
+  double sum = 0.0, bins = 0.0;
+  for (std::size_t k = reduced.first_fast_bin(); k + 1 < density.size(); ++k)
+    sum += seen[k] / density[k], bins += 1.0;
+  return sum / bins;
 }
 
 RateTerms rate_terms(const ReducedRate& reduced, Part part, const NoiseLaw& law,

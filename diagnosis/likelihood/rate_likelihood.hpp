@@ -19,6 +19,10 @@ struct RateTerms {
 RateTerms rate_terms(const ReducedRate& reduced, Part part, const NoiseLaw& law,
                      const Eigen::MatrixXd& regressors, const Eigen::VectorXd& prior_std);
 
+/// Mean ratio of the train part's periodogram to the law at fast frequencies; 1 where there are
+/// none.
+double fast_ratio(const ReducedRate& reduced, const NoiseLaw& law);
+
 /// The law of cluster means under the law of samples.
 SlowLaw slow_law(const ReducedRate& reduced, const NoiseLaw& law, std::size_t cluster);
 

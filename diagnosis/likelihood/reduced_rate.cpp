@@ -76,21 +76,50 @@ ReducedRate::ReducedRate(const Conditions& conditions, const std::vector<double>
   for (std::size_t i = 0; i < values.size(); ++i)
     if (masked[i] != 0) values[i] = no_value;
   const auto means = conditions.slow_means(values);
+  // Of a cluster, half the samples at least must count.
+  const auto share_of = [&](std::size_t mean) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(mean * conditions.cluster());
+    const auto there =
+        std::count_if(first, first + static_cast<std::ptrdiff_t>(conditions.cluster()),
+                      [](double value) { return !is_missing(value); });
+    return static_cast<double>(there) / static_cast<double>(conditions.cluster());
+  };
+  double inverse_shares = 0.0, points = 0.0;
   for (const Part part : parts) {
     auto& slow = slow_[index_of(part)];
     for (const auto& span : conditions.slow_spans(part))
       for (std::size_t i = span.first; i < span.last; ++i)
-        if (!is_missing(means[i])) slow.points.push_back(i);
+        if (const double share = share_of(i); share >= 0.5) {
+          slow.points.push_back(i);
+          inverse_shares += 1.0 / share;
+          points += 1.0;
+        }
     slow.means.resize(static_cast<Eigen::Index>(slow.points.size()));
     for (std::size_t k = 0; k < slow.points.size(); ++k)
       slow.means[static_cast<Eigen::Index>(k)] = means[slow.points[k]];
   }
+  if (points > 0.0) noise_of_means_ = inverse_shares / points;
   if (hidden > 0.0) {
     const auto level = smoothed(conditions, means);
     for (std::size_t i = 0; i < values.size(); ++i)
       values[i] = is_missing(values[i]) ? 0.0 : values[i] - level[i];
   }
   reduce_fast(conditions, values, masked);
+}
+
+double ReducedRate::white_std_dps() const {
+  const auto& density = periodogram(Part::train);
+  if (density.empty()) {
+    const auto& means = slow(Part::train).means;
+    if (means.size() < 2) return 0.0;
+    const auto count = means.size() - 1;
+    const double squares = (means.tail(count) - means.head(count)).squaredNorm();
+    return std::sqrt(0.5 * squares / static_cast<double>(count));
+  }
+  double sum = 0.0, bins = 0.0;
+  for (std::size_t k = first_fast_bin_; k + 1 < density.size(); ++k) sum += density[k], bins += 1.0;
+  const double nyquist_hz = resolution_hz_ * static_cast<double>(density.size() - 1);
+  return std::sqrt(sum / bins * nyquist_hz / std::max(kept_, 0.05));
 }
 
 std::vector<double> ReducedRate::shown(const std::vector<double>& density) const {

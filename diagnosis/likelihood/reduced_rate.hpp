@@ -25,8 +25,13 @@ class ReducedRate {
   const std::vector<double>& periodogram(Part part) const { return periodogram_[index_of(part)]; }
   /// How many independent periodograms it is the mean of.
   double degrees(Part part) const { return degrees_[index_of(part)]; }
+  /// Of white noise that is as strong as all that is fast, or, without periodograms, as the means'
+  /// differences.
+  double white_std_dps() const;
   /// Share of the samples that count.
   double kept() const { return kept_; }
+  /// Variance of white noise in a mean over that in a mean of all samples of its cluster.
+  double noise_of_means() const { return noise_of_means_; }
   /// What periodograms show of a density: samples that do not count are zeros.
   std::vector<double> shown(const std::vector<double>& density) const;
 
@@ -45,7 +50,7 @@ class ReducedRate {
   std::array<Slow, 2> slow_;
   std::array<std::vector<double>, 2> periodogram_;
   std::array<double, 2> degrees_{};
-  double kept_ = 1.0, resolution_hz_ = 0.0, cluster_s_ = 0.0;
+  double kept_ = 1.0, noise_of_means_ = 1.0, resolution_hz_ = 0.0, cluster_s_ = 0.0;
   std::size_t first_fast_bin_ = 1;
   std::vector<double> angles_, cosines_, of_a_mean_;
   std::vector<double>

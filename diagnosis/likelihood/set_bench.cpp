@@ -15,6 +15,8 @@ constexpr double of_a_parameter = 1.5;
 /// So far behind, polishing may still bring a candidate in front.
 constexpr double within_reach_of_polish = 30.0;
 constexpr int screening_iterations = 3;
+/// Of an effect's guesses, so many are fitted to the end.
+constexpr std::size_t guesses_fitted = 2;
 
 /// Same in every replica and not slow: taken out of the recording, sample by sample.
 bool is_taken_out(const Effect& effect) {
@@ -130,15 +132,24 @@ Standing SetBench::with(const Standing& standing, const CauseType& cause,
   };
   if (cause.guesses != nullptr) {
     const Beside beside{conditions_, *standing.fitter, standing.fit};
-    for (const auto& guess : cause.guesses(beside))
+    std::vector<Standing> screened;
+    for (const auto& guess : cause.guesses(beside)) {
+      screened.emplace_back();
       for (const double walk : {1.0, 0.1}) {
         Scenario scenario = standing.scenario;
         scenario.random_error.delta1_dps *= walk;
         scenario.effects.push_back(guess);
-        keep(fitted(scenario, standing.fitter, screening_iterations, Jumping::no));
+        scenario = standing.fitter->with_white_noise_scaled(std::move(scenario));
+        auto tried = fitted(scenario, standing.fitter, screening_iterations, Jumping::no);
+        if (tried.score > screened.back().score) screened.back() = std::move(tried);
       }
-    if (best.score < -1e299) return best;
-    return fitted(best.scenario, best.fitter, fitting_iterations);
+    }
+    std::stable_sort(screened.begin(), screened.end(),
+                     [](const auto& a, const auto& b) { return a.score > b.score; });
+    for (std::size_t k = 0; k < std::min(guesses_fitted, screened.size()); ++k)
+      if (screened[k].score > -1e299)
+        keep(fitted(screened[k].scenario, standing.fitter, fitting_iterations));
+    return best;
   }
   if (left == nullptr || !is_taken_out(cause.effect())) return best;
   for (const auto& start : cause.starts(*left)) {
@@ -219,16 +230,21 @@ std::vector<double> SetBench::rate_left_by(const Scenario& scenario,
   return left;
 }
 
-Standing SetBench::baseline() {
-  masked_.assign(recording_.size(), 0);
-  Scenario base = plain();
-  const Scene scene(conditions_, recording_, train_alone);
-  const double first =
-      scene.octaves[0].empty() ? 1.0 : std::sqrt(0.5 * scene.octaves[0][0].mean_square);
-  base.random_error.measurement_noise_std_dps = std::max(first, 1e-9);
-  base.random_error.delta1_dps = 0.03 * base.random_error.measurement_noise_std_dps /
-                                 std::sqrt(static_cast<double>(conditions_.cluster()));
-  return refitted(base);
+Standing SetBench::beside_noise(std::vector<Effect> effects) const {
+  Scenario scenario = plain();
+  scenario.effects = std::move(effects);
+  const auto fitter = fitter_of(scenario);
+  const double first = std::max(fitter->reduced().white_std_dps(), 1e-9);
+  scenario.random_error.measurement_noise_std_dps = first;
+  // A walk far below the noise, and one that an unmodelled motion would call for.
+  Standing best;
+  for (const double walk : {0.03, 1.0}) {
+    scenario.random_error.delta1_dps =
+        walk * first / std::sqrt(static_cast<double>(conditions_.cluster()));
+    if (auto fit = fitted(scenario, fitter, fitting_iterations); fit.score > best.score)
+      best = std::move(fit);
+  }
+  return best;
 }
 
 }  // namespace gyrostat::gap

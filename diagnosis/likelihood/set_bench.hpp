@@ -47,8 +47,8 @@ class SetBench {
 
   /// No noise, no drift and no effects, under the recording's sampling.
   Scenario plain() const;
-  /// Nothing masked, no effects.
-  Standing baseline();
+  /// The effects beside white noise and a walk that are found without a start.
+  Standing beside_noise(std::vector<Effect> effects) const;
   Standing fitted(const Scenario& scenario, std::shared_ptr<const SetFitter> fitter, int iterations,
                   Jumping jumping = Jumping::yes) const;
   Standing refitted(const Scenario& scenario, int iterations = fitting_iterations) const {

@@ -90,6 +90,8 @@ Eigen::VectorXd SetFitter::fixed_signature(const Scenario& alone, std::size_t un
   if (known.size() == 0) {
     Series with;
     synthesise_rate_under(alone, conditions_.series(), {}, with);
+    for (std::size_t i = 0; i < with.rate_ref_dps.size(); ++i)
+      with.gyro_dps[i] -= with.rate_ref_dps[i];
     const auto means = conditions_.slow_means(with.gyro_dps);
     known =
         Eigen::Map<const Eigen::VectorXd>(means.data(), static_cast<Eigen::Index>(means.size()));
@@ -147,6 +149,16 @@ RateTerms SetFitter::terms_with(const Scenario& scenario, const Regressors& regr
 
 RateTerms SetFitter::terms(const Scenario& scenario, Part part, Jumping jumping) const {
   return terms_with(scenario, regressors_of(scenario), part, jumping);
+}
+
+Scenario SetFitter::with_white_noise_scaled(Scenario scenario) const {
+  auto& white = scenario.random_error.measurement_noise_std_dps;
+  constexpr int passes = 3;  // more than one where white noise is not all that there is
+  for (int pass = 0; pass < passes; ++pass) {
+    const double ratio = fast_ratio(*reduced_, law_of(scenario, conditions_.interval_s()));
+    white *= std::sqrt(std::clamp(ratio, 0.01, 1e4));
+  }
+  return scenario;
 }
 
 void SetFitter::take_coefficients(const RateTerms& terms, SetFit& fit) const {

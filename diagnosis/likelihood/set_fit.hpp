@@ -35,6 +35,8 @@ class SetFitter {
   const ReducedRate& reduced() const { return *reduced_; }
   /// Fisher scoring from `start`, damped (Levenberg and Marquardt), for at most `iterations`.
   SetFit maximise(const Scenario& start, int iterations, Jumping jumping = Jumping::yes) const;
+  /// With as much white noise as the fast part calls for, all else as it is.
+  Scenario with_white_noise_scaled(Scenario scenario) const;
   RateTerms terms(const Scenario& scenario, Part part, Jumping jumping = Jumping::yes) const;
 
  private:

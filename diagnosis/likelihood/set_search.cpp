@@ -64,11 +64,21 @@ class Search {
   void tell(const std::string& what, double share) const {
     if (progress_) progress_(what, share);
   }
-  std::vector<Standing> each_added(const Standing& standing, std::string_view barred = {}) const;
+  std::vector<Standing> each_added(const Standing& standing) const;
   Standing searched(Standing standing);
   double least_gain(const Standing& standing, const Standing& next) const;
   /// Every member against all that might stand in its place.
   Standing exchanged(Standing standing, FoundSet& found);
+  /// Samples within reach of the limit: there noise decides what is clipped, and what is left of it
+  /// is no longer centred.
+  std::vector<char> near_the_limit(const Marks& marks) const;
+  /// Effects that are read off the values.
+  std::vector<Effect> read_off(const Marks& marks, FoundSet& found);
+  /// What the innovations say of outliers and of noise over temperature, beside the set.
+  void judge_tails(const Standing& standing);
+  void add_tails(FoundSet& found) const;
+  /// The set, and what only the sizes of innovations say, in turn.
+  Standing searched_beside_tails(Standing standing);
 
   const Simulator& simulator_;
   const Conditions& conditions_;
@@ -76,12 +86,15 @@ class Search {
   SetSearchOptions options_;
   SetSearchProgress progress_;
   SetBench bench_;
-  std::vector<char> repeats_, outliers_;
+  std::vector<char> repeats_;  ///< samples that do not count, whatever the set
+  Tails tails_;
+  bool is_normal_ = true;  ///< rounded finely enough for tails
+  bool has_outliers_ = false, has_warm_noise_ = false;
   std::vector<const CauseType*> candidates_;
   std::vector<std::pair<std::string, double>> screening_, gains_;
 };
 
-std::vector<Standing> Search::each_added(const Standing& standing, std::string_view barred) const {
+std::vector<Standing> Search::each_added(const Standing& standing) const {
   std::vector<Standing> all(candidates_.size());
   std::optional<Evidence> left;
   if (std::any_of(candidates_.begin(), candidates_.end(),
@@ -91,8 +104,7 @@ std::vector<Standing> Search::each_added(const Standing& standing, std::string_v
       std::size_t{0}, candidates_.size(),
       [&](std::size_t k) {
         const auto& cause = *candidates_[k];
-        if ((!has(standing.scenario, cause.id) || may_repeat(standing.scenario, cause.id)) &&
-            cause.id != barred)
+        if (!has(standing.scenario, cause.id) || may_repeat(standing.scenario, cause.id))
           all[k] = bench_.with(standing, cause, left ? &*left : nullptr);
       },
       tbb::simple_partitioner());
@@ -149,21 +161,21 @@ Standing Search::exchanged(Standing standing, FoundSet& found) {
       const Effect effect = standing.scenario.effects[k];
       if (bench_.is_marked(effect.id())) continue;
       const auto rest = bench_.without(standing, k);
-      const auto others = each_added(rest, effect.id());
+      // The same effect from other parameters may stand there, too, but is no rival.
+      const auto others = each_added(rest);
       double second = rest.score;
-      const Standing* best = nullptr;
-      for (const auto& other : others)
-        if (other.score > second) {
-          second = other.score;
-          best = &other;
-        }
-      for (const auto& other : others)
+      const Standing* best = &rest;
+      for (const auto& other : others) {
+        if (other.score > best->score) best = &other;
+        if (other.score < -1e299 || other.scenario.effects.back().id() == effect.id()) continue;
+        second = std::max(second, other.score);
         if (other.score > standing.score - 3.0)
           found.rivals.push_back({other.scenario.effects.back(),
                                   std::string(other.scenario.effects.back().id()),
                                   std::string(effect.id()), other.score - standing.score});
-      if (second > standing.score + 0.1) {
-        standing = searched(best != nullptr ? *best : rest);
+      }
+      if (best->score > standing.score + 0.1) {
+        standing = searched(*best);
         swapped = ++exchanges < 2 * options_.most_effects;
         break;
       }
@@ -190,7 +202,7 @@ Scenario Search::subset_of(const Scenario& whole, const std::vector<std::string>
   };
   const bool repeats = is_in("stale_samples") || is_in("saturation");
   bench_.mask_only(repeats ? repeats_ : std::vector<char>(recording_.size(), 0));
-  if (is_in("outliers")) bench_.mask_too(outliers_);
+  if (is_in("outliers")) bench_.mask_too(tails_.outliers);
   Scenario some = whole;
   some.effects.clear();
   for (const auto& effect : whole.effects)
@@ -200,117 +212,149 @@ Scenario Search::subset_of(const Scenario& whole, const std::vector<std::string>
   auto& walk = rate.random_error.delta1_dps;
   walk = std::max(walk, 0.03 * rate.random_error.measurement_noise_std_dps /
                             std::sqrt(static_cast<double>(conditions_.cluster())));
-  const auto fit = bench_.refitted(rate, 8);
+  auto fit = bench_.refitted(rate, 8);
+  if (auto other = bench_.beside_noise(rate.effects); other.score > fit.score)
+    fit = std::move(other);
   some.random_error = fit.scenario.random_error;
   return some;
 }
 
 Scenario Search::likeliest_baseline() {
-  FoundSet found{.baseline = bench_.baseline().scenario, .scenario = bench_.plain()};
+  FoundSet found{.baseline = bench_.beside_noise({}).scenario, .scenario = bench_.plain()};
   if (conditions_.has_heading()) search_compass(simulator_, recording_, options_, found);
   return found.baseline;
+}
+
+std::vector<char> Search::near_the_limit(const Marks& marks) const {
+  auto near = marks.clipped;
+  const auto& reference = conditions_.series().rate_ref_dps;
+  constexpr std::size_t reach = 5;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const std::size_t from = i < reach ? 0 : i - reach;
+    const std::size_t to = std::min(i + reach + 1, near.size());
+    if (std::abs(reference[i]) > 0.97 * marks.limit_dps ||
+        std::any_of(marks.clipped.begin() + static_cast<std::ptrdiff_t>(from),
+                    marks.clipped.begin() + static_cast<std::ptrdiff_t>(to),
+                    [](char c) { return c != 0; }))
+      near[i] = 1;
+  }
+  return near;
+}
+
+std::vector<Effect> Search::read_off(const Marks& marks, FoundSet& found) {
+  constexpr double odds_of_a_mark = 50.0;
+  std::vector<Effect> effects;
+  const auto add = [&](Effect effect) {
+    found.members.push_back({std::string(effect.id()), odds_of_a_mark});
+    effects.push_back(std::move(effect));
+  };
+  if (marks.lsb_dps > 0.0 && bench_.is_allowed("quantization"))
+    add(with_values("quantization", {{"lsb_dps", marks.lsb_dps}}));
+  if (marks.stale_probability > 0.0 && bench_.is_allowed("stale_samples")) {
+    add(with_values("stale_samples",
+                    {{"probability", marks.stale_probability}, {"mean_run", marks.stale_run}}));
+    bench_.mask_too(marks.repeats);
+  }
+  if (marks.limit_dps > 0.0 && bench_.is_allowed("saturation")) {
+    add(with_values("saturation", {{"limit_dps", marks.limit_dps}}));
+    bench_.mark_saturation();
+    bench_.mask_too(near_the_limit(marks));
+  }
+  repeats_ = bench_.masked();
+  return effects;
+}
+
+void Search::judge_tails(const Standing& standing) {
+  auto left = bench_.rate_left_by(standing.scenario, repeats_);
+  // Neither may outliers pass for a burst, nor the samples of a burst for outliers.
+  auto without_outliers = left;
+  for (std::size_t i = 0; i < tails_.outliers.size(); ++i)
+    if (tails_.outliers[i] != 0) without_outliers[i] = no_value;
+  const auto bursts = samples_in_bursts(bench_, standing.scenario, without_outliers);
+  for (std::size_t i = 0; i < left.size(); ++i)
+    if (bursts[i] != 0) left[i] = no_value;
+  tails_ = tails_of(conditions_, left, bench_.is_allowed("noise_temperature"));
+  const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
+  has_outliers_ = is_normal_ && bench_.is_allowed("outliers") &&
+                  tails_.outlier_gain > prior + 2.0 * value + 4.0;
+  has_warm_noise_ =
+      bench_.is_allowed("noise_temperature") && tails_.temperature_gain > prior + value;
+}
+
+Standing Search::searched_beside_tails(Standing standing) {
+  constexpr int rounds = 2;
+  for (int round = 0; round < rounds; ++round) {
+    const auto hidden = bench_.masked();
+    judge_tails(standing);
+    if (round == 0 && has_outliers_) {
+      // What a motion leaves must not pass for outliers.
+      const auto all = candidates_;
+      std::erase_if(candidates_,
+                    [](const auto* cause) { return band_of(cause->id) != Band::motion; });
+      standing = searched(std::move(standing));
+      candidates_ = all;
+      judge_tails(standing);
+    }
+    // The largest samples would hide what else there is.
+    bench_.mask_only(repeats_);
+    if (has_outliers_) bench_.mask_too(tails_.outliers);
+    if (round > 0 && bench_.masked() == hidden) break;
+    standing = searched(bench_.refitted(standing.scenario));
+  }
+  return standing;
+}
+
+void Search::add_tails(FoundSet& found) const {
+  if (has_outliers_) {
+    found.scenario.effects.push_back(with_values(
+        "outliers",
+        {{"probability", tails_.outlier_probability}, {"std_dps", tails_.outlier_std_dps}}));
+    found.members.push_back({"outliers", tails_.outlier_gain - 10.0});
+  }
+  if (has_warm_noise_) {
+    found.scenario.effects.push_back(
+        with_values("noise_temperature",
+                    {{"relative_per_C", tails_.noise_per_C}, {"reference_C", tails_.reference_C}}));
+    found.members.push_back({"noise_temperature", tails_.temperature_gain - 8.0});
+  }
 }
 
 FoundSet Search::run() {
   FoundSet found;
   tell("reading values", 0.02);
   const auto marks = marks_of(simulator_, recording_);
-  const bool clipped = marks.limit_dps > 0.0 && bench_.is_allowed("saturation");
-  const bool stale = marks.stale_probability > 0.0 && bench_.is_allowed("stale_samples");
-  if (stale) bench_.mask_too(marks.repeats);
-  if (clipped) {
-    // Near the limit, noise decides what is clipped: what is left of it is no longer centred.
-    auto near = marks.clipped;
-    const auto& reference = conditions_.series().rate_ref_dps;
-    constexpr std::size_t reach = 5;
-    for (std::size_t i = 0; i < near.size(); ++i) {
-      const std::size_t from = i < reach ? 0 : i - reach;
-      const std::size_t to = std::min(i + reach + 1, near.size());
-      if (std::abs(reference[i]) > 0.97 * marks.limit_dps ||
-          std::any_of(marks.clipped.begin() + static_cast<std::ptrdiff_t>(from),
-                      marks.clipped.begin() + static_cast<std::ptrdiff_t>(to),
-                      [](char c) { return c != 0; }))
-        near[i] = 1;
-    }
-    bench_.mask_too(near);
-  }
-  repeats_ = bench_.masked();
+  tell("fitting the baseline", 0.05);
+  const auto baseline = bench_.beside_noise({});
+  found.baseline = baseline.scenario;
+  const auto marked = read_off(marks, found);
   for (const auto& cause : cause_types())
     if (bench_.is_allowed(cause.id) && !is_compass(cause) && !bench_.is_marked(cause.id))
       candidates_.push_back(&cause);
 
-  tell("fitting the baseline", 0.05);
-  const auto baseline = bench_.baseline();
-  bench_.mask_only(repeats_);
-  found.baseline = baseline.scenario;
-
   // Rounding to more than the noise is no longer noise: what it does to the fast part and to slow
-  // noise has no law here.
-  constexpr double coarsest = 2.2;
-  const bool coarse =
-      marks.lsb_dps > coarsest * baseline.scenario.random_error.measurement_noise_std_dps;
-  // Rounded to nearly as much, samples are no longer normal: their tails say nothing.
-  const bool is_normal =
-      marks.lsb_dps < 1.2 * baseline.scenario.random_error.measurement_noise_std_dps;
+  // noise has no law here. Rounded to nearly as much, samples are no longer normal: their tails say
+  // nothing.
+  constexpr double coarsest = 2.2, coarsest_for_tails = 1.2;
+  const double lsb_of_noise =
+      marks.lsb_dps / baseline.scenario.random_error.measurement_noise_std_dps;
+  const bool coarse = lsb_of_noise > coarsest;
+  is_normal_ = lsb_of_noise < coarsest_for_tails;
   if (coarse)
     std::erase_if(candidates_, [](const auto* cause) {
       const auto band = band_of(cause->id);
       return band == Band::fast || band == Band::slow;
     });
 
-  Scenario start = baseline.scenario;
-  const auto mark = [&](const Effect& effect, double log_odds) {
-    start.effects.push_back(effect);
-    found.members.push_back({std::string(effect.id()), log_odds});
-  };
-  if (marks.lsb_dps > 0.0 && bench_.is_allowed("quantization"))
-    mark(with_values("quantization", {{"lsb_dps", marks.lsb_dps}}), 50.0);
-  if (stale)
-    mark(with_values("stale_samples",
-                     {{"probability", marks.stale_probability}, {"mean_run", marks.stale_run}}),
-         50.0);
-
-  if (clipped) mark(with_values("saturation", {{"limit_dps", marks.limit_dps}}), 50.0);
-  if (clipped) bench_.mark_saturation();
-
-  Standing standing = bench_.refitted(start);
-  Tails tails;
-  bool outliers = false, warm = false;
-  for (int round = 0; round < 2; ++round) {
-    const auto hidden = bench_.masked();
-    // The largest samples would hide what else there is.
-    const auto left = bench_.rate_left_by(standing.scenario, repeats_);
-    tails = tails_of(conditions_, left, bench_.is_allowed("noise_temperature"));
-    const double values = 0.5 * std::log(static_cast<double>(recording_.size()));
-    outliers = is_normal && bench_.is_allowed("outliers") &&
-               tails.outlier_gain > prior + 2.0 * values + 4.0;
-    warm = bench_.is_allowed("noise_temperature") && tails.temperature_gain > prior + values;
-    bench_.mask_only(repeats_);
-    if (outliers) bench_.mask_too(tails.outliers);
-    if (round > 0 && bench_.masked() == hidden) break;
-    standing = searched(bench_.refitted(standing.scenario));
-  }
+  auto standing = searched_beside_tails(bench_.beside_noise(marked));
   tell("trying rivals", 0.7);
   standing = exchanged(std::move(standing), found);
   found.screening = screening_;
   found.scenario = standing.scenario;
-  outliers_ = tails.outliers;
-  if (outliers) {
-    found.scenario.effects.push_back(with_values(
-        "outliers",
-        {{"probability", tails.outlier_probability}, {"std_dps", tails.outlier_std_dps}}));
-    found.members.push_back({"outliers", tails.outlier_gain - 10.0});
-  }
-  if (warm) {
-    found.scenario.effects.push_back(
-        with_values("noise_temperature",
-                    {{"relative_per_C", tails.noise_per_C}, {"reference_C", tails.reference_C}}));
-    found.members.push_back({"noise_temperature", tails.temperature_gain - 8.0});
-  }
+  add_tails(found);
   auto unseen = repeats_;
-  if (outliers)
+  if (has_outliers_)
     for (std::size_t i = 0; i < unseen.size(); ++i)
-      if (outliers_[i] != 0) unseen[i] = 1;
+      if (tails_.outliers[i] != 0) unseen[i] = 1;
   name_lines(bench_, unseen, found);
   if (coarse) found.scenario.random_error.measurement_noise_std_dps = marks.white_under_grid_dps;
   auto& drift = found.scenario.thermal_drift;

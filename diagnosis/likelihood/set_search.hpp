@@ -32,6 +32,9 @@ struct FoundSet {
   Scenario baseline;  ///< no effects, fitted
   Scenario scenario;  ///< the set, fitted, with drift
   std::vector<Member> members;
+  /// Log odds of what stands in the scenario under the nearest name, where the effect that it has
+  /// the form of is not in the catalogue; 0: all has its name.
+  double nameless_log_odds = 0.0;
   std::vector<Rival> rivals;
   /// What each effect would have gained at each step of the search.
   std::vector<std::pair<std::string, double>> screening;
