@@ -23,8 +23,9 @@ struct Diagnosed<effects::CompassLag> {
     return needs::motion(c);
   }
 
-  static bool is_what_it_is_called(const effects::CompassLag& /*effect*/, const Conditions& /*c*/) {
-    return true;
+  /// A lag of less than a twentieth of a sample is none.
+  static bool is_what_it_is_called(const effects::CompassLag& effect, const Conditions& c) {
+    return effect.time_constant_s > 0.05 * c.interval_s();
   }
 };
 

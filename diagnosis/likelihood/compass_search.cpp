@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 
@@ -24,7 +25,8 @@ class CompassSearch {
         conditions_(simulator.conditions()),
         recording_(recording),
         found_(found),
-        hidden_(conditions_.slow_size(), 0) {
+        hidden_(conditions_.slow_size(), 0),
+        cost_of_a_value_(0.5 * std::log(static_cast<double>(recording.size()))) {
     const auto error = error_of({});
     double sine = 0.0, cosine = 0.0;
     for (const auto& span : conditions_.spans(Part::train))
@@ -55,13 +57,26 @@ class CompassSearch {
   Law law_of(const std::vector<Effect>& effects) const;
   /// One step of Gauss and Newton in all free parameters.
   std::vector<Effect> stepped(const std::vector<Effect>& set) const;
+  std::vector<Effect> polished(std::vector<Effect> set) const;
   void find_bursts(const std::vector<Effect>& effects);
+  double cost(const Effect& effect) const;
+  /// Of an effect, from what others leave.
+  std::vector<Effect> starts(const CauseType& cause, const std::vector<Effect>& beside) const;
+  /// Whether clusters within bursts count.
+  enum class Bursts { hidden, count };
+  /// With one effect after another, as long as each pays.
+  std::vector<Effect> grown(std::vector<Effect> set, Bursts bursts);
+  /// Log-likelihood of all means, bursts or not, less what the set costs.
+  double robust_score(const std::vector<Effect>& set) const;
+  std::vector<Effect> searched();
 
   const Simulator& simulator_;
   const Conditions& conditions_;
   const Series& recording_;
   FoundSet& found_;
-  std::vector<char> hidden_;
+  std::vector<const CauseType*> candidates_;
+  std::vector<char> hidden_;  ///< a flag a cluster: within a burst
+  double cost_of_a_value_;
   double centre_deg_ = 0.0;
   double burst_gain_ = 0.0, bursts_per_hour_ = 0.0, burst_s_ = 0.0, burst_deg_ = 0.0;
 };
@@ -193,50 +208,44 @@ void CompassSearch::find_bursts(const std::vector<Effect>& effects) {
   burst_deg_ = deviation * std::sqrt(square / hit);
 }
 
-void CompassSearch::run(const SetSearchOptions& options) {
-  std::vector<const CauseType*> candidates;
-  for (const auto& cause : cause_types()) {
-    const auto& without = options.without;
-    if (cause.effect().stage() == Stage::compass && cause.id != "magnetic_bursts" &&
-        std::find(without.begin(), without.end(), cause.id) == without.end() &&
-        cause.why_not_assessable(conditions_).empty())
-      candidates.push_back(&cause);
+double CompassSearch::cost(const Effect& effect) const {
+  return prior_odds +
+         cost_of_a_value_ * static_cast<double>(
+                                cause_types().named(effect.id(), "effects").free_parameters.size());
+}
+
+std::vector<Effect> CompassSearch::starts(const CauseType& cause,
+                                          const std::vector<Effect>& beside) const {
+  const auto error = error_of(beside), plain = error_of({});
+  Series left = recording_;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const std::size_t k = std::min(i / conditions_.cluster(), hidden_.size() - 1);
+    left.heading_deg[i] = hidden_[k] != 0 || is_missing(error[i])
+                              ? no_value
+                              : wrap_degrees(left.heading_deg[i] + error[i] - plain[i]);
   }
-  const double values = 0.5 * std::log(static_cast<double>(recording_.size()));
-  const auto cost = [&](const Effect& effect) {
-    return prior_odds +
-           values * static_cast<double>(
-                        cause_types().named(effect.id(), "effects").free_parameters.size());
-  };
-  const auto starts = [&](const CauseType& cause, const std::vector<Effect>& beside) {
-    const auto error = error_of(beside), plain = error_of({});
-    Series left = recording_;
-    for (std::size_t i = 0; i < left.size(); ++i) {
-      const std::size_t k = std::min(i / conditions_.cluster(), hidden_.size() - 1);
-      left.heading_deg[i] = hidden_[k] != 0 || is_missing(error[i])
-                                ? no_value
-                                : wrap_degrees(left.heading_deg[i] + error[i] - plain[i]);
-    }
-    left.gyro_dps.clear();
-    Evidence evidence{simulator_, recording_, Scene(conditions_, left), found_.baseline};
-    evidence.baseline.compass.initial_heading_deg = centre_deg_;
-    return cause.starts(evidence);
-  };
-  const auto polished = [&](std::vector<Effect> set) {
-    for (int pass = 0; pass < 4; ++pass) {
-      auto better = stepped(set);
-      if (law_of(better).variance >= law_of(set).variance) break;
-      set = std::move(better);
-    }
-    return set;
-  };
-  std::vector<Effect> set;
-  find_bursts(set);
-  for (std::size_t step = 0; step <= candidates.size(); ++step) {
+  left.gyro_dps.clear();
+  Evidence evidence{simulator_, recording_, Scene(conditions_, left), found_.baseline};
+  evidence.baseline.compass.initial_heading_deg = centre_deg_;
+  return cause.starts(evidence);
+}
+
+std::vector<Effect> CompassSearch::polished(std::vector<Effect> set) const {
+  for (int pass = 0; pass < 4; ++pass) {
+    auto better = stepped(set);
+    if (law_of(better).variance >= law_of(set).variance) break;
+    set = std::move(better);
+  }
+  return set;
+}
+
+std::vector<Effect> CompassSearch::grown(std::vector<Effect> set, Bursts bursts) {
+  for (std::size_t step = set.size(); step <= candidates_.size(); ++step) {
+    if (bursts == Bursts::hidden) find_bursts(set);
     const Law before = law_of(set);
     std::vector<Effect> best;
     double most = 0.0;
-    for (const auto* cause : candidates) {
+    for (const auto* cause : candidates_) {
       if (std::any_of(set.begin(), set.end(), [&](const auto& e) { return e.id() == cause->id; }))
         continue;
       // What iron does depends on the heading that it sees: that of the sensor, or one that trails.
@@ -245,6 +254,7 @@ void CompassSearch::run(const SetSearchOptions& options) {
           auto trial = set;
           trial.insert(trial.begin() + static_cast<std::ptrdiff_t>(place), start);
           trial = polished(trial);
+          if (!cause->is_what_it_is_called(trial[place], conditions_)) continue;
           const double gain = law_of(trial).gain_on(before) - cost(start);
           if (gain > most) {
             most = gain;
@@ -254,8 +264,56 @@ void CompassSearch::run(const SetSearchOptions& options) {
     }
     if (best.empty()) break;
     set = best;
-    find_bursts(set);
   }
+  return set;
+}
+
+double CompassSearch::robust_score(const std::vector<Effect>& set) const {
+  const auto slow = conditions_.slow_means(error_of(set));
+  std::vector<double> squares;
+  for (const auto& span : conditions_.slow_spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (!is_missing(slow[i])) squares.push_back(slow[i] * slow[i]);
+  if (squares.empty()) return 0.0;
+  // Student's law of three degrees of freedom, its scale by expectation-maximisation.
+  constexpr double freedom = 3.0;
+  const auto n = static_cast<double>(squares.size());
+  double scale = std::accumulate(squares.begin(), squares.end(), 1e-18) / n;
+  for (int pass = 0; pass < 50; ++pass) {
+    double sum = 1e-18;
+    for (const double s : squares) sum += (freedom + 1.0) * s / (freedom + s / scale);
+    scale = sum / n;
+  }
+  double score = -0.5 * n * std::log(scale);
+  for (const double s : squares)
+    score -= 0.5 * (freedom + 1.0) * std::log1p(s / (freedom * scale));
+  for (const auto& effect : set) score -= cost(effect);
+  return score;
+}
+
+/// At rest a compass repeats itself, and iron that shows while it turns looks like bursts; and
+/// bursts that are fitted look like iron. So it is begun from either.
+std::vector<Effect> CompassSearch::searched() {
+  const auto first_bursts = grown({}, Bursts::hidden);
+  std::fill(hidden_.begin(), hidden_.end(), char{0});
+  auto first_iron = grown({}, Bursts::count);
+  find_bursts(first_iron);
+  first_iron = grown(polished(first_iron), Bursts::hidden);
+  auto set = robust_score(first_iron) > robust_score(first_bursts) ? first_iron : first_bursts;
+  find_bursts(set);
+  return polished(set);
+}
+
+void CompassSearch::run(const SetSearchOptions& options) {
+  const auto is_left_out = [&](std::string_view id) {
+    return std::find(options.without.begin(), options.without.end(), id) != options.without.end();
+  };
+  for (const auto& cause : cause_types())
+    if (cause.effect().stage() == Stage::compass && cause.id != "magnetic_bursts" &&
+        !is_left_out(cause.id) && cause.why_not_assessable(conditions_).empty())
+      candidates_.push_back(&cause);
+  auto set = searched();
+  std::vector<Member> members;
   for (std::size_t k = 0; k < set.size();) {
     auto rest = set;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
@@ -263,10 +321,11 @@ void CompassSearch::run(const SetSearchOptions& options) {
     const double odds = law_of(set).gain_on(law_of(rest)) - cost(set[k]);
     if (odds <= 0.0) {
       set = rest;
+      members.clear();
       k = 0;
       continue;
     }
-    found_.members.push_back({std::string(set[k].id()), odds});
+    members.push_back({std::string(set[k].id()), odds});
     ++k;
   }
   const auto law = law_of(set);
@@ -274,17 +333,15 @@ void CompassSearch::run(const SetSearchOptions& options) {
   found_.scenario.compass.initial_heading_deg = centre_deg_;
   found_.baseline.compass.noise_std_deg = law_of({}).std_deg();
   found_.baseline.compass.initial_heading_deg = centre_deg_;
-  found_.scenario.effects.insert(found_.scenario.effects.end(), set.begin(), set.end());
-  const auto& without = options.without;
-  const bool allowed =
-      std::find(without.begin(), without.end(), "magnetic_bursts") == without.end();
-  if (allowed && burst_gain_ > prior_odds + 3.0 * values) {
-    const Effect bursts = with_values("magnetic_bursts", {{"bursts_per_hour", bursts_per_hour_},
-                                                          {"mean_duration_s", burst_s_},
-                                                          {"std_deg", burst_deg_}});
-    found_.scenario.effects.push_back(bursts);
-    found_.members.push_back({"magnetic_bursts", burst_gain_ - 3.0 * values - prior_odds});
+  const double odds_of_bursts = burst_gain_ - 3.0 * cost_of_a_value_ - prior_odds;
+  if (!is_left_out("magnetic_bursts") && odds_of_bursts > 0.0) {
+    set.push_back(with_values("magnetic_bursts", {{"bursts_per_hour", bursts_per_hour_},
+                                                  {"mean_duration_s", burst_s_},
+                                                  {"std_deg", burst_deg_}}));
+    members.push_back({"magnetic_bursts", odds_of_bursts});
   }
+  found_.scenario.effects.insert(found_.scenario.effects.end(), set.begin(), set.end());
+  found_.members.insert(found_.members.end(), members.begin(), members.end());
 }
 
 }  // namespace

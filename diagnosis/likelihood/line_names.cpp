@@ -23,6 +23,49 @@ bool is_bursts(const LineShape& shape) {
   return shape.bursts > std::max(shape.wandering, clear_shape);
 }
 
+/// What two neighbouring bands are together.
+Resonance joined(const Resonance& a, const Resonance& b) {
+  const double variance = a.variance + b.variance;
+  const double centre_hz = (a.variance * a.centre_hz + b.variance * b.centre_hz) / variance;
+  const double apart_hz = std::abs(a.centre_hz - b.centre_hz);
+  const double spread_hz = std::sqrt(a.variance * b.variance) / variance * apart_hz;
+  const double bandwidth_hz =
+      (a.variance * a.bandwidth_hz + b.variance * b.bandwidth_hz) / variance;
+  return {variance, centre_hz, std::hypot(bandwidth_hz, 2.0 * spread_hz)};
+}
+
+/// The spectrum of a line that wanders is not that of a resonance, and is found as several side by
+/// side. They are one where together they have the envelope of a sine more clearly than alone.
+void join_parts_of_wandering_lines(const SetBench& bench, const std::vector<char>& hidden,
+                                   Scenario& scenario) {
+  auto& effects = scenario.effects;
+  const auto left = bench.rate_left_by(scenario, hidden);
+  const auto wandering = [&](const Resonance& line) {
+    return line_shape(bench.conditions(), left, line).wandering;
+  };
+  for (std::size_t a = 0; a < effects.size(); ++a)
+    for (std::size_t b = a + 1; b < effects.size() && effects[a].id() == "vibration";) {
+      const auto is_part = [&] {
+        if (effects[b].id() != "vibration") return false;
+        const auto one = line_of(effects[a]), other = line_of(effects[b]);
+        const double reach_hz = 2.0 * (one.bandwidth_hz + other.bandwidth_hz);
+        if (std::abs(one.centre_hz - other.centre_hz) > reach_hz) return false;
+        const double together = wandering(joined(one, other));
+        return together > clear_shape && together > std::max(wandering(one), wandering(other));
+      };
+      if (!is_part()) {
+        ++b;
+        continue;
+      }
+      const auto line = joined(line_of(effects[a]), line_of(effects[b]));
+      effects[a] = with_values("vibration", {{"std_dps", std::sqrt(line.variance)},
+                                             {"centre_hz", line.centre_hz},
+                                             {"bandwidth_hz", line.bandwidth_hz}});
+      effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(b));
+      b = a + 1;
+    }
+}
+
 }  // namespace
 
 std::vector<char> samples_in_bursts(const SetBench& bench, const Scenario& scenario,
@@ -40,6 +83,7 @@ std::vector<char> samples_in_bursts(const SetBench& bench, const Scenario& scena
 }
 
 void name_lines(const SetBench& bench, const std::vector<char>& hidden, FoundSet& found) {
+  join_parts_of_wandering_lines(bench, hidden, found.scenario);
   for (auto& effect : found.scenario.effects) {
     if (effect.id() != "vibration") continue;
     const auto line = line_of(effect);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 
@@ -18,7 +19,8 @@ namespace {
 constexpr std::array blocks_of_memory = {0.35, 0.7, 1.4};
 constexpr std::size_t shortest_block = 4;
 
-/// Squared envelopes, block after block of each span of the part.
+/// Squared envelopes, block after block of each span of the part; `no_value` where not half of a
+/// block's samples are there.
 std::vector<std::vector<double>> squared_envelopes(const Conditions& conditions, Part part,
                                                    const std::vector<double>& left,
                                                    const Resonance& line, std::size_t block) {
@@ -28,9 +30,14 @@ std::vector<std::vector<double>> squared_envelopes(const Conditions& conditions,
     all.emplace_back();
     for (std::size_t at = span.first; at + block <= span.last; at += block) {
       std::complex<double> sum = 0.0;
+      std::size_t there = 0;
       for (std::size_t i = at; i < at + block; ++i)
-        if (!is_missing(left[i])) sum += std::polar(left[i], turn * static_cast<double>(i - at));
-      all.back().push_back(4.0 * std::norm(sum) / static_cast<double>(block * block));
+        if (!is_missing(left[i])) {
+          sum += std::polar(left[i], turn * static_cast<double>(i - at));
+          ++there;
+        }
+      all.back().push_back(
+          2 * there < block ? no_value : 4.0 * std::norm(sum) / static_cast<double>(there * there));
     }
   }
   return all;
@@ -50,7 +57,9 @@ LineShape shape_in_blocks(const Conditions& conditions, const std::vector<double
       shortest_block, static_cast<std::size_t>(std::lround(block_s * conditions.rate_hz())));
   const auto envelopes = squared_envelopes(conditions, Part::train, left_dps, line, block);
   std::vector<double> squares;
-  for (const auto& e : envelopes) squares.insert(squares.end(), e.begin(), e.end());
+  for (const auto& e : envelopes)
+    std::copy_if(e.begin(), e.end(), std::back_inserter(squares),
+                 [](double q) { return !is_missing(q); });
   if (squares.size() < 50) return shape;
   const auto n = static_cast<double>(squares.size());
   const double mean = std::accumulate(squares.begin(), squares.end(), 0.0) / n;
@@ -102,7 +111,7 @@ LineShape shape_in_blocks(const Conditions& conditions, const std::vector<double
   for (const auto& e : envelopes)
     for (std::size_t k = 0; k < e.size(); ++k) {
       with += e[k] > limit;
-      begun += e[k] > limit && (k == 0 || e[k - 1] <= limit);
+      begun += e[k] > limit && (k == 0 || !(e[k - 1] > limit));
     }
   const double seconds = static_cast<double>(block) * conditions.interval_s();
   shape.on_s = begun > 0.0 ? with / begun * seconds : seconds;
@@ -132,7 +141,7 @@ std::vector<char> samples_in_bursts(const Conditions& conditions,
     const auto& spans = conditions.spans(part);
     for (std::size_t s = 0; s < spans.size(); ++s)
       for (std::size_t k = 0; k < envelopes[s].size(); ++k) {
-        if (envelopes[s][k] <= shape.limit_dps2) continue;
+        if (!(envelopes[s][k] > shape.limit_dps2)) continue;
         const std::size_t middle = spans[s].first + k * shape.block;
         const std::size_t from = std::max(spans[s].first + shape.block, middle) - shape.block;
         const std::size_t to = std::min(middle + 2 * shape.block, spans[s].last);

@@ -66,6 +66,39 @@ double equal_by_chance(const std::vector<double>& differences, double step) {
   return ones * std::pow(std::max(ones / twos, 1.0), 1.0 / 3.0);
 }
 
+/// Pairs of samples between which the reference moves by more than rounding and noise could undo,
+/// and how many of them are equal.
+struct Apart {
+  double pairs = 0.0, equal = 0.0;
+};
+Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<double>& z,
+                           const Marks& marks) {
+  const auto& reference = conditions.series().rate_ref_dps;
+  Apart apart;
+  if (reference.empty()) return apart;
+  const auto each = [&](const auto& look) {
+    for (const auto& span : conditions.spans(Part::train))
+      for (std::size_t i = span.first + 1; i < span.last; ++i)
+        if (!is_missing(z[i]) && !is_missing(z[i - 1]) &&
+            (marks.limit_dps == 0.0 || std::abs(z[i]) < marks.limit_dps))
+          look(z[i], z[i] - z[i - 1], reference[i] - reference[i - 1]);
+  };
+  std::vector<double> errors;
+  each([&](double /*z*/, double step, double turned) {
+    errors.push_back(std::abs(step - turned));
+  });
+  if (errors.empty()) return apart;
+  constexpr double beyond_noise = 5.0;
+  const double far = marks.lsb_dps + beyond_noise * quantile(std::move(errors), 0.5) / normal_quartile;
+  each([&](double value, double step, double turned) {
+    // About zero, a dead zone may hold them together.
+    if (std::abs(turned) <= far || std::abs(value) <= far) return;
+    apart.pairs += 1.0;
+    apart.equal += step == 0.0 ? 1.0 : 0.0;
+  });
+  return apart;
+}
+
 /// Standard deviation of white noise of which a sample equals the one before with this probability
 /// once both are rounded: a difference d is rounded to nothing with that of 1 - |d| / lsb.
 double white_under_grid(double lsb_dps, double equal) {
@@ -116,7 +149,14 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
     by_chance = equal_by_chance(differences, simulator.resolution_dps());
   if (by_chance < 0.0)
     by_chance = simulator.resolution_dps() > 0.0 && marks.lsb_dps == 0.0 ? 0.0 : equal;
-  const double beyond = equal - by_chance;
+  double beyond = equal - by_chance;
+  constexpr double enough_pairs = 1000.0;
+  if (const auto apart = kept_apart_by_motion(simulator.conditions(), z, marks);
+      apart.pairs >= enough_pairs) {
+    marks.turns_through_grid = apart.pairs > 0.5 * count;
+    beyond = apart.equal / apart.pairs * count;
+    by_chance = 0.0;
+  }
   if (beyond < clear * std::sqrt(by_chance + 1.0) + 0.1 * by_chance || beyond < least_share * count)
     return marks;
   // Of the repeats by chance, nearly none follow a repeat.

@@ -10,6 +10,7 @@ namespace gyrostat::gap {
 /// What the values of a recording show beyond doubt, before anything is fitted.
 struct Marks {
   double lsb_dps = 0.0;               ///< step of the grid that the values lie on; 0: none
+  bool turns_through_grid = false;    ///< a motion takes most samples from one step to others
   double white_under_grid_dps = 0.0;  ///< white noise that moves as many samples across the grid
   double stale_probability = 0.0;     ///< chance that a repeat begins at a sample; 0: no repeats
   double stale_run = 1.0;             ///< mean length of a repeat

@@ -37,6 +37,12 @@ Band band_of(std::string_view id) {
              : Band::slow;
 }
 
+/// Standard deviation of white noise with what rounding adds.
+double white_with_rounding(const Scenario& scenario) {
+  const auto law = law_of(scenario, 1.0);
+  return std::sqrt(law.white + law.rounding);
+}
+
 /// A sensor has lines as it has them; every other effect is there once.
 bool may_repeat(const Scenario& scenario, std::string_view effect) {
   constexpr std::ptrdiff_t most_lines = 3;
@@ -66,6 +72,9 @@ class Search {
   }
   std::vector<Standing> each_added(const Standing& standing) const;
   Standing searched(Standing standing);
+  /// The best of the sets with two more effects, neither of which pays alone: where both are slow,
+  /// one leaves to the walk what hides it. The standing itself where there is none better.
+  Standing two_further(const Standing& standing, std::vector<Standing> tried) const;
   double least_gain(const Standing& standing, const Standing& next) const;
   /// Every member against all that might stand in its place.
   Standing exchanged(Standing standing, FoundSet& found);
@@ -121,6 +130,25 @@ double Search::least_gain(const Standing& standing, const Standing& next) const 
   return share_of_band * most;
 }
 
+Standing Search::two_further(const Standing& standing, std::vector<Standing> tried) const {
+  constexpr double nearly_pays = 6.0;
+  constexpr std::size_t most_tried = 3;
+  std::erase_if(tried, [&](const Standing& t) {
+    if (t.score < standing.score - nearly_pays) return true;
+    const auto band = band_of(t.scenario.effects.back().id());
+    return band != Band::slow && band != Band::thermal;
+  });
+  std::stable_sort(tried.begin(), tried.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
+  if (tried.size() > most_tried) tried.resize(most_tried);
+  Standing best = standing;
+  for (const auto& t : tried)
+    for (auto& further : each_added(t))
+      if (further.score > best.score && further.score > standing.score + least_gain(t, further))
+        best = std::move(further);
+  return best;
+}
+
 Standing Search::searched(Standing standing) {
   for (std::size_t step = 0; step < 2 * options_.most_effects; ++step) {
     if (standing.scenario.effects.size() >= options_.most_effects + 2) break;
@@ -130,9 +158,12 @@ Standing Search::searched(Standing standing) {
     for (const auto& t : tried)
       if (t.score > -1e299)
         screening_.emplace_back(t.scenario.effects.back().id(), t.score - standing.score);
-    if (best == tried.end() || best->score <= standing.score + least_gain(standing, *best)) break;
-    gains_.emplace_back(best->scenario.effects.back().id(), best->score - standing.score);
-    standing = *best;
+    if (best == tried.end()) break;
+    const bool pays = best->score > standing.score + least_gain(standing, *best);
+    auto next = pays ? *best : two_further(standing, std::move(tried));
+    if (next.score <= standing.score) break;
+    gains_.emplace_back(next.scenario.effects.back().id(), next.score - standing.score);
+    standing = std::move(next);
     tell(fmt::format("adding {}", standing.scenario.effects.back().id()),
          0.1 + 0.1 * static_cast<double>(step));
     // What the newcomer made needless goes.
@@ -324,20 +355,20 @@ FoundSet Search::run() {
   tell("reading values", 0.02);
   const auto marks = marks_of(simulator_, recording_);
   tell("fitting the baseline", 0.05);
-  const auto baseline = bench_.beside_noise({});
-  found.baseline = baseline.scenario;
+  found.baseline = bench_.beside_noise({}).scenario;
   const auto marked = read_off(marks, found);
   for (const auto& cause : cause_types())
     if (bench_.is_allowed(cause.id) && !is_compass(cause) && !bench_.is_marked(cause.id))
       candidates_.push_back(&cause);
 
-  // Rounding to more than the noise is no longer noise: what it does to the fast part and to slow
-  // noise has no law here. Rounded to nearly as much, samples are no longer normal: their tails say
-  // nothing.
+  const auto begun = bench_.beside_noise(marked);
+  // Rounding to more than the noise is no longer noise, unless a motion dithers it: what it does to
+  // the fast part and to slow noise has no law here. Rounded to nearly as much, samples are no
+  // longer normal: their tails say nothing.
   constexpr double coarsest = 2.2, coarsest_for_tails = 1.2;
   const double lsb_of_noise =
-      marks.lsb_dps / baseline.scenario.random_error.measurement_noise_std_dps;
-  const bool coarse = lsb_of_noise > coarsest;
+      marks.lsb_dps / white_with_rounding(begun.scenario);
+  const bool coarse = lsb_of_noise > coarsest && !marks.turns_through_grid;
   is_normal_ = lsb_of_noise < coarsest_for_tails;
   if (coarse)
     std::erase_if(candidates_, [](const auto* cause) {
@@ -345,7 +376,7 @@ FoundSet Search::run() {
       return band == Band::fast || band == Band::slow;
     });
 
-  auto standing = searched_beside_tails(bench_.beside_noise(marked));
+  auto standing = searched_beside_tails(begun);
   tell("trying rivals", 0.7);
   standing = exchanged(std::move(standing), found);
   found.screening = screening_;
