@@ -69,6 +69,8 @@ class Work {
   void climb(const std::vector<std::string>& order);
   /// What the recording still shows that the simulator, enriched, does not.
   void see_what_is_left();
+  /// Of all ways in which the set leaves something unexplained, Bonferroni's bound.
+  double p_unexplained() const;
   void measure_shrinkage();
   void keep_bands();
   void look_ahead();
@@ -134,8 +136,12 @@ void Work::localise() {
   result_.p_after = train_->p_value(observed_[0]);
   double most_odds = found_.nameless_log_odds;
   for (const auto& m : found_.members) most_odds = std::max(most_odds, m.log_odds);
+  result_.unexplained = found_.unexplained;
+  constexpr double level_of_odds =
+      1.0 - thresholds::level_of_lenses - thresholds::level_of_unexplained;
   result_.p_before = std::min({1.0, result_.p_after / thresholds::level_of_lenses,
-                               std::exp(-most_odds) / (1.0 - thresholds::level_of_lenses)});
+                               p_unexplained() / thresholds::level_of_unexplained,
+                               std::exp(-most_odds) / level_of_odds});
   result_.where = departures_of(*train_);
   took("localisation");
 }
@@ -297,6 +303,12 @@ void Work::see_what_is_left() {
   const Ensemble enriched(simulator_.instrument(Part::train), rungs_.back().replicas[0], {});
   result_.p_after = enriched.p_value(observed_[0]);
   result_.where_after = departures_of(enriched);
+}
+
+double Work::p_unexplained() const {
+  double least = 1.0;
+  for (const auto& u : found_.unexplained) least = std::min(least, u.p_value);
+  return std::min(1.0, least * static_cast<double>(found_.unexplained.size()));
 }
 
 void Work::measure_shrinkage() {

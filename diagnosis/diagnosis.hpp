@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <gyrostat/diagnosis/likelihood/unexplained.hpp>
 #include <gyrostat/diagnosis/next_experiment.hpp>
 #include <gyrostat/diagnosis/transfer.hpp>
 #include <gyrostat/diagnosis/verdict.hpp>
@@ -19,7 +20,7 @@ struct DiagnosisOptions {
   std::optional<Scenario> claim;
   std::size_t baseline_replicas = 100;
   std::size_t candidate_replicas = 32;
-  double significance = 0.01;
+  double significance = 0.02;
 };
 
 /// A reading at which the recording leaves the simulator.
@@ -72,6 +73,7 @@ struct Diagnosis {
   Scenario baseline;
   Scenario enriched;  ///< with every effect that was added; the baseline where none was
   std::vector<Where> where, where_after;  ///< on the train part, before and after the effects
+  std::vector<Unexplained> unexplained;   ///< that the likelihood sees beside the effects
   double gap_before = 0.0, gap_after = 0.0, closed = 0.0, closed_low = 0.0, closed_high = 0.0;
   double p_before = 1.0, p_after = 1.0;  ///< of the train part
   std::vector<Included> effects;         ///< the set, those that close most first

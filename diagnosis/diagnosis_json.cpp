@@ -77,6 +77,9 @@ Json to_json(const Diagnosis& d) {
     json["effects"].push_back(found);
   }
   json["remainder"] = {{"gap", d.gap_after}, {"where", departures_json(d.where_after)}};
+  json["remainder"]["unexplained"] = Json::array();
+  for (const auto& u : d.unexplained)
+    json["remainder"]["unexplained"].push_back({{"what", u.what}, {"p", u.p_value}});
   json["verdict"] = d.verdict.text();
   json["verdict_set"] = Json::array();
   for (const auto& verdict : d.verdict_set) json["verdict_set"].push_back(verdict.text());

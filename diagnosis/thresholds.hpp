@@ -9,10 +9,11 @@ namespace gyrostat::gap::thresholds {
 /// Family-wise probability below which a reading is said to leave the simulator.
 inline constexpr double departure = 0.05;
 
-/// The gap is significant by the lenses or by the odds of the set, which chance exceeds by e^x with
-/// a probability of at most e^-x (Markov's inequality): two tests, of which the first has this
-/// share of the level.
-inline constexpr double level_of_lenses = 0.9;
+/// The gap is significant by the lenses, by what the likelihood leaves unexplained, or by the odds
+/// of the set, which chance exceeds by e^x with a probability of at most e^-x (Markov's
+/// inequality): three tests, of which the first two have these shares of the level.
+inline constexpr double level_of_lenses = 0.45;
+inline constexpr double level_of_unexplained = 0.45;
 /// Share of the gap that is left at least, where what is left is seen.
 inline constexpr double least_left = 0.02;
 /// Share of what a true cause would gain below which the cause is unknown, where the simulator with
@@ -23,7 +24,12 @@ inline constexpr double recovery = 0.6;
 inline constexpr double deficit_of_a_miss = 4.0;
 /// So many times stricter than the significance of the gap is that of what is left of it. The
 /// causes were fitted, and their form is not exactly nature's; "unknown" is for more than that.
-inline constexpr double strictness_after = 0.1;
+inline constexpr double strictness_after = 0.05;
+/// Of names that leave more than this to chance, and more than a form of nature's own would, the
+/// verdict is unknown.
+inline constexpr double p_of_the_unexplained = 0.01;
+/// What a form of nature's own leaves, of what the set gained.
+inline constexpr double share_of_form = 0.01;
 /// Least probability of a cause in the verdict's set.
 inline constexpr double member_probability = 0.05;
 

@@ -64,7 +64,17 @@ NoiseLaw law_of(const Scenario& scenario, double interval_s) {
 }
 
 SetFitter::SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced)
-    : conditions_(conditions), reduced_(std::move(reduced)) {
+    : SetFitter(conditions, std::move(reduced), Eigen::MatrixXd()) {}
+
+SetFitter::SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
+                     const Eigen::MatrixXd& further)
+    : conditions_(conditions), reduced_(std::move(reduced)), further_(further) {
+  for (Eigen::Index c = 0; c < further_.cols(); ++c) {
+    auto column = further_.col(c);
+    column.array() -= column.mean();
+    column /=
+        std::max(1e-300, std::sqrt(column.squaredNorm() / static_cast<double>(column.size())));
+  }
   slow_series_.t_s = conditions.slow_time_s();
   slow_series_.temperature_C = conditions.slow_temperature_C();
   slow_series_.gyro_dps.assign(slow_series_.size(), 0.0);
@@ -135,8 +145,14 @@ SetFitter::Regressors SetFitter::regressors_of(const Scenario& scenario) const {
       found.spreads.push_back(spread);
     }
   }
+  if (further_.cols() > 0) {
+    regressors.conservativeResize(static_cast<Eigen::Index>(slow_series_.size()),
+                                  regressors.cols() + further_.cols());
+    regressors.rightCols(further_.cols()) = further_;
+  }
   return found;
 }
+
 RateTerms SetFitter::terms_with(const Scenario& scenario, const Regressors& regressors, Part part,
                                 Jumping jumping) const {
   const auto law = law_of(scenario, conditions_.interval_s());

@@ -31,8 +31,14 @@ NoiseLaw law_of(const Scenario& scenario, double interval_s);
 class SetFitter {
  public:
   SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced);
+  /// One that has further regressors of unknown size (cluster x any) beside every set.
+  SetFitter beside(const Eigen::MatrixXd& further) const {
+    return SetFitter(conditions_, reduced_, further);
+  }
 
   const ReducedRate& reduced() const { return *reduced_; }
+  /// Standard deviation of all cluster means.
+  double slow_deviation_dps() const { return amplitude_dps_; }
   /// Fisher scoring from `start`, damped (Levenberg and Marquardt), for at most `iterations`.
   SetFit maximise(const Scenario& start, int iterations, Jumping jumping = Jumping::yes) const;
   /// With as much white noise as the fast part calls for, all else as it is.
@@ -40,6 +46,9 @@ class SetFitter {
   RateTerms terms(const Scenario& scenario, Part part, Jumping jumping = Jumping::yes) const;
 
  private:
+  SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
+            const Eigen::MatrixXd& further);
+
   const Conditions& conditions_;
   std::shared_ptr<const ReducedRate> reduced_;
   /// Columns of unit spread: the drift's regressors, and the signatures of the scenario's slow
@@ -57,7 +66,7 @@ class SetFitter {
   mutable std::mutex mutex_;
   mutable std::map<std::pair<std::string, std::size_t>, Eigen::VectorXd> fixed_;
   Series slow_series_;
-  Eigen::MatrixXd drift_;
+  Eigen::MatrixXd drift_, further_;
   std::vector<double> drift_spreads_;
   double amplitude_dps_;  ///< to be expected of a slow signature
 };

@@ -86,6 +86,7 @@ class Search {
   /// What the innovations say of outliers and of noise over temperature, beside the set.
   void judge_tails(const Standing& standing);
   void add_tails(FoundSet& found) const;
+  void add_nameless_tails(FoundSet& found) const;
   /// The set, and what only the sizes of innovations say, in turn.
   Standing searched_beside_tails(Standing standing);
 
@@ -304,12 +305,21 @@ void Search::judge_tails(const Standing& standing) {
   const auto bursts = samples_in_bursts(bench_, standing.scenario, without_outliers);
   for (std::size_t i = 0; i < left.size(); ++i)
     if (bursts[i] != 0) left[i] = no_value;
-  tails_ = tails_of(conditions_, left, bench_.is_allowed("noise_temperature"));
+  tails_ = tails_of(conditions_, left, conditions_.has_temperature());
   const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
   has_outliers_ = is_normal_ && bench_.is_allowed("outliers") &&
                   tails_.outlier_gain > prior + 2.0 * value + 4.0;
   has_warm_noise_ =
       bench_.is_allowed("noise_temperature") && tails_.temperature_gain > prior + value;
+}
+
+void Search::add_nameless_tails(FoundSet& found) const {
+  const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
+  const auto add = [&](const std::string& what, double gain, double values) {
+    found.unexplained.push_back({what, std::min(1.0, std::exp(values * value - gain))});
+  };
+  if (is_normal_ && !has_outliers_) add("tails of the noise", tails_.outlier_gain, 2.0);
+  if (!has_warm_noise_) add("noise over temperature", tails_.temperature_gain, 1.0);
 }
 
 Standing Search::searched_beside_tails(Standing standing) {
@@ -366,8 +376,7 @@ FoundSet Search::run() {
   // the fast part and to slow noise has no law here. Rounded to nearly as much, samples are no
   // longer normal: their tails say nothing.
   constexpr double coarsest = 2.2, coarsest_for_tails = 1.2;
-  const double lsb_of_noise =
-      marks.lsb_dps / white_with_rounding(begun.scenario);
+  const double lsb_of_noise = marks.lsb_dps / white_with_rounding(begun.scenario);
   const bool coarse = lsb_of_noise > coarsest && !marks.turns_through_grid;
   is_normal_ = lsb_of_noise < coarsest_for_tails;
   if (coarse)
@@ -379,6 +388,10 @@ FoundSet Search::run() {
   auto standing = searched_beside_tails(begun);
   tell("trying rivals", 0.7);
   standing = exchanged(std::move(standing), found);
+  tell("looking for what has no name", 0.9);
+  found.gain = standing.score - begun.score;
+  found.unexplained = unexplained_by(conditions_, *standing.fitter, standing.scenario);
+  add_nameless_tails(found);
   found.screening = screening_;
   found.scenario = standing.scenario;
   add_tails(found);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
+#include <gyrostat/diagnosis/likelihood/unexplained.hpp>
 #include <gyrostat/diagnosis/simulator.hpp>
 
 namespace gyrostat::gap {
@@ -36,6 +37,8 @@ struct FoundSet {
   /// the form of is not in the catalogue; 0: all has its name.
   double nameless_log_odds = 0.0;
   std::vector<Rival> rivals;
+  std::vector<Unexplained> unexplained;  ///< beside the set
+  double gain = 0.0;  ///< log-likelihood of the rate's set, less its cost, beyond the baseline's
   /// What each effect would have gained at each step of the search.
   std::vector<std::pair<std::string, double>> screening;
   /// The scenario with those effects of the set alone that have one of the names, its noise fitted
