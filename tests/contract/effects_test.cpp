@@ -13,7 +13,7 @@
 #include <gyrostat/generators/environment/temperature/list.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
-namespace gyrostat {
+namespace gyrostat::effects_test {
 namespace {
 
 template <class List>
@@ -265,4 +265,4 @@ TYPED_TEST(EffectContract, IsAFunctionOfSeedAndTrial) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::effects_test

@@ -21,7 +21,7 @@
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/tests/diagnosis/known_recordings.hpp>
 
-namespace gyrostat::gap {
+namespace gyrostat::gap::diagnosis_test {
 namespace {
 
 /// p-values of 500 recordings of 40 s that the simulator made itself, known or fitted to each of
@@ -222,4 +222,4 @@ TEST(Diagnosis, NamesThePracticeRecordings) {
 }
 
 }  // namespace
-}  // namespace gyrostat::gap
+}  // namespace gyrostat::gap::diagnosis_test
