@@ -1,6 +1,6 @@
 # A release build from nothing compiles several sources as one, which share what their headers and templates cost:
 # most of the time of a short source. The dev preset compiles each alone, so that each includes what it uses.
-option(GYROSTAT_TOGETHER "Compile several sources as one, and precompile what tests read" ON)
+option(GYROSTAT_TOGETHER "Compile several sources as one" ON)
 
 function(gyrostat_together target batch)
   if(GYROSTAT_TOGETHER AND TARGET ${target})

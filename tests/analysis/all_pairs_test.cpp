@@ -9,7 +9,7 @@
 
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::all_pairs_test {
 namespace {
 
 using Trials = std::vector<std::vector<double>>;
@@ -120,4 +120,4 @@ TEST(AllPairs, FindsNothingInNothingOnceInTwentyFamilies) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::all_pairs_test

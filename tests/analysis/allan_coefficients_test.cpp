@@ -14,7 +14,7 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::allan_coefficients_test {
 namespace {
 
 using testing::HasSubstr;
@@ -366,4 +366,4 @@ TEST(AllanCoefficients, RefuseWhatTheyCannotUse) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::allan_coefficients_test

@@ -11,7 +11,7 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::allan_test {
 namespace {
 
 using testing::HasSubstr;
@@ -246,4 +246,4 @@ TEST(RobustAllan, OfABurstIsBounded) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::allan_test

@@ -9,7 +9,7 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/tests/analysis/simulated_random_error.hpp>
 
-namespace gyrostat {
+namespace gyrostat::arima_intervals_test {
 namespace {
 
 std::vector<double> simulated(const Arima111<double>& model, std::size_t samples,
@@ -83,4 +83,4 @@ TEST(ArimaIntervals, ReachTheEndsOfWhatASignalDoesNotTell) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::arima_intervals_test

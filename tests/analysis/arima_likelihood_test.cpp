@@ -11,7 +11,7 @@
 #include <gyrostat/core/filters/kf_ma.hpp>
 #include <gyrostat/tests/analysis/simulated_random_error.hpp>
 
-namespace gyrostat {
+namespace gyrostat::arima_likelihood_test {
 namespace {
 
 using testing::HasSubstr;
@@ -154,4 +154,4 @@ TEST(ArimaLikelihood, SaysWhatIsWrongWithASignalThatCannotBeFitted) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::arima_likelihood_test

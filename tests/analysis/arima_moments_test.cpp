@@ -14,7 +14,7 @@
 #include <gyrostat/core/numerics/linear.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::arima_moments_test {
 namespace {
 
 using testing::HasSubstr;
@@ -277,4 +277,4 @@ TEST(ArimaMoments, RefusesWhatHasNoNoise) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::arima_moments_test

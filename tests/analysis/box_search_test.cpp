@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gyrostat {
+namespace gyrostat::box_search_test {
 namespace {
 
 double rosenbrock(const std::vector<double>& x) {
@@ -49,4 +49,4 @@ TEST(BoxSearch, TakesNoValueForTheWorst) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::box_search_test

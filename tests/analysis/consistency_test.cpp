@@ -9,7 +9,7 @@
 #include <gyrostat/analysis/statistics/summary.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::consistency_test {
 namespace {
 
 TEST(Running, HasTheMomentsOfAllValuesAtOnce) {
@@ -56,4 +56,4 @@ TEST(TrialMeanBounds, HoldForSkewedValues) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::consistency_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gyrostat {
+namespace gyrostat::innovations_test {
 namespace {
 
 Track track_of(const std::vector<double>& innovations, double variance) {
@@ -69,4 +69,4 @@ TEST(Innovations, OfAFilterWithoutAnyHaveNoValues) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::innovations_test

@@ -7,7 +7,7 @@
 
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::paired_test {
 namespace {
 
 std::vector<double> normals(std::uint32_t trial, const char* stream, std::size_t count,
@@ -90,4 +90,4 @@ TEST(PairedDifference, AsksForTheTrialsThatItTakes) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::paired_test

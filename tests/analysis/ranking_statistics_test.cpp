@@ -7,7 +7,7 @@
 #include <gyrostat/analysis/statistics/mean_ranks.hpp>
 #include <gyrostat/analysis/statistics/tail_mean.hpp>
 
-namespace gyrostat {
+namespace gyrostat::ranking_statistics_test {
 namespace {
 
 using testing::ElementsAre;
@@ -87,4 +87,4 @@ TEST(TailMean, ItsIntervalCoversTheTruthInNineteenOfTwentySamples) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::ranking_statistics_test

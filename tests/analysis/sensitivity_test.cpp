@@ -10,7 +10,7 @@
 #include <gyrostat/analysis/sensitivity/trial_moments.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::sensitivity_test {
 namespace {
 
 using Function = std::function<double(std::span<const double>)>;
@@ -327,4 +327,4 @@ TEST(Designs, AMorrisTrajectoryMovesEveryParameterOnceByTheStep) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::sensitivity_test

@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace gyrostat {
+namespace gyrostat::sequential_test {
 namespace {
 
 using testing::ElementsAre;
@@ -56,4 +56,4 @@ TEST(SequentialBounds, AreLeftAsOftenAsTheySay) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::sequential_test

@@ -13,7 +13,7 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::shrinkage_test {
 namespace {
 
 using testing::HasSubstr;
@@ -347,4 +347,4 @@ TEST(ShrinkRate, RefusesWhatItCannotUse) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::shrinkage_test

@@ -11,7 +11,7 @@
 #include <gyrostat/analysis/statistics/summary.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::statistics_test {
 namespace {
 
 TEST(Summary, IsWhatOneComputesByHand) {
@@ -187,4 +187,4 @@ TEST(Summary, AnIntervalOfHugeValuesIsNoNan) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::statistics_test

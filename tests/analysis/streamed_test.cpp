@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gyrostat {
+namespace gyrostat::streamed_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -81,4 +81,4 @@ TEST(StreamedSummary, CountsMissingValuesAndLeavesThemOut) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::streamed_test

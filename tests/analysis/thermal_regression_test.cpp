@@ -9,7 +9,7 @@
 #include <gyrostat/generators/environment/temperature/list.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
-namespace gyrostat {
+namespace gyrostat::thermal_regression_test {
 namespace {
 
 Scenario warm_up(double delta_dps) {
@@ -120,4 +120,4 @@ TEST(ThermalRegression, NeedsFourIntervals) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::thermal_regression_test

@@ -14,7 +14,7 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::wavelet_test {
 namespace {
 
 using testing::HasSubstr;
@@ -319,4 +319,4 @@ TEST(Wavelet, RefusesWhatItCannotUse) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::wavelet_test

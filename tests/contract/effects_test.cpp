@@ -13,27 +13,42 @@
 #include <gyrostat/generators/environment/temperature/list.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
-namespace gyrostat {
+namespace gyrostat::effects_test {
 namespace {
 
-template <class List>
-struct TypesOf;
-template <class... Plugins>
-struct TypesOf<PluginList<Plugins...>> {
-  using type = testing::Types<Plugins...>;
+/// One effect of the list, with its defaults and absent.
+struct Listed {
+  Effect effect, absent;
 };
 
-struct Ids {
-  template <class Plugin>
-  static std::string GetName(int) {
-    return std::string(Plugin::id);
-  }
-};
+const std::vector<Listed>& listed() {
+  static const std::vector<Listed> all = [] {
+    std::vector<Listed> to;
+    Effects::for_each([&]<class Plugin>(Plugin) {
+      constexpr auto absent = Plugin::type::absent();
+      to.push_back({typename Plugin::type{}, absent});
+    });
+    return to;
+  }();
+  return all;
+}
+
+std::vector<std::string> ids() {
+  std::vector<std::string> ids;
+  for (const auto& one : listed()) ids.emplace_back(one.effect.id());
+  return ids;
+}
 
 /// What every effect owes to the scenario that it stands in.
-template <class Plugin>
-class EffectContract : public testing::Test {};
-TYPED_TEST_SUITE(EffectContract, TypesOf<Effects>::type, Ids);
+class EffectContract : public testing::TestWithParam<std::string> {
+ protected:
+  const Listed& it() const {
+    return *std::find_if(listed().begin(), listed().end(),
+                         [](const Listed& one) { return one.effect.id() == GetParam(); });
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Each, EffectContract, testing::ValuesIn(ids()),
+                         [](const auto& given) { return given.param; });
 
 /// A warm and moving scenario with the given effects.
 Series with(const std::vector<Effect>& effects, const Noise& noise = {1, 0}) {
@@ -110,7 +125,6 @@ const Series& plain() {
   return series;
 }
 
-template <class Effect>
 Series applied(const Effect& effect, Series series, const Noise& noise = {1, 0}) {
   effect.apply(series, noise);
   return series;
@@ -123,82 +137,83 @@ bool all_finite(const Series& series) {
   });
 }
 
-TYPED_TEST(EffectContract, AbsentItChangesNothing) {
-  constexpr auto absent = TypeParam::type::absent();
+TEST_P(EffectContract, AbsentItChangesNothing) {
+  const Effect& absent = it().absent;
   EXPECT_TRUE(same_bits(applied(absent, plain()), plain()));
   EXPECT_TRUE(same_bits(under(rich_conditions(), {absent}), plain()));
   EXPECT_TRUE(same_bits(with({absent}), with({})));
 }
 
-TYPED_TEST(EffectContract, AbsentItIsWithinItsRanges) {
-  constexpr auto absent = TypeParam::type::absent();
-  for (const auto& field : absent.fields())
-    EXPECT_TRUE(field.range.contains(absent.*(field.member))) << field.name;
+TEST_P(EffectContract, AbsentItIsWithinItsRanges) {
+  const Effect& absent = it().absent;
+  for (std::size_t i = 0; i < absent.fields().size(); ++i)
+    EXPECT_TRUE(absent.fields()[i].range.contains(absent.value(i))) << absent.fields()[i].name;
 }
 
-TYPED_TEST(EffectContract, AtItsDefaultsChangesTheChannelOfItsStageAndNoOther) {
-  const typename TypeParam::type effect;
+TEST_P(EffectContract, AtItsDefaultsChangesTheChannelOfItsStageAndNoOther) {
+  const Effect& effect = it().effect;
   const auto after = applied(effect, plain());
   for (const auto& channel : channels)
     EXPECT_EQ(same_bits(after.*channel.values, plain().*channel.values),
-              channel.values != channel_of(effect.stage))
+              channel.values != channel_of(effect.stage()))
         << channel.name;
 }
 
-TYPED_TEST(EffectContract, AtItsDefaultsShowsInTheScenario) {
+TEST_P(EffectContract, AtItsDefaultsShowsInTheScenario) {
   const auto& before = plain();
-  const auto after = under(rich_conditions(), {typename TypeParam::type{}});
-  const auto stage = TypeParam::type::stage;
+  const auto after = under(rich_conditions(), {it().effect});
+  const auto stage = it().effect.stage();
   const auto seen = stage == Stage::compass ? &Series::heading_deg : &Series::gyro_dps;
   EXPECT_FALSE(same_bits(after.*seen, before.*seen));
 }
 
-TYPED_TEST(EffectContract, IsFiniteWhateverItsRangesAllow) {
-  const typename TypeParam::type defaults;
+TEST_P(EffectContract, IsFiniteWhateverItsRangesAllow) {
+  const Effect& defaults = it().effect;
   EXPECT_TRUE(all_finite(applied(defaults, plain())));
-  for (const auto& field : defaults.fields()) {
+  for (std::size_t i = 0; i < defaults.fields().size(); ++i) {
+    const auto& field = defaults.fields()[i];
     for (const double factor : {0.01, 0.5, 2.0, 100.0}) {
       auto effect = defaults;
-      effect.*(field.member) *= factor;
-      if (!field.range.contains(effect.*(field.member))) continue;
+      effect.value(i) *= factor;
+      if (!field.range.contains(effect.value(i))) continue;
       EXPECT_TRUE(all_finite(applied(effect, plain()))) << field.name << " times " << factor;
     }
     if (!field.range.contains(0.0)) continue;
     auto effect = defaults;
-    effect.*(field.member) = 0.0;
+    effect.value(i) = 0.0;
     EXPECT_TRUE(all_finite(applied(effect, plain()))) << field.name << " = 0";
   }
 }
 
-TYPED_TEST(EffectContract, AloneWithOneSampleOrNoneIsFinite) {
+TEST_P(EffectContract, AloneWithOneSampleOrNoneIsFinite) {
   for (const std::size_t samples : {0, 1, 2})
-    EXPECT_TRUE(all_finite(applied(typename TypeParam::type{}, plain().slice(0, samples))))
-        << samples;
+    EXPECT_TRUE(all_finite(applied(it().effect, plain().slice(0, samples)))) << samples;
 }
 
-TYPED_TEST(EffectContract, WithoutAChannelThatItNeedsChangesNothing) {
-  const typename TypeParam::type effect;
-  for (const auto channel : effect.needs) {
+TEST_P(EffectContract, WithoutAChannelThatItNeedsChangesNothing) {
+  const Effect& effect = it().effect;
+  for (const auto channel : effect.type().needs) {
     auto series = plain();
     (series.*channel).clear();
     EXPECT_TRUE(same_bits(applied(effect, series), series));
   }
 }
 
-TYPED_TEST(EffectContract, NeedsNoOtherChannel) {
-  const typename TypeParam::type effect;
+TEST_P(EffectContract, NeedsNoOtherChannel) {
+  const Effect& effect = it().effect;
   auto series = plain();
   for (const auto& channel : channels) {
     const auto is_needed = [&](auto needed) { return needed == channel.values; };
-    if (std::none_of(effect.needs.begin(), effect.needs.end(), is_needed) && channel.name != "t_s")
+    if (std::none_of(effect.type().needs.begin(), effect.type().needs.end(), is_needed) &&
+        channel.name != "t_s")
       (series.*channel.values).clear();
   }
-  const auto changed = channel_of(effect.stage);
+  const auto changed = channel_of(effect.stage());
   EXPECT_TRUE(same_bits(applied(effect, series).*changed, applied(effect, plain()).*changed));
 }
 
 /// In a recording with gaps every sample that the recording has is finite.
-TYPED_TEST(EffectContract, BridgesTheGapsOfARecording) {
+TEST_P(EffectContract, BridgesTheGapsOfARecording) {
   auto conditions = rich_conditions();
   conditions.gyro_dps.resize(conditions.size());
   for (const auto& channel : channels) {
@@ -206,31 +221,31 @@ TYPED_TEST(EffectContract, BridgesTheGapsOfARecording) {
     for (std::size_t i = 0; channel.name != "t_s" && i < values.size(); ++i)
       if (i % 1000 < 7) values[i] = no_value;
   }
-  const auto series = under(conditions, {typename TypeParam::type{}});
+  const auto series = under(conditions, {it().effect});
   for (const auto& channel : {&Series::gyro_dps, &Series::heading_deg})
     for (std::size_t i = 0; i < series.size(); ++i)
       ASSERT_EQ(std::isfinite((series.*channel)[i]), i % 1000 >= 7) << i;
 }
 
-TYPED_TEST(EffectContract, AppliedToAGapDoesNotFail) {
-  const typename TypeParam::type effect;
+TEST_P(EffectContract, AppliedToAGapDoesNotFail) {
+  const Effect& effect = it().effect;
   auto series = plain();
-  for (const auto channel : effect.needs) (series.*channel)[100] = no_value;
+  for (const auto channel : effect.type().needs) (series.*channel)[100] = no_value;
   EXPECT_TRUE(same_bits(applied(effect, series), applied(effect, series)));
 }
 
-TYPED_TEST(EffectContract, TakesUnevenTimes) {
+TEST_P(EffectContract, TakesUnevenTimes) {
   auto series = plain();
   for (std::size_t i = 0; i < series.size(); ++i)
     series.t_s[i] = 1.7e9 + 0.1 * (static_cast<double>(i) + (i % 3 == 1 ? 0.4 : 0.0)) +
                     (i > 9000 ? 500.0 : 0.0);
-  EXPECT_TRUE(all_finite(applied(typename TypeParam::type{}, series)));
+  EXPECT_TRUE(all_finite(applied(it().effect, series)));
 }
 
 /// The random error is what it was to the bit, and what each effect adds is the same wherever other
 /// effects stand beside it.
-TYPED_TEST(EffectContract, MovesNoDrawOfAnythingElse) {
-  const Effect effect = typename TypeParam::type{};
+TEST_P(EffectContract, MovesNoDrawOfAnythingElse) {
+  const Effect& effect = it().effect;
   const auto neither = with({}), one = with({effect});
   for (const auto& type : effect_types()) {
     if (type.id == effect.id()) continue;
@@ -248,8 +263,8 @@ TYPED_TEST(EffectContract, MovesNoDrawOfAnythingElse) {
   }
 }
 
-TYPED_TEST(EffectContract, TheOrderOfEffectsOfOneStageDoesNotChangeTheirSum) {
-  const Effect effect = typename TypeParam::type{};
+TEST_P(EffectContract, TheOrderOfEffectsOfOneStageDoesNotChangeTheirSum) {
+  const Effect& effect = it().effect;
   if (!is_additive(effect.stage())) return;
   for (const auto& type : effect_types()) {
     if (!is_additive(type.stage)) continue;
@@ -259,10 +274,10 @@ TYPED_TEST(EffectContract, TheOrderOfEffectsOfOneStageDoesNotChangeTheirSum) {
   }
 }
 
-TYPED_TEST(EffectContract, IsAFunctionOfSeedAndTrial) {
-  const typename TypeParam::type effect;
+TEST_P(EffectContract, IsAFunctionOfSeedAndTrial) {
+  const Effect& effect = it().effect;
   EXPECT_TRUE(same_bits(with({effect}, {5, 2}), with({effect}, {5, 2})));
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::effects_test

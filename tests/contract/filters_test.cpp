@@ -12,7 +12,7 @@
 #include <gyrostat/core/filters/list.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::filters_test {
 namespace {
 
 using Jet = ceres::Jet<double, 3>;
@@ -304,4 +304,4 @@ TYPED_TEST(FilterContract, DerivativesOnJetsHoldWhereTheInitialStatesAreAlike) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::filters_test

@@ -16,7 +16,7 @@
 #include <gyrostat/generators/environment/temperature/list.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
-namespace gyrostat {
+namespace gyrostat::parameters_test {
 namespace {
 
 /// What `list`, JSON and the sensitivity bounds rely on, of every parameter struct.
@@ -116,4 +116,4 @@ TEST(ParameterContract, IdsAreUniqueAndReadAsFileStems) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::parameters_test

@@ -13,7 +13,7 @@
 #include <gyrostat/core/filters/thermal_stf.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::cascade_test {
 namespace {
 
 using filters::Cascade;
@@ -134,4 +134,4 @@ TEST(Cascade, AtRestIsBetterThanItsThermalPartInEveryTrial) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::cascade_test

@@ -11,7 +11,7 @@
 #include <gyrostat/core/filters/sr_rsukf.hpp>
 #include <gyrostat/core/values.hpp>
 
-namespace gyrostat {
+namespace gyrostat::fields_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -141,4 +141,4 @@ TEST(Registry, GivesEachPluginByItsName) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::fields_test

@@ -14,7 +14,7 @@
 #include <gyrostat/core/filters/stf.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::kalman_filters_test {
 namespace {
 
 using filters::Kf;
@@ -364,4 +364,4 @@ TEST(None, EstimatesNothing) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::kalman_filters_test

@@ -13,7 +13,7 @@
 #include <gyrostat/core/numerics/linear.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::kf_rml_test {
 namespace {
 
 using filters::KfMa;
@@ -326,4 +326,4 @@ TEST(KfRml, AMissingSampleTeachesNothing) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::kf_rml_test

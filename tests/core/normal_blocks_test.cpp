@@ -12,7 +12,7 @@
 #include <gyrostat/core/packed/normals.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::normal_blocks_test {
 namespace {
 
 constexpr std::size_t chunk = 4 * normal_blocks;
@@ -131,4 +131,4 @@ TEST(NormalBlocks, DeviatesAreNormalByAndersonAndDarling) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::normal_blocks_test

@@ -13,7 +13,7 @@
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/tests/core/reference/dense_unscented.hpp>
 
-namespace gyrostat {
+namespace gyrostat::numerics_test {
 namespace {
 
 using reference::downdate_root;
@@ -361,4 +361,4 @@ TEST_F(Numerics, TheQuadraticTransformIsTheSumOverAllSigmaPoints) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::numerics_test

@@ -10,7 +10,7 @@
 #include <gyrostat/core/filters/list.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::pack_test {
 namespace {
 
 struct Baseline {
@@ -125,4 +125,4 @@ TEST(Packed, SrRsukfScalarIsItselfInEveryLane) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::pack_test

@@ -12,7 +12,7 @@
 #include <gyrostat/core/filters/sr_ukf.hpp>
 #include <gyrostat/tests/core/arima_signal.hpp>
 
-namespace gyrostat {
+namespace gyrostat::particle_test {
 namespace {
 
 using filters::Kf;
@@ -244,4 +244,4 @@ TEST(Particle, StaysFiniteWhateverTheData) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::particle_test

@@ -10,7 +10,7 @@
 #include <Random123/philox.h>
 #include <gtest/gtest.h>
 
-namespace gyrostat {
+namespace gyrostat::random_test {
 namespace {
 
 constexpr std::size_t draws = 400'000;
@@ -197,4 +197,4 @@ TEST(NormalStream, NoTwoOfManyAddressesAgree) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::random_test

@@ -15,7 +15,7 @@
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/tests/core/arima_signal.hpp>
 
-namespace gyrostat {
+namespace gyrostat::rskf_test {
 namespace {
 
 using filters::Kf;
@@ -159,4 +159,4 @@ TEST(Rskf, WithoutMeasurementsBreaksDownAndStaysFinite) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::rskf_test

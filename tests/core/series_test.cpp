@@ -7,7 +7,7 @@
 #include <gyrostat/core/filters/none.hpp>
 #include <gyrostat/core/track.hpp>
 
-namespace gyrostat {
+namespace gyrostat::series_test {
 namespace {
 
 using testing::ElementsAre;
@@ -103,4 +103,4 @@ TEST(Status, BreakdownsAreThoseAfterNoMeasurement) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::series_test

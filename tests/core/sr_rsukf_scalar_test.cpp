@@ -13,7 +13,7 @@
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/tests/core/arima_signal.hpp>
 
-namespace gyrostat {
+namespace gyrostat::sr_rsukf_scalar_test {
 namespace {
 
 using filters::SrRsukf;
@@ -127,4 +127,4 @@ TEST(SrRsukf, IsTheSameFilterInAnyUnitsOfRate) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::sr_rsukf_scalar_test

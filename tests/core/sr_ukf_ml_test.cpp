@@ -8,7 +8,7 @@
 #include <gyrostat/core/filters/sr_ukf.hpp>
 #include <gyrostat/tests/core/arima_signal.hpp>
 
-namespace gyrostat {
+namespace gyrostat::sr_ukf_ml_test {
 namespace {
 
 using filters::SrUkf;
@@ -82,4 +82,4 @@ TEST(SrUkfMl, ItsInnovationsAreAsLargeAsItSays) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::sr_ukf_ml_test

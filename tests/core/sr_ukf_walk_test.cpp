@@ -12,7 +12,7 @@
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/tests/core/arima_signal.hpp>
 
-namespace gyrostat {
+namespace gyrostat::sr_ukf_walk_test {
 namespace {
 
 using filters::SrUkf;
@@ -116,4 +116,4 @@ TEST(SrUkfWalk, AWalkOfDelta1AddsUpWhateverTheData) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::sr_ukf_walk_test

@@ -8,7 +8,7 @@
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/tests/core/reference/dense_unscented.hpp>
 
-namespace gyrostat {
+namespace gyrostat::structure_test {
 namespace {
 
 /// Parameters, risk and data of one comparison, all drawn at random.
@@ -165,4 +165,4 @@ TEST(Structure, LeavesOutTheSameStepsWhereTheCentralWeightTakesDefinitenessAway)
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::structure_test

@@ -18,7 +18,7 @@
 #include <gyrostat/core/numerics/linear.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::thermal_filters_test {
 namespace {
 
 using filters::ThermalKf;
@@ -374,4 +374,4 @@ TEST(ThermalKf, WithAHugePriorIsLeastSquaresThatCountsEachEpochThrice) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::thermal_filters_test

@@ -11,7 +11,7 @@
 #include <gyrostat/core/numerics/linear.hpp>
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat {
+namespace gyrostat::thermal_stf_ma_test {
 namespace {
 
 using filters::KfRule;
@@ -365,4 +365,4 @@ TEST(ThermalStfMa, HoldsItsEstimateWhileTheCompassIsDisturbed) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::thermal_stf_ma_test

@@ -17,7 +17,7 @@
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/tests/core/reference/dense_unscented.hpp>
 
-namespace gyrostat {
+namespace gyrostat::unscented_filters_test {
 namespace {
 
 using filters::Kf;
@@ -398,4 +398,4 @@ TEST_F(UninformedRisk, DataThatInformPutTheBreakdownOff) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::unscented_filters_test

@@ -21,7 +21,7 @@
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/tests/diagnosis/known_recordings.hpp>
 
-namespace gyrostat::gap {
+namespace gyrostat::gap::diagnosis_test {
 namespace {
 
 /// p-values of 500 recordings of 40 s that the simulator made itself, known or fitted to each of
@@ -48,17 +48,22 @@ std::vector<double> own_p_values(bool fitted) {
 // Kolmogorov-Smirnov at n = 500: sqrt(n) D exceeds 1.95 with probability 0.001 where p is uniform.
 // p is on a grid of 1 / 81 above the replicas' own, which adds 0.0124 sqrt(500) = 0.28 at most. A
 // false alarm rate of 5 % has a standard error of 1 %; four of them are passed once in 30,000.
-TEST(Gap, ThePValueOfTheSimulatorsOwnRecordingsIsUniform) {
-  for (const bool fitted : {false, true}) {
-    const auto p = own_p_values(fitted);
-    double distance = 0.0;
-    for (std::size_t i = 0; i < p.size(); ++i)
-      distance = std::max({distance, p[i] - static_cast<double>(i) / 500.0,
-                           static_cast<double>(i + 1) / 500.0 - p[i]});
-    EXPECT_LT(std::sqrt(500.0) * distance, 1.95 + 0.28) << fitted;
-    const auto alarms = std::upper_bound(p.begin(), p.end(), 0.05) - p.begin();
-    EXPECT_LT(static_cast<double>(alarms) / 500.0, 0.05 + 4.0 * 0.01) << fitted;
-  }
+void expect_uniform(const std::vector<double>& p) {
+  double distance = 0.0;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    distance = std::max({distance, p[i] - static_cast<double>(i) / 500.0,
+                         static_cast<double>(i + 1) / 500.0 - p[i]});
+  EXPECT_LT(std::sqrt(500.0) * distance, 1.95 + 0.28);
+  const auto alarms = std::upper_bound(p.begin(), p.end(), 0.05) - p.begin();
+  EXPECT_LT(static_cast<double>(alarms) / 500.0, 0.05 + 4.0 * 0.01);
+}
+
+TEST(Gap, ThePValueOfTheKnownSimulatorsOwnRecordingsIsUniform) {
+  expect_uniform(own_p_values(false));
+}
+
+TEST(Gap, ThePValueOfTheFittedSimulatorsOwnRecordingsIsUniform) {
+  expect_uniform(own_p_values(true));
 }
 
 TEST(Diagnosis, TheHeldOutPartChangesNeitherFitNorChoice) {
@@ -207,7 +212,7 @@ TEST(Diagnosis, TheJsonKeepsTheContract) {
 }
 
 /// The practice recordings are named after their effect.
-TEST(Diagnosis, NamesThePracticeRecordings) {
+void expect_named(const std::string& effect) {
   const char* given = std::getenv("GYROSTAT_RECORDINGS");
   const std::filesystem::path folder =
       given != nullptr ? std::filesystem::path(given)
@@ -215,11 +220,15 @@ TEST(Diagnosis, NamesThePracticeRecordings) {
   if (!std::filesystem::exists(folder / "practice"))
     GTEST_SKIP() << folder / "practice"
                  << " is not there";
-  for (const std::string name : {"none", "gauss_markov", "thermal_hysteresis", "scale_factor"}) {
-    const auto recording = read_recording(folder / "practice" / (name + ".csv.gz"));
-    EXPECT_EQ(diagnose(recording.series, {}).verdict.text(), name);
-  }
+  const auto recording = read_recording(folder / "practice" / (effect + ".csv.gz"));
+  EXPECT_EQ(diagnose(recording.series, {}).verdict.text(), effect);
 }
 
+// One recording a test, so that cores share the work.
+TEST(PracticeRecordings, NoneIsNamed) { expect_named("none"); }
+TEST(PracticeRecordings, GaussMarkovIsNamed) { expect_named("gauss_markov"); }
+TEST(PracticeRecordings, ThermalHysteresisIsNamed) { expect_named("thermal_hysteresis"); }
+TEST(PracticeRecordings, ScaleFactorIsNamed) { expect_named("scale_factor"); }
+
 }  // namespace
-}  // namespace gyrostat::gap
+}  // namespace gyrostat::gap::diagnosis_test

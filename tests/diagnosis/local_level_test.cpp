@@ -11,7 +11,7 @@
 
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat::gap {
+namespace gyrostat::gap::local_level_test {
 namespace {
 
 /// A stretch of points with a hole in it.
@@ -97,4 +97,4 @@ TEST(LocalLevel, InnovationsOfATrueModelAreWhite) {
 }
 
 }  // namespace
-}  // namespace gyrostat::gap
+}  // namespace gyrostat::gap::local_level_test

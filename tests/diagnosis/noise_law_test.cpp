@@ -12,7 +12,7 @@
 #include <gyrostat/diagnosis/likelihood/set_fit.hpp>
 #include <gyrostat/generators/effects/list.hpp>
 
-namespace gyrostat::gap {
+namespace gyrostat::gap::noise_law_test {
 namespace {
 
 constexpr double rate_hz = 20.0;
@@ -72,4 +72,4 @@ INSTANTIATE_TEST_SUITE_P(
         Effect(effects::Quantization{.lsb_dps = 0.05})));
 
 }  // namespace
-}  // namespace gyrostat::gap
+}  // namespace gyrostat::gap::noise_law_test

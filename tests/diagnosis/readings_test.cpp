@@ -13,7 +13,7 @@
 #include <gyrostat/diagnosis/gap/instrument.hpp>
 #include <gyrostat/diagnosis/lenses/list.hpp>
 
-namespace gyrostat::gap {
+namespace gyrostat::gap::readings_test {
 namespace {
 
 std::vector<double> white(std::size_t count, std::string_view name = "white") {
@@ -242,4 +242,4 @@ TYPED_TEST(LensContract, IsAbsentWhereItsChannelIs) {
 }
 
 }  // namespace
-}  // namespace gyrostat::gap
+}  // namespace gyrostat::gap::readings_test

@@ -9,7 +9,7 @@
 #include <gyrostat/generators/effects/list.hpp>
 #include <gyrostat/tests/diagnosis/known_recordings.hpp>
 
-namespace gyrostat::gap {
+namespace gyrostat::gap::set_search_test {
 namespace {
 
 std::set<std::string> found_in(const Series& series) {
@@ -76,4 +76,4 @@ TEST(SetSearch, WhiteNoiseIsInTheMeasurementNoise) {
 }
 
 }  // namespace
-}  // namespace gyrostat::gap
+}  // namespace gyrostat::gap::set_search_test

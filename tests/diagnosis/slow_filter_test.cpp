@@ -10,7 +10,7 @@
 
 #include <gyrostat/core/random.hpp>
 
-namespace gyrostat::gap {
+namespace gyrostat::gap::slow_filter_test {
 namespace {
 
 const std::vector<std::size_t> points = {0, 1, 2, 3, 7, 8, 9, 15, 16, 17};
@@ -107,4 +107,4 @@ TEST(SlowFilter, FollowsTwoLevelsAsTheSumOverAllHistoriesDoes) {
 }
 
 }  // namespace
-}  // namespace gyrostat::gap
+}  // namespace gyrostat::gap::slow_filter_test

@@ -12,7 +12,7 @@
 #include <gyrostat/generators/random_error.hpp>
 #include <gyrostat/tests/generators/effect_series.hpp>
 
-namespace gyrostat {
+namespace gyrostat::allan_laws_test {
 namespace {
 
 constexpr std::size_t samples = 16384;
@@ -212,4 +212,4 @@ TEST(AllanLaw, WanderingLine) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::allan_laws_test

@@ -13,7 +13,7 @@
 #include <gyrostat/generators/scenario.hpp>
 #include <gyrostat/tests/generators/effect_series.hpp>
 
-namespace gyrostat {
+namespace gyrostat::compass_effects_test {
 namespace {
 
 /// The heading error that the effect adds to these headings, 0.1 s apart.
@@ -154,4 +154,4 @@ TEST(MagneticBursts, AreConstantEachDifferentAndUnflagged) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::compass_effects_test

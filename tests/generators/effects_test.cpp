@@ -6,7 +6,7 @@
 
 #include <gyrostat/generators/effects/list.hpp>
 
-namespace gyrostat {
+namespace gyrostat::effects_test {
 namespace {
 
 using effects::Outliers;
@@ -137,4 +137,4 @@ TEST(Outliers, AreTheSameHitsAtAnyStrengthAndMoreOfThemAtAHigherProbability) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::effects_test

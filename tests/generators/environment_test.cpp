@@ -12,7 +12,7 @@
 #include <gyrostat/generators/environment/motion/list.hpp>
 #include <gyrostat/generators/environment/temperature/list.hpp>
 
-namespace gyrostat {
+namespace gyrostat::environment_test {
 namespace {
 
 using temperature::Cycle;
@@ -243,4 +243,4 @@ TEST(Compass, OverlappingDisturbancesHaveNoisesOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::environment_test

@@ -8,7 +8,7 @@
 
 #include <gyrostat/tests/generators/effect_series.hpp>
 
-namespace gyrostat {
+namespace gyrostat::motion_effects_test {
 namespace {
 
 /// The gyro of a noiseless sensor with this effect at these rates, 0.01 s apart.
@@ -221,4 +221,4 @@ TEST(ThermalLag, AtConstantTemperatureIsNothing) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::motion_effects_test

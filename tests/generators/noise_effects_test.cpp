@@ -10,7 +10,7 @@
 #include <gyrostat/generators/scenario.hpp>
 #include <gyrostat/tests/generators/effect_series.hpp>
 
-namespace gyrostat {
+namespace gyrostat::noise_effects_test {
 namespace {
 
 // Every statistical tolerance here is 5 standard errors of a normal estimate: 6e-7 false failures
@@ -344,4 +344,4 @@ TEST(StaleSamples, RepeatTheirShareInRunsOfTheirMeanLength) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::noise_effects_test

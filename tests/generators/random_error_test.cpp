@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gyrostat {
+namespace gyrostat::random_error_test {
 namespace {
 
 /// Autocovariance of the first difference, an ARMA(1,1) process, at lags 0 and 1 (Brockwell and
@@ -150,4 +150,4 @@ TEST(WhiteNoise, OfZeroStrengthChangesNothing) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::random_error_test

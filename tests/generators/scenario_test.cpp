@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gyrostat {
+namespace gyrostat::scenario_test {
 namespace {
 
 Series synthesised(const Scenario& scenario, const Noise& noise = {1, 0}) {
@@ -253,4 +253,4 @@ TEST(SynthesiseUnder, IgnoresTheScenariosDisturbances) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::scenario_test

@@ -9,7 +9,7 @@
 #include <gyrostat/analysis/spectra/allan.hpp>
 #include <gyrostat/tests/generators/effect_series.hpp>
 
-namespace gyrostat {
+namespace gyrostat::slow_effects_test {
 namespace {
 
 // Every statistical tolerance here is 5 standard errors of an estimate that is normal by the number
@@ -320,4 +320,4 @@ TEST(Telegraph, DwellsForItsMeanTime) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::slow_effects_test

@@ -14,7 +14,7 @@
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat {
+namespace gyrostat::layout_test {
 namespace {
 
 using testing::AllOf;
@@ -242,4 +242,4 @@ TEST(MatFile, MistakesAreOneLineWithTheRow) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::layout_test

@@ -26,7 +26,7 @@
 #define GYROSTAT_SOURCE_DIR "."
 #endif
 
-namespace gyrostat {
+namespace gyrostat::recording_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -410,4 +410,4 @@ INSTANTIATE_TEST_SUITE_P(Each, RealRecording,
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::recording_test

@@ -3,7 +3,7 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/results/render/render.hpp>
 
-namespace gyrostat {
+namespace gyrostat::parse_test {
 namespace {
 
 TEST(ParseTables, GivesBackWhatWasRendered) {
@@ -23,4 +23,4 @@ TEST(ParseTables, NamesThePlaceOfAnythingElse) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::parse_test

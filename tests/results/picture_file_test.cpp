@@ -6,7 +6,7 @@
 #include <gyrostat/results/pictures/lettering.hpp>
 #include <gyrostat/results/pictures/picture.hpp>
 
-namespace gyrostat {
+namespace gyrostat::picture_file_test {
 namespace {
 
 using testing::ElementsAre;
@@ -111,4 +111,4 @@ TEST(Lettering, CountsLettersNotBytesAndKeepsBothEnds) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::picture_file_test

@@ -8,7 +8,7 @@
 #include <gyrostat/results/pictures/colours.hpp>
 #include <gyrostat/results/render/html.hpp>
 
-namespace gyrostat {
+namespace gyrostat::picture_test {
 namespace {
 
 using testing::HasSubstr;
@@ -112,4 +112,4 @@ TEST(Html, APageAsksNobodyForAnything) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::picture_test

@@ -12,7 +12,7 @@
 
 #include <gyrostat/core/error.hpp>
 
-namespace gyrostat {
+namespace gyrostat::render_test {
 namespace {
 
 using testing::Each;
@@ -215,4 +215,4 @@ TEST(Render, NoTablesAreNothingOrAnEmptyList) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::render_test

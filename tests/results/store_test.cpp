@@ -11,7 +11,7 @@
 #include <gyrostat/results/store_writer.hpp>
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat {
+namespace gyrostat::store_test {
 namespace {
 
 using testing::ElementsAre;
@@ -211,4 +211,4 @@ TEST(StoreWriter, WhatEndsTheWritingIsThrownToWhoPushes) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::store_test

@@ -11,7 +11,7 @@
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat::gap {
+namespace gyrostat::gap::blind_check_test {
 namespace {
 
 constexpr auto check_json = R"({
@@ -181,4 +181,4 @@ TEST_F(Scored, TellsHowPowerGrowsWithStrengthAndLength) {
 }
 
 }  // namespace
-}  // namespace gyrostat::gap
+}  // namespace gyrostat::gap::blind_check_test

@@ -13,7 +13,7 @@
 #include <gyrostat/recordings/atomic_file.hpp>
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat {
+namespace gyrostat::bad_input_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -687,4 +687,4 @@ TEST(BadInput, BlindCheck) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::bad_input_test

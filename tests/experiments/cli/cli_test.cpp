@@ -23,7 +23,7 @@
 #include <gyrostat/recordings/text.hpp>
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat {
+namespace gyrostat::cli_test {
 namespace {
 
 using Row = std::vector<std::string>;
@@ -558,4 +558,4 @@ TEST(Memory, DoesNotGrowWithTheNumberOfTrials) {
 #endif
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::cli_test

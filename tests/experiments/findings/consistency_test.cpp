@@ -8,7 +8,7 @@
 #include <gyrostat/experiments/run/study_store.hpp>
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat {
+namespace gyrostat::consistency_test {
 namespace {
 
 using testing::HasSubstr;
@@ -102,4 +102,4 @@ TEST(ConsistencyVerb, PrintsBoundsAndHistograms) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::consistency_test

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace gyrostat {
+namespace gyrostat::rank_picture_test {
 namespace {
 
 Study four_methods() {
@@ -60,4 +60,4 @@ TEST(RankPicture, ALineLinksWhatIsNotSeparable) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::rank_picture_test

@@ -12,7 +12,7 @@
 #include <gyrostat/results/render/interval.hpp>
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat {
+namespace gyrostat::ranking_test {
 namespace {
 
 using testing::Contains;
@@ -148,4 +148,4 @@ TEST(Ranking, TheVerbTellsAboutAFinishedRun) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::ranking_test

@@ -6,7 +6,7 @@
 
 #include <gyrostat/experiments/findings/report/design_pictures.hpp>
 
-namespace gyrostat {
+namespace gyrostat::report_pictures_test {
 namespace {
 
 Study two_methods() {
@@ -82,4 +82,4 @@ TEST(MethodColours, AreTheSameInEveryCellAndApartForEveryMethod) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::report_pictures_test

@@ -9,7 +9,7 @@
 #include <gyrostat/experiments/findings/report/sweep.hpp>
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat {
+namespace gyrostat::report_test {
 namespace {
 
 using nlohmann::json;
@@ -258,4 +258,4 @@ TEST(Sweep, TheBaseOfOneAtATimeLiesOnEveryLine) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::report_test

@@ -4,7 +4,7 @@
 
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat {
+namespace gyrostat::pages_test {
 namespace {
 
 using testing::HasSubstr;
@@ -306,4 +306,4 @@ TEST(Denoising, MakesTheJudgedRateQuieterAndLeavesTheEstimateAlone) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::pages_test

@@ -16,7 +16,7 @@
 #include <gyrostat/generators/environment/motion/list.hpp>
 #include <gyrostat/generators/environment/temperature/list.hpp>
 
-namespace gyrostat {
+namespace gyrostat::runner_test {
 namespace {
 
 std::vector<Method> every_filter(ParameterSource source) {
@@ -278,4 +278,4 @@ TEST_F(RandomErrorCell, KfThatIsToldTheTruthEqualsTheOracleWhereDelta2IsZero) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::runner_test

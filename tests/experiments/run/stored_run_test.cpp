@@ -21,7 +21,7 @@
 #include <gyrostat/experiments/study/digest.hpp>
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat {
+namespace gyrostat::stored_run_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -504,4 +504,4 @@ TEST(Plan, ForetellsTheDisk) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::stored_run_test

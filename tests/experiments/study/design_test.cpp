@@ -10,7 +10,7 @@
 #include <gyrostat/experiments/study/study.hpp>
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat {
+namespace gyrostat::design_test {
 namespace {
 
 using testing::HasSubstr;
@@ -257,4 +257,4 @@ TEST(SensitivitySentence, NamesWhatMattersMost) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::design_test

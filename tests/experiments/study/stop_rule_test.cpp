@@ -13,7 +13,7 @@
 #include <gyrostat/experiments/run/study_store.hpp>
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat {
+namespace gyrostat::stop_rule_test {
 namespace {
 
 using testing::HasSubstr;
@@ -247,4 +247,4 @@ TEST_F(MadeUp, IntervalsAfterASeparationAllowForItsLooks) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::stop_rule_test

@@ -11,7 +11,7 @@
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat {
+namespace gyrostat::study_test {
 namespace {
 
 using testing::ElementsAre;
@@ -215,4 +215,4 @@ TEST(FromRecording, PlaysTheRecordedTemperatureBack) {
 }
 
 }  // namespace
-}  // namespace gyrostat
+}  // namespace gyrostat::study_test

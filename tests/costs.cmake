@@ -1,0 +1,18 @@
+# Processor seconds of the tests that take long, of those that CMake finds in the programs: ctest starts the dearest first.
+# What it measured itself in an earlier run goes before these.
+set_tests_properties(PracticeRecordings.NoneIsNamed PracticeRecordings.GaussMarkovIsNamed
+                     PracticeRecordings.ThermalHysteresisIsNamed PracticeRecordings.ScaleFactorIsNamed
+                     Diagnosis.FindsNothingWhereThereIsNoGap
+                     ArimaLikelihood.RecoversItsParametersAndKnowsItsOwnErrors
+                     Memory.DoesNotGrowWithTheNumberOfTrials
+                     PROPERTIES COST 30)
+set_tests_properties(Gap.ThePValueOfTheKnownSimulatorsOwnRecordingsIsUniform
+                     Gap.ThePValueOfTheFittedSimulatorsOwnRecordingsIsUniform
+                     Runner.AnyNumberOfLanesGivesTheSameBits Diagnosis.IsTheSameForAnyNumberOfThreads
+                     RandomErrorCell.TheOracleIsNeverBeaten Diagnosis.TheHeldOutPartChangesNeitherFitNorChoice
+                     PROPERTIES COST 15)
+set_tests_properties(SetSearch.FindsNothingInNothing Store.SurvivesALogThatAPowerCutHasTruncated
+                     Store.SurvivesBeingKilledAtRandomMoments Shard.MergedShardsEqualTheSingleRunByteForByte
+                     Run.CtrlCEndsWithTheTablesOfWhatIsDone Run.ATerminationEndsAsCtrlCDoes
+                     Memory.TenThousandTrialsOfAMinuteStayUnder300MiB
+                     PROPERTIES COST 8)
