@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include <gyrostat/generators/random_error.hpp>
 
@@ -31,19 +32,31 @@ void linear_drift(const ThermalDrift<double>& drift, Series& series) {
   }
 }
 
+/// Random error and white noise onto what `series.gyro_dps` has.
+void add_noise(const Scenario& scenario, const Noise& noise, Series& series) {
+  series.random_error_dps.assign(series.size(), 0.0);
+  if (const auto& recorded = scenario.recorded_noise_dps) {
+    assert(recorded->size() >= series.size());
+    const double sum = std::accumulate(recorded->begin(), recorded->end(), 0.0);
+    series.random_error_dps.assign(series.size(), sum / static_cast<double>(recorded->size()));
+    for (std::size_t i = 0; i < series.size(); ++i) series.gyro_dps[i] += (*recorded)[i];
+    return;
+  }
+  add_random_error(scenario.random_error, noise, series.random_error_dps);
+  for (std::size_t i = 0; i < series.size(); ++i) series.gyro_dps[i] += series.random_error_dps[i];
+  add_white_noise(scenario.random_error.measurement_noise_std_dps, noise.stream("white_noise"),
+                  series.gyro_dps);
+}
+
 /// From the conditions in `series` to its gyro.
 void measure_rate(const Scenario& scenario, const Noise& noise, Series& series) {
   linear_drift(scenario.thermal_drift, series);
   apply_stage(Stage::sensing, scenario, noise, series);
 
-  series.random_error_dps.assign(series.size(), 0.0);
-  add_random_error(scenario.random_error, noise, series.random_error_dps);
   series.gyro_dps.resize(series.size());
   for (std::size_t i = 0; i < series.size(); ++i)
-    series.gyro_dps[i] =
-        series.rate_ref_dps[i] + series.thermal_bias_dps[i] + series.random_error_dps[i];
-  add_white_noise(scenario.random_error.measurement_noise_std_dps, noise.stream("white_noise"),
-                  series.gyro_dps);
+    series.gyro_dps[i] = series.rate_ref_dps[i] + series.thermal_bias_dps[i];
+  add_noise(scenario, noise, series);
   for (const auto stage : {Stage::noise, Stage::electronics, Stage::conversion, Stage::transport})
     apply_stage(stage, scenario, noise, series);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -51,10 +52,13 @@ struct Scenario {
   std::optional<Acceleration> acceleration;  ///< none: no accelerometer, acc channels empty
   Compass compass;
   std::vector<Effect> effects;
+  /// What a real sensor recorded at rest, sample by sample; stands in place of the random error and
+  /// the white noise, its mean being the former. As long as the signal, or longer.
+  std::shared_ptr<const std::vector<double>> recorded_noise_dps;
 };
 
 /// The signal of `scenario` under `noise`, with its truth, into `series` (whose memory is reused):
-///   gyro = rate_ref + thermal_bias + random_error + white noise,
+///   gyro = rate_ref + thermal_bias + random_error + white noise (or recorded noise),
 /// altered by each effect at its stage. T' of the linear drift is the derivative between samples.
 ///
 /// Example: the signal of trial 17, as any other program makes it from the same seed.

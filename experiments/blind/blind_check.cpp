@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <mutex>
-#include <numeric>
 #include <ostream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 #include <gyrostat/core/random.hpp>
@@ -20,23 +20,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The number that stands for recording `index` of all: a permutation drawn from the seed.
+/// Which of all recordings is number 0, 1, …: a permutation drawn from the seed.
 std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed) {
   const NormalStream stream(seed, 0, "blind_check/order");
   std::vector<std::pair<double, std::size_t>> keys;
   for (std::size_t i = 0; i < count; ++i) keys.emplace_back(stream.uniform(i), i);
   std::sort(keys.begin(), keys.end());
-  std::vector<std::size_t> order(count);
-  for (std::size_t rank = 0; rank < count; ++rank) order[keys[rank].second] = rank;
+  std::vector<std::size_t> order;
+  for (const auto& [key, index] : keys) order.push_back(index);
   return order;
-}
-
-std::uint32_t recordings_of(const BlindCheck& check, const BlindCase& c) {
-  return c.effects.empty() ? check.none_recordings : check.recordings;
-}
-
-fs::path recording_of(const fs::path& folder, std::size_t number) {
-  return folder / "recordings" / fmt::format("{:05}.csv.gz", number);
 }
 
 /// A folder holds the recordings of one check, for numbers mean nothing across two.
@@ -54,53 +46,55 @@ void claim(const fs::path& folder, const BlindCheck& check) {
 
 }  // namespace
 
-void make_recordings(const BlindCheck& check, const fs::path& folder) {
-  fs::create_directories(folder / "recordings");
-  fs::create_directories(folder / "diagnoses");
-  claim(folder, check);
-  struct Item {
-    const BlindCase* c;
-    std::uint32_t trial;
-  };
-  std::vector<Item> items;
-  std::uint32_t trial = 0;
-  for (const auto& c : check.cases)
-    for (std::uint32_t k = 0; k < recordings_of(check, c); ++k) items.push_back({&c, trial++});
-  const auto order = shuffled(items.size(), check.seed);
-  std::vector<BlindLabel> labels;
-  for (std::size_t i = 0; i < items.size(); ++i)
-    labels.push_back({order[i], items[i].c->effects, items[i].c->strength,
-                      items[i].c->scenario.sampling.duration_s});
-  std::sort(labels.begin(), labels.end(),
-            [](const auto& a, const auto& b) { return a.number < b.number; });
-  seal_labels(folder, labels);
-
-  tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t i) {
-    const auto path = recording_of(folder, order[i]);
-    if (fs::exists(path)) return;
-    Series series;
-    synthesise(items[i].c->scenario, {check.seed, items[i].trial}, series);
-    series.thermal_bias_dps.clear();
-    series.random_error_dps.clear();
-    series.mag_valid.clear();
-    if (!items[i].c->has_motion) series.rate_ref_dps.clear();
-    write_series(path, series);
-  });
+Series recorded(const BlindCase& c, const Noise& noise) {
+  Series series;
+  synthesise(c.scenario, noise, series);
+  series.thermal_bias_dps.clear();
+  series.random_error_dps.clear();
+  series.mag_valid.clear();
+  if (!c.has_motion) series.rate_ref_dps.clear();
+  if (!c.has_temperature) series.temperature_C.clear();
+  if (!c.has_compass) series.heading_deg.clear();
+  return series;
 }
 
-bool diagnose_recordings(const BlindCheck& check, const fs::path& folder,
-                         const std::string& program, std::ostream& log,
+std::vector<BlindLabel> write_recordings(const BlindCheck& check,
+                                         const std::vector<BlindCase>& cases,
+                                         const fs::path& folder) {
+  fs::create_directories(folder / "recordings");
+  const auto order = shuffled(cases.size(), check.seed);
+  tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t number) {
+    const auto path = recording_of(folder, number);
+    const auto index = order[number];
+    if (!fs::exists(path))
+      write_series(path, recorded(cases[index], {check.seed, static_cast<std::uint32_t>(index)}));
+  });
+  std::vector<BlindLabel> labels;
+  for (std::size_t number = 0; number < order.size(); ++number)
+    labels.push_back(label_of(cases[order[number]], number));
+  return labels;
+}
+
+void make_recordings(const BlindCheck& check, const fs::path& folder) {
+  const auto cases = drawn_cases(check);
+  fs::create_directories(folder / "diagnoses");
+  claim(folder, check);
+  seal_labels(folder, write_recordings(check, cases, folder));
+}
+
+bool diagnose_recordings(const fs::path& folder, const std::string& program, std::ostream& log,
                          const std::atomic<bool>& stop) {
-  const auto labels = open_labels(folder);  // for the leave-one-out runs alone
   struct Job {
     std::size_t number;
-    std::string without;
+    std::vector<std::string> without;
+    bool left_out;
   };
   std::vector<Job> jobs;
-  for (const auto& label : labels) {
-    jobs.push_back({label.number, ""});
-    if (check.left_out && label.is_strong_single())
-      jobs.push_back({label.number, label.effects.front()});
+  for (const auto& label : open_labels(folder)) {  // for what the simulator lacks alone
+    jobs.push_back({label.number, label.without, false});
+    if (label.left_out.empty()) continue;
+    jobs.push_back({label.number, label.without, true});
+    jobs.back().without.push_back(label.left_out);
   }
   std::mutex mutex;
   std::size_t done = 0;
@@ -108,12 +102,14 @@ bool diagnose_recordings(const BlindCheck& check, const fs::path& folder,
       std::size_t{0}, jobs.size(),
       [&](std::size_t i) {
         const auto& job = jobs[i];
-        const auto out = diagnosis_of(folder, job.number, !job.without.empty());
+        const auto out = diagnosis_of(folder, job.number, job.left_out);
         if (!stop && !fs::exists(out)) {
           std::vector<std::string> arguments = {program, "diagnose",
                                                 recording_of(folder, job.number).string(), "--json",
                                                 out.string()};
-          if (!job.without.empty()) arguments.insert(arguments.end(), {"--without", job.without});
+          if (!job.without.empty())
+            arguments.insert(arguments.end(),
+                             {"--without", fmt::format("{}", fmt::join(job.without, ","))});
           const int status = run_process(arguments, out.string() + ".log");
           if (status != 0) {
             const std::scoped_lock lock(mutex);

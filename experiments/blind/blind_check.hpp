@@ -1,8 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,10 +15,33 @@ namespace gyrostat::gap {
 
 /// One kind of recording of a blind check: a scenario, and what was put into it.
 struct BlindCase {
-  std::vector<std::string> effects;  ///< none, one or two
-  std::string strength;              ///< "strong", "medium", ..., empty for none
+  std::string scenario_name;
+  std::vector<std::string> effects;  ///< that are to be named
+  std::string strength;              ///< "strong", "medium", "weak", "mixed"; empty for none
+  std::string form;                  ///< where an effect is in a form near its own
+  /// Names that are neither right nor wrong: what the sensor has of its own, and what a near form
+  /// may be called as well.
+  std::vector<std::string> own;
+  std::vector<std::string> without;  ///< what the diagnosing simulator lacks
+  std::string left_out;              ///< diagnosed once more without this effect, too
   Scenario scenario;
-  bool has_motion = false;
+  bool has_motion = false;  ///< what a recorder writes besides time and gyro
+  bool has_temperature = true, has_compass = true;
+  /// Recordings at rest to put the effects into, one after another; none: the scenario's noise.
+  struct RecordedNoise {
+    std::string name;  ///< of file and axis
+    std::shared_ptr<const std::vector<double>> dps;
+  };
+  std::vector<RecordedNoise> noises;
+};
+
+/// Recordings with several effects at once, drawn among the single cases of a scenario.
+struct BlindSets {
+  BlindCase base;
+  std::vector<std::size_t> sizes;
+  std::vector<std::string> strengths;
+  std::uint32_t recordings = 0;  ///< of each size and strength; 0: as many as of each case
+  bool left_out = false;         ///< each is diagnosed without one of its effects, too
 };
 
 struct BlindCheck {
@@ -24,13 +49,20 @@ struct BlindCheck {
   std::uint64_t seed = 1;
   std::uint32_t recordings = 10;  ///< of each case with an effect
   std::uint32_t none_recordings = 40;
-  bool left_out = true;  ///< each strong effect is diagnosed without itself, too
   std::vector<BlindCase> cases;
-  Json file;  ///< as it was read
+  std::vector<BlindSets> sets;
+  std::vector<std::vector<std::string>> never_together;  ///< what excludes what in one sensor
+  Json file;                                             ///< as it was read
 };
 
 /// Reads and checks a blind check's file; InputError with the JSON path.
 BlindCheck read_blind_check(const std::string& path);
+
+/// The signal of a case with the channels that a recorder has.
+Series recorded(const BlindCase& c, const Noise& noise);
+
+/// A case for every recording of the check, the sets and the noises drawn from its seed.
+std::vector<BlindCase> drawn_cases(const BlindCheck& check);
 
 /// Writes the recordings to `folder`/recordings under numbers in an order that tells nothing, with
 /// the channels that a recorder has, and their labels to `folder`/sealed_labels.json. What is there
@@ -39,8 +71,7 @@ void make_recordings(const BlindCheck& check, const std::filesystem::path& folde
 
 /// Runs `program` diagnose on every recording of `folder` in a process of its own, which is given
 /// the recording alone; finished ones are not run again. False when it was stopped.
-bool diagnose_recordings(const BlindCheck& check, const std::filesystem::path& folder,
-                         const std::string& program, std::ostream& log,
-                         const std::atomic<bool>& stop);
+bool diagnose_recordings(const std::filesystem::path& folder, const std::string& program,
+                         std::ostream& log, const std::atomic<bool>& stop);
 
 }  // namespace gyrostat::gap

@@ -8,11 +8,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <gyrostat/analysis/statistics/proportion.hpp>
 #include <gyrostat/core/step.hpp>
-#include <gyrostat/diagnosis/verdict.hpp>
-#include <gyrostat/experiments/blind/blind_labels.hpp>
-#include <gyrostat/experiments/study/json_object.hpp>
+#include <gyrostat/experiments/blind/blind_answer.hpp>
+#include <gyrostat/experiments/blind/set_score.hpp>
+#include <gyrostat/experiments/blind/share.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -21,46 +20,18 @@ namespace fs = std::filesystem;
 
 using Counts = std::map<std::string, double>;
 
-/// Hits among so many.
-struct Share {
-  double hits = 0, count = 0;
-
-  void add(bool hit) {
-    hits += hit ? 1.0 : 0.0;
-    count += 1.0;
-  }
-  Share& operator+=(const Share& other) {
-    hits += other.hits;
-    count += other.count;
-    return *this;
-  }
-  TableCell percent() const { return cell(count > 0 ? 100.0 * hits / count : no_value); }
-  TableCell bound(bool upper) const {
-    if (count == 0) return {};
-    const auto [low, high] = wilson_interval(hits, count, 0.95);
-    return 100.0 * (upper ? high : low);
-  }
-  TableCell text() const {
-    if (count == 0) return {};
-    const auto [low, high] = wilson_interval(hits, count, 0.95);
-    return fmt::format("{:.0f} % ({:.0f} of {:.0f}; {:.0f} to {:.0f})", 100.0 * hits / count, hits,
-                       count, 100.0 * low, 100.0 * high);
-  }
-  TableCell plain() const {
-    return count == 0 ? TableCell() : fmt::format("{:.0f} of {:.0f}", hits, count);
-  }
-};
-
 struct Tally {
-  Share first, both, covered, abstained;
+  Share detected, first, all_named, covered, abstained, unknown_alone;
   double members = 0, unknown = 0, none = 0;
   std::vector<double> closed;
   Counts named, named_without;
 
   Tally& operator+=(const Tally& t) {
-    first += t.first, both += t.both, covered += t.covered, abstained += t.abstained;
+    detected += t.detected, first += t.first, all_named += t.all_named, covered += t.covered;
+    abstained += t.abstained, unknown_alone += t.unknown_alone;
     members += t.members, unknown += t.unknown, none += t.none;
     closed.insert(closed.end(), t.closed.begin(), t.closed.end());
+    for (const auto& [name, times] : t.named_without) named_without[name] += times;
     return *this;
   }
   double mean_members() const { return members / first.count; }
@@ -71,18 +42,14 @@ struct Tally {
   }
 };
 
-/// How often causes of a stated probability are right, and the sum of what was stated.
-struct Reliability {
-  Share right;
-  double stated = 0;
-};
-
+/// "thermal_lag (second_order_lag)".
 std::string name_of(const BlindLabel& label) {
-  return label.effects.empty() ? Verdict::none().text()
-                               : fmt::format("{}", fmt::join(label.effects, " + "));
+  if (label.effects.empty()) return Verdict::none().text();
+  const auto names = fmt::format("{}", fmt::join(label.effects, " + "));
+  return label.form.empty() ? names : fmt::format("{} ({})", names, label.form);
 }
 
-Verdict verdict_in(const Json& text) { return Verdict::of(text.get<std::string>()); }
+bool is_set(const std::string& name) { return name.find(" + ") != std::string::npos; }
 
 std::string in_words(const Counts& named, const std::string& but = "") {
   std::vector<std::string> others;
@@ -91,31 +58,52 @@ std::string in_words(const Counts& named, const std::string& but = "") {
   return fmt::format("{}", fmt::join(others, ", "));
 }
 
+/// "strong", "none", "two effects, strong".
+std::string kind_of(const BlindLabel& label) {
+  static constexpr std::array counts = {"no", "one", "two", "three", "four", "five", "six"};
+  const auto size = label.effects.size();
+  if (size == 0) return Verdict::none().text();
+  if (size == 1) return label.strength;
+  return fmt::format("{} effects, {}",
+                     size < counts.size() ? counts[size] : fmt::format("{}", size), label.strength);
+}
+
 class Score {
  public:
   explicit Score(std::string title) : title_(std::move(title)) {}
 
-  void add(const BlindLabel& label, const fs::path& folder) {
-    const auto path = diagnosis_of(folder, label.number, false);
+  void add(const BlindLabel& label, const AnswerOf& answer_of) {
+    const auto path = answer_of(label.number, false);
     if (!fs::exists(path)) {
       missing_ += 1;
       return;
     }
-    auto& tally = tallies_[{label.strength, name_of(label)}];
-    add_diagnosis(label, read_json(path.string()), tally);
-    if (const auto without = diagnosis_of(folder, label.number, true); fs::exists(without)) {
-      const auto verdict = verdict_in(read_json(without.string()).at("verdict"));
-      tally.abstained.add(verdict.is_unknown() || verdict.is_none());
-      tally.named_without[verdict.text()] += 1;
-    }
+    auto& of_effect = by_effect_[{label.strength, name_of(label)}];
+    Tally t;
+    scored_.push_back({label, without_own(read_answer(path), label)});
+    add_answer(scored_.back(), t);
+    if (const auto without = answer_of(label.number, true); fs::exists(without))
+      add_left_out(label, without_own(read_answer(without), label).verdict, t);
+    for (const auto& [name, times] : t.named) of_effect.named[name] += times;
+    of_effect += t;
+    by_kind_[kind_of(label)] += t;
+    by_scenario_[{label.scenario, kind_of(label)}] += t;
+    scenarios_.insert(label.scenario);
   }
 
   std::vector<NamedTable> tables() const {
-    std::vector<NamedTable> all = {{"aims", aims()},
-                                   {"effects", effects()},
-                                   {"left_out", left_out()},
-                                   {"calibration", calibration()}};
-    if (durations_s_.size() > 1) {
+    std::vector<NamedTable> all = {{"aims", aims()}};
+    if (scenarios_.size() > 1) all.push_back({"scenarios", by_scenario()});
+    all.push_back({"effects", effects()});
+    all.push_back({"left_out", left_out()});
+    if (std::any_of(scored_.begin(), scored_.end(),
+                    [](const auto& s) { return s.label.effects.size() > 1; })) {
+      all.push_back({"sets", set_table(title_, scored_)});
+      all.push_back({"set_effects", set_effects_table(title_, scored_)});
+    }
+    all.push_back({"calibration", inclusion_table(title_, scored_)});
+    all.push_back({"closed", closed_table(title_, scored_)});
+    if (samplings_.size() > 1) {
       all.push_back({"power", power()});
       all.push_back({"lengths", lengths()});
     }
@@ -123,82 +111,97 @@ class Score {
   }
 
  private:
-  void add_diagnosis(const BlindLabel& label, const Json& found, Tally& t);
+  void add_answer(const Scored& scored, Tally& t);
+  static void add_left_out(const BlindLabel& label, const Verdict& verdict, Tally& t);
   Table aims() const;
+  Table by_scenario() const;
   Table effects() const;
   Table left_out() const;
-  Table calibration() const;
   Table power() const;
   Table lengths() const;
 
+  using Length = std::pair<double, double>;  ///< s, Hz
+
   std::string title_;
-  std::map<std::pair<std::string, std::string>, Tally> tallies_;  ///< strength, effects
-  std::array<Reliability, 5> reliability_{};
-  std::set<double> durations_s_;
-  std::set<std::string> strengths_;
-  /// Of single effects, and of none: effect, strength, duration.
-  std::map<std::tuple<std::string, std::string, double>, Share> power_;
+  std::vector<Scored> scored_;
+  std::map<std::pair<std::string, std::string>, Tally> by_effect_;  ///< strength, effects
+  std::map<std::string, Tally> by_kind_;
+  std::map<std::pair<std::string, std::string>, Tally> by_scenario_;
+  std::set<std::string> scenarios_, strengths_;
+  std::set<Length> samplings_;
+  /// Of single effects, and of none: effect, strength, length.
+  std::map<std::tuple<std::string, std::string, Length>, Share> power_;
   double missing_ = 0;
 };
 
-void Score::add_diagnosis(const BlindLabel& label, const Json& found, Tally& t) {
-  const auto verdict = verdict_in(found.at("verdict"));
-  const auto is_true = [&](const Verdict& said) {
-    return label.effects.empty() ? said.is_none()
-                                 : std::any_of(label.effects.begin(), label.effects.end(),
-                                               [&](const auto& e) { return said.names(e); });
-  };
-  std::vector<Verdict> set;
-  for (const auto& member : found.at("verdict_set")) set.push_back(verdict_in(member));
-  const bool right = is_true(verdict);
+void Score::add_answer(const Scored& scored, Tally& t) {
+  const auto& [label, answer] = scored;
+  const auto is_true = [&l = label](const Verdict& said) { return is_right(said, l); };
+  const bool right = is_true(answer.verdict);
+  const auto& set = answer.verdict_set;
+  t.detected.add(!answer.verdict.is_none());
   t.first.add(right);
   t.covered.add(right || std::any_of(set.begin(), set.end(), is_true));
-  t.named[verdict.text()] += 1;
-  t.unknown += verdict.is_unknown();
-  t.none += verdict.is_none();
+  t.named[answer.verdict.text()] += 1;
+  t.unknown += answer.verdict.is_unknown();
+  t.none += answer.verdict.is_none();
   t.members += static_cast<double>(std::max<std::size_t>(set.size(), 1));
-  t.closed.push_back(found.at("gap").at("closed").get<double>());
-  if (label.effects.size() == 2) {
-    std::set<std::string> added;
-    for (const auto& step : found.at("steps")) added.insert(step.at("added").get<std::string>());
-    t.both.add(added.contains(label.effects[0]) && added.contains(label.effects[1]));
+  if (answer.closed) t.closed.push_back(*answer.closed);
+  if (label.effects.size() > 1) {
+    const auto named = answer.named();
+    t.all_named.add(std::all_of(label.effects.begin(), label.effects.end(),
+                                [&](const auto& effect) { return holds(named, effect); }));
     return;
   }
-  durations_s_.insert(label.duration_s);
+  const Length length{label.duration_s, label.rate_hz};
+  samplings_.insert(length);
   strengths_.insert(label.strength);
-  power_[{name_of(label), label.strength, label.duration_s}].add(right);
-  for (const auto& cause : found.at("causes")) {
-    if (label.effects.empty()) break;
-    const double stated = cause.at("probability").get<double>();
-    auto& bin = reliability_[std::min<std::size_t>(4, static_cast<std::size_t>(5.0 * stated))];
-    bin.stated += stated;
-    bin.right.add(is_true(verdict_in(cause.at("effect"))));
-  }
+  power_[{name_of(label), label.strength, length}].add(right);
+}
+
+void Score::add_left_out(const BlindLabel& label, const Verdict& verdict, Tally& t) {
+  // Of a set, what is left may be named.
+  const bool right = label.effects.size() > 1 && is_right(verdict, label);
+  t.abstained.add(right || verdict.is_unknown() || verdict.is_none());
+  t.unknown_alone.add(right || verdict.is_unknown());
+  t.named_without[verdict.text()] += 1;
 }
 
 Table Score::aims() const {
-  std::map<std::string, Tally> totals;
-  for (const auto& [key, t] : tallies_) {
-    const auto& [strength, effects] = key;
-    const bool pair = effects.find(" + ") != std::string::npos;
-    const bool is_none = Verdict::of(effects).is_none();
-    totals[is_none ? effects : pair ? "two effects, " + strength : strength] += t;
-  }
   Table table{.title = title_,
               .columns = {{"recordings", ""},
+                          {"gap seen", ""},
                           {"named first", ""},
-                          {"both named", ""},
+                          {"all named", ""},
                           {"in the set", ""},
                           {"members", ""},
                           {"median closed", "1"},
-                          {"abstained without it", ""}},
+                          {"abstained without it", ""},
+                          {"unknown alone", ""}},
               .notes = {"shares with 95 % Wilson intervals, in %; for \"none\", named first is the "
-                        "share without a false alarm"}};
-  for (const auto& [name, t] : totals)
-    table.rows.push_back({name, t.first.text(), t.both.text(), t.covered.text(), t.mean_members(),
-                          t.median_closed(), t.abstained.text()});
+                        "share without a false alarm; gap seen: any verdict but \"none\""}};
+  for (const auto& [name, t] : by_kind_)
+    table.rows.push_back({name, t.detected.text(), t.first.text(), t.all_named.text(),
+                          t.covered.text(), t.mean_members(), t.median_closed(), t.abstained.text(),
+                          t.unknown_alone.text()});
   if (missing_ > 0)
     table.notes.push_back(fmt::format("{:.0f} recordings have no diagnosis", missing_));
+  return table;
+}
+
+Table Score::by_scenario() const {
+  Table table{.title = title_ + ": by scenario",
+              .columns = {{"scenario", ""},
+                          {"recordings", ""},
+                          {"named first", ""},
+                          {"all named", ""},
+                          {"in the set", ""},
+                          {"median closed", "1"},
+                          {"unknown", ""},
+                          {"none", ""}}};
+  for (const auto& [key, t] : by_scenario_)
+    table.rows.push_back({key.first, key.second, t.first.text(), t.all_named.text(),
+                          t.covered.text(), t.median_closed(), t.unknown, t.none});
   return table;
 }
 
@@ -213,45 +216,47 @@ Table Score::effects() const {
                           {"unknown", ""},
                           {"none", ""},
                           {"taken for", ""}}};
-  for (const auto& [key, t] : tallies_)
+  for (const auto& [key, t] : by_effect_) {
+    if (is_set(key.second)) continue;
+    const auto name = key.second.substr(0, key.second.find(" ("));
     table.rows.push_back({key.second, key.first, t.first.text(), t.covered.text(), t.mean_members(),
-                          t.median_closed(), t.unknown, t.none, in_words(t.named, key.second)});
+                          t.median_closed(), t.unknown, t.none, in_words(t.named, name)});
+  }
   return table;
 }
 
 Table Score::left_out() const {
-  Table table{.title = title_ + ": with the effect left out of the catalogue",
-              .columns = {{"effect", ""}, {"abstained", ""}, {"verdicts", ""}}};
-  for (const auto& [key, t] : tallies_)
-    if (t.abstained.count > 0)
-      table.rows.push_back({key.second, t.abstained.text(), in_words(t.named_without)});
-  return table;
-}
-
-Table Score::calibration() const {
-  Table table{.title = title_ + ": are the probabilities right?",
-              .columns = {{"stated", ""}, {"causes", ""}, {"mean stated", "1"}, {"right", ""}}};
-  for (std::size_t k = 0; k < reliability_.size(); ++k) {
-    const auto& c = reliability_[k];
-    const double from = 0.2 * static_cast<double>(k);
-    table.rows.push_back({fmt::format("{:.1f} to {:.1f}", from, from + 0.2), c.right.count,
-                          cell(c.right.count > 0 ? c.stated / c.right.count : no_value),
-                          c.right.text()});
+  Table table{
+      .title = title_ + ": with the effect left out of the catalogue",
+      .columns = {{"effect", ""}, {"abstained", ""}, {"unknown alone", ""}, {"verdicts", ""}}};
+  Tally singles;
+  for (const auto& [key, t] : by_effect_) {
+    if (t.abstained.count == 0 || is_set(key.second)) continue;
+    table.rows.push_back(
+        {key.second, t.abstained.text(), t.unknown_alone.text(), in_words(t.named_without)});
+    singles += t;
   }
+  if (singles.abstained.count > 0)
+    table.rows.push_back({"all", singles.abstained.text(), singles.unknown_alone.text(), ""});
   return table;
 }
 
 Table Score::power() const {
   Table table{.title = title_ + ": named first, by effect and length",
               .columns = {{"effect", ""}, {"strength", ""}}};
-  for (const double duration_s : durations_s_)
-    table.columns.push_back({fmt::format("{:g} s", duration_s), ""});
+  std::set<double> rates;
+  for (const auto& [duration_s, rate_hz] : samplings_) rates.insert(rate_hz);
+  for (const auto& [duration_s, rate_hz] : samplings_)
+    table.columns.push_back({rates.size() == 1
+                                 ? fmt::format("{:g} s", duration_s)
+                                 : fmt::format("{:g} s at {:g} Hz", duration_s, rate_hz),
+                             ""});
   std::set<std::pair<std::string, std::string>> rows;
   for (const auto& [key, share] : power_) rows.insert({std::get<0>(key), std::get<1>(key)});
   for (const auto& [effect, strength] : rows) {
     auto& row = table.rows.emplace_back(std::vector<TableCell>{effect, strength});
-    for (const double duration_s : durations_s_) {
-      const auto share = power_.find({effect, strength, duration_s});
+    for (const auto& length : samplings_) {
+      const auto share = power_.find({effect, strength, length});
       row.push_back(share == power_.end() ? TableCell() : share->second.plain());
     }
   }
@@ -268,12 +273,14 @@ Table Score::lengths() const {
   for (const auto& strength : strengths_)
     for (const auto* bound : {"", "lower ", "upper "})
       table.columns.push_back({bound + heading(strength), "%"});
-  for (const double duration_s : durations_s_) {
+  std::set<double> durations_s;
+  for (const auto& [duration_s, rate_hz] : samplings_) durations_s.insert(duration_s);
+  for (const double duration_s : durations_s) {
     auto& row = table.rows.emplace_back(std::vector<TableCell>{duration_s});
     for (const auto& strength : strengths_) {
       Share all;
       for (const auto& [key, share] : power_)
-        if (std::get<1>(key) == strength && std::get<2>(key) == duration_s) all += share;
+        if (std::get<1>(key) == strength && std::get<2>(key).first == duration_s) all += share;
       row.insert(row.end(), {all.percent(), all.bound(false), all.bound(true)});
     }
   }
@@ -282,10 +289,17 @@ Table Score::lengths() const {
 
 }  // namespace
 
-std::vector<NamedTable> score_recordings(const std::string& title, const fs::path& folder) {
+std::vector<NamedTable> score(const std::string& title, const std::vector<BlindLabel>& labels,
+                              const AnswerOf& answer_of) {
   Score score(title);
-  for (const auto& label : open_labels(folder)) score.add(label, folder);
+  for (const auto& label : labels) score.add(label, answer_of);
   return score.tables();
+}
+
+std::vector<NamedTable> score_recordings(const std::string& title, const fs::path& folder) {
+  return score(title, open_labels(folder), [&](std::size_t number, bool left_out) {
+    return diagnosis_of(folder, number, left_out);
+  });
 }
 
 }  // namespace gyrostat::gap

@@ -2,7 +2,9 @@
 
 #include <filesystem>
 
+#include <gyrostat/experiments/blind/blind_export.hpp>
 #include <gyrostat/experiments/blind/blind_score.hpp>
+#include <gyrostat/experiments/blind/seal.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/pages/page.hpp>
@@ -15,35 +17,65 @@ namespace {
 constexpr const char* blind_check_examples = R"(Examples:
   gyrostat blind-check CHECK.json
   gyrostat blind-check CHECK.json --recordings 2 --out runs/short
+  gyrostat blind-check CHECK.json --export FOLDER         recordings and sealed labels for others; prints the key
+  gyrostat blind-check FOLDER --score ANSWERS --key KEY   what others answered
   gyrostat blind-check CHECK.json --tables PAGE && gyrostat publish PAGE)";
 
 struct BlindCheckArguments {
   std::string file;
   std::string folder;
   std::string tables;
+  std::string export_folder, answers, key;
   std::uint32_t recordings = 0;
+  std::uint64_t seed = 0;
   FormatOption format;
 };
 
-int run(const BlindCheckArguments& arguments, Console& console) {
-  const auto format = arguments.format.get();
+/// The check of the file, as the options change it.
+gap::BlindCheck check_of(const BlindCheckArguments& arguments) {
   auto check = gap::read_blind_check(arguments.file);
+  if (arguments.recordings > 0) {  // a file of sets alone stays one
+    if (check.recordings > 0) check.recordings = arguments.recordings;
+    for (auto& sets : check.sets) sets.recordings = arguments.recordings;
+  }
+  return check;
+}
+
+void print(const std::vector<NamedTable>& tables, const BlindCheckArguments& arguments,
+           Console& console) {
+  if (!arguments.tables.empty())
+    for (const auto& [name, text] : page_files(tables))
+      write_atomically(std::filesystem::path(arguments.tables) / name, text);
+  std::vector<Table> shown;
+  for (const auto& named : tables) shown.push_back(named.table);
+  console.out << render(shown, arguments.format.get());
+}
+
+int make_export(const BlindCheckArguments& arguments, Console& console) {
+  auto check = check_of(arguments);
+  check.seed = arguments.seed > 0 ? arguments.seed : gap::secret_seed();
+  const auto key = gap::export_recordings(check, arguments.export_folder);
+  console.out << "key " << key << '\n';
+  return complete;
+}
+
+int run(const BlindCheckArguments& arguments, Console& console) {
+  (void)arguments.format.get();
   if (!arguments.tables.empty()) make_result_folder(arguments.tables);
-  if (arguments.recordings > 0) check.recordings = arguments.recordings;
+  if (!arguments.export_folder.empty()) return make_export(arguments, console);
+  if (!arguments.answers.empty()) {
+    print(gap::score_answers(arguments.file, arguments.answers, arguments.key), arguments, console);
+    return complete;
+  }
+  const auto check = check_of(arguments);
   const std::filesystem::path folder =
       arguments.folder.empty()
           ? std::filesystem::path("runs") / std::filesystem::path(arguments.file).stem()
           : std::filesystem::path(arguments.folder);
   gap::make_recordings(check, folder);
   const auto program = std::filesystem::read_symlink("/proc/self/exe").string();
-  const bool whole = gap::diagnose_recordings(check, folder, program, console.log, console.stop);
-  const auto tables = gap::score_recordings(check.title, folder);
-  if (!arguments.tables.empty())
-    for (const auto& [name, text] : page_files(tables))
-      write_atomically(std::filesystem::path(arguments.tables) / name, text);
-  std::vector<Table> shown;
-  for (const auto& named : tables) shown.push_back(named.table);
-  console.out << render(shown, format);
+  const bool whole = gap::diagnose_recordings(folder, program, console.log, console.stop);
+  print(gap::score_recordings(check.title, folder), arguments, console);
   return whole ? complete : stopped;
 }
 
@@ -53,7 +85,9 @@ void add_blind_check(CLI::App& program, Console& console, int& exit_code) {
   auto* verb = program.add_subcommand(
       "blind-check", "diagnose recordings whose effects are sealed, then open the seals and score");
   auto arguments = std::make_shared<BlindCheckArguments>();
-  verb->add_option("check", arguments->file, "blind check file (JSON)")->required();
+  verb->add_option("check", arguments->file,
+                   "blind check file (JSON); with --score the folder that was exported")
+      ->required();
   verb->add_option("--out", arguments->folder,
                    "folder of recordings, labels and diagnoses (default: runs/<name>)");
   verb->add_option("--recordings", arguments->recordings,
@@ -61,6 +95,19 @@ void add_blind_check(CLI::App& program, Console& console, int& exit_code) {
       ->check(CLI::Range(1U, 4294967295U));
   verb->add_option("--tables", arguments->tables,
                    "folder to write the tables to, tables.json and CSV, as a page reads them");
+  auto* exported = verb->add_option(
+      "--export", arguments->export_folder,
+      "new folder for recordings and sealed labels, for others to answer; prints the key");
+  verb->add_option("--seed", arguments->seed,
+                   "of the exported recordings (default: a secret one, for who knows the check and "
+                   "its seed knows the labels)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 53))
+      ->needs(exported);
+  auto* answers =
+      verb->add_option("--score", arguments->answers, "folder of answers, a JSON a recording")
+          ->excludes(exported);
+  auto* key = verb->add_option("--key", arguments->key, "what --export printed")->needs(answers);
+  answers->needs(key);
   arguments->format.add_to(verb);
   verb->footer(blind_check_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

@@ -684,6 +684,44 @@ TEST(BadInput, BlindCheck) {
       {"probability", "2", "[0, 1]"});
   refused(R"({"scenarios": {"a": {}}, "cases": [{"effect": "outliers", "scenario": "a"}]})",
           {"cases[0]", "strong"});
+  const auto in_a = [](const std::string& rest) {
+    return R"({"scenarios": {"a": {}}, "cases": [{"effect": "outliers", "scenario": "a", "strong": {}}],)" +
+           rest + "}";
+  };
+  refused(in_a(R"("sets": [{"scenario": "a", "sizes": [1]}])"),
+          {"sets[0].sizes[0]", "1", "[2, 10]"});
+  refused(in_a(R"("sets": [{"scenario": "a", "strengths": ["strng"]}])"),
+          {"sets[0].strengths[0]", "'strng'", "'strong'"});
+  refused(in_a(R"("sets": [{"scenario": "a", "sizes": [2]}])"), {"'a'", "2 effects"});
+  refused(in_a(R"("never_together": [["outliers", "outlier"]])"),
+          {"never_together[0]", "outlier", "outliers"});
+  refused(in_a(R"("samplings": [{"duration_s": -1}])"), {"samplings[0].duration_s", "-1", "s"});
+  refused(
+      R"({"scenarios": {"a": {}}, "cases": [{"effect": "outliers", "form": "truncation", "scenario": "a", "strong": {}}]})",
+      {"cases[0].form", "truncation", "quantization"});
+  refused(R"({"scenarios": {"a": {"noise": {"files": ["absent.csv"]}}}})", {"absent.csv"});
+  refused(R"({"scenarios": {"a": {"rate_hz": 20, "noise": {"files": ["absent.csv"]}}}})",
+          {"scenarios.a.rate_hz", "noise"});
+  refused(
+      R"({"scenarios": {"a": {"own": ["outliers"]}}, "cases": [{"effect": "outliers", "scenario": "a", "strong": {}}]})",
+      {"cases[0].effect", "outliers", "of its own"});
+}
+
+TEST(BadInput, BlindCheckOfOthers) {
+  TestFolder folder;
+  folder.write("full/file", "");
+  folder.write("check.json", R"({"scenarios": {"a": {"duration_s": 60}}, "none_recordings": 1})");
+  const std::string key(64, '0');
+  expect_refused(folder, {"blind-check", "check.json", "--export", "full"}, {"full", "new folder"});
+  expect_refused(folder, {"blind-check", "check.json", "--seed", "3"}, {"--export"});
+  expect_refused(folder, {"blind-check", "full", "--score", "answers"}, {"--key"});
+  expect_refused(folder, {"blind-check", "full", "--score", "answers", "--key", key},
+                 {"sealed_labels.bin", "--export"});
+  folder.write("full/sealed_labels.bin", std::string(100, 'x'));
+  expect_refused(folder, {"blind-check", "full", "--score", "answers", "--key", "12"},
+                 {"--key", "'12'", "64"});
+  expect_refused(folder, {"blind-check", "full", "--score", "answers", "--key", key},
+                 {"sealed_labels.bin", "does not open"});
 }
 
 }  // namespace
