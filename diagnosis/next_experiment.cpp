@@ -46,10 +46,10 @@ std::vector<Proposal> proposals(const Scenario& like, double recorded_s) {
 }
 
 double power(const Scenario& conditions, const Scenario& first, const Scenario& second,
-             std::uint64_t seed) {
+             std::uint64_t seed, const Interrupt& interrupt) {
   Series imagined;
   synthesise(conditions, {seed, 0}, imagined);
-  const Simulator simulator(imagined, seed);
+  const Simulator simulator(imagined, seed, interrupt);
   const auto a = simulator.ensemble(first, 0, replicas)[0];
   const auto b = simulator.ensemble(second, 0, replicas)[0];
   const Ensemble yardstick(simulator.instrument(Part::train), a, {});
@@ -69,12 +69,13 @@ double power(const Scenario& conditions, const Scenario& first, const Scenario& 
 }  // namespace
 
 NextExperiment next_experiment(const Scenario& first, const Scenario& second, double recorded_s,
-                               std::uint64_t seed) {
+                               std::uint64_t seed, const Interrupt& interrupt) {
   NextExperiment best{.what = "",
                       .first = std::string(first.effects.back().id()),
                       .second = std::string(second.effects.back().id())};
   for (const auto& proposal : proposals(first, recorded_s))
-    if (const double p = power(proposal.conditions, first, second, seed); p > best.expected_power) {
+    if (const double p = power(proposal.conditions, first, second, seed, interrupt);
+        p > best.expected_power) {
       best.expected_power = p;
       best.what = proposal.what;
     }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
 namespace gyrostat::gap {
@@ -19,6 +20,6 @@ struct NextExperiment {
 /// spot, the one that best separates two enriched scenarios whose last effects are the causes:
 /// recordings are simulated under each and scored under both.
 NextExperiment next_experiment(const Scenario& first, const Scenario& second, double recorded_s,
-                               std::uint64_t seed);
+                               std::uint64_t seed, const Interrupt& interrupt = {});
 
 }  // namespace gyrostat::gap

@@ -103,13 +103,15 @@ ParameterMap parameters_of(const Scenario& scenario, const Series& recording) {
 
 /// One entry a filter.
 std::vector<Values> all_values(const std::vector<const FilterType*>& filters,
-                               const ParameterMap& parameters, const Series& series) {
+                               const ParameterMap& parameters, const Series& series,
+                               const Interrupt& interrupt) {
   std::vector<Values> all(filters.size());
   const auto begun = static_cast<std::size_t>(random_error_s * series.rate_hz());
   const Series beginning =
       series.slice(0, std::min(series.size(), std::max<std::size_t>(begun, 2)));
   Track track;
   for (std::size_t f = 0; f < filters.size(); ++f) {
+    interrupt.check();
     all[f].fill(no_value);
     const bool is_thermal = filters[f]->role.corrects == Role::Corrects::thermal_drift;
     const Series& seen = is_thermal ? series : beginning;
@@ -127,12 +129,14 @@ std::vector<Transfer> transfer(const Simulator& simulator, const Series& recordi
                                std::size_t replicas) {
   const auto parameters = parameters_of(before, recording);
   const auto filters = published_filters();
-  const auto real = all_values(filters, parameters, recording);
+  const auto& interrupt = simulator.interrupt();
+  const auto real = all_values(filters, parameters, recording, interrupt);
   std::vector<std::vector<Values>> sims(2 * replicas);
   tbb::parallel_for(std::size_t{0}, sims.size(), [&](std::size_t k) {
     const auto& scenario = k < replicas ? before : after;
     sims[k] = all_values(filters, parameters,
-                         simulator.replica(scenario, static_cast<std::uint32_t>(k % replicas)));
+                         simulator.replica(scenario, static_cast<std::uint32_t>(k % replicas)),
+                         interrupt);
   });
   std::vector<Transfer> rows;
   for (std::size_t f = 0; f < filters.size(); ++f)

@@ -82,6 +82,7 @@ std::vector<double> CompassSearch::error_of(const std::vector<Effect>& effects) 
 }
 
 CompassSearch::Law CompassSearch::law_of(const std::vector<Effect>& effects) const {
+  simulator_.interrupt().check();
   const auto error = error_of(effects);
   double count = 0.0, sum = 0.0, square = 0.0, lagged = 0.0;
   for (int pass = 0; pass < 2; ++pass) {

@@ -63,8 +63,9 @@ NoiseLaw law_of(const Scenario& scenario, double interval_s) {
   return law;
 }
 
-SetFitter::SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced)
-    : conditions_(conditions), reduced_(std::move(reduced)) {
+SetFitter::SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
+                     Interrupt interrupt)
+    : conditions_(conditions), reduced_(std::move(reduced)), interrupt_(interrupt) {
   slow_series_.t_s = conditions.slow_time_s();
   slow_series_.temperature_C = conditions.slow_temperature_C();
   slow_series_.gyro_dps.assign(slow_series_.size(), 0.0);
@@ -146,6 +147,7 @@ RateTerms SetFitter::terms_with(const Scenario& scenario, const Regressors& regr
 }
 
 RateTerms SetFitter::terms(const Scenario& scenario, Part part, Jumping jumping) const {
+  interrupt_.check();
   return terms_with(scenario, regressors_of(scenario), part, jumping);
 }
 

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 
+#include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/diagnosis/likelihood/rate_likelihood.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
@@ -30,7 +31,8 @@ NoiseLaw law_of(const Scenario& scenario, double interval_s);
 /// whose signature is not slow must have been taken out of the recording.
 class SetFitter {
  public:
-  SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced);
+  SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
+            Interrupt interrupt = {});
 
   const ReducedRate& reduced() const { return *reduced_; }
   /// Fisher scoring from `start`, damped (Levenberg and Marquardt), for at most `iterations`.
@@ -40,6 +42,7 @@ class SetFitter {
  private:
   const Conditions& conditions_;
   std::shared_ptr<const ReducedRate> reduced_;
+  Interrupt interrupt_;
   /// Columns of unit spread: the drift's regressors, and the signatures of the scenario's slow
   /// effects.
   struct Regressors {

@@ -1,9 +1,11 @@
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -61,10 +63,19 @@ class Search {
   Scenario subset_of(const Scenario& whole, const std::vector<std::string>& names);
 
  private:
-  void tell(const std::string& what, double share) const {
-    if (progress_) progress_(what, share);
+  /// `left` rounds are to come at least, as far as is known.
+  void tell(const std::string& what, std::size_t left) {
+    doing_ = what;
+    left_ = left;
+    tell_share(0.0);
   }
-  std::vector<Standing> each_added(const Standing& standing, std::string_view barred = {}) const;
+  /// So much of a round is done.
+  void tell_share(double of_round) const {
+    const auto rounds = static_cast<double>(rounds_);
+    if (progress_) progress_(doing_, (rounds + of_round) / (rounds + static_cast<double>(left_)));
+  }
+  /// One round of the search.
+  std::vector<Standing> each_added(const Standing& standing, std::string_view barred = {});
   Standing searched(Standing standing);
   double least_gain(const Standing& standing, const Standing& next) const;
   /// Every member against all that might stand in its place.
@@ -78,15 +89,20 @@ class Search {
   SetBench bench_;
   std::vector<char> repeats_, outliers_;
   std::vector<const CauseType*> candidates_;
+  std::size_t rounds_ = 0;  ///< in which every candidate was tried
+  std::size_t left_ = 1;
+  std::string doing_;
   std::vector<std::pair<std::string, double>> screening_, gains_;
 };
 
-std::vector<Standing> Search::each_added(const Standing& standing, std::string_view barred) const {
+std::vector<Standing> Search::each_added(const Standing& standing, std::string_view barred) {
   std::vector<Standing> all(candidates_.size());
   std::optional<Evidence> left;
   if (std::any_of(candidates_.begin(), candidates_.end(),
                   [](const auto* cause) { return cause->guesses == nullptr; }))
     left.emplace(bench_.evidence_of(standing));
+  std::atomic<std::size_t> tried{0};
+  const auto caller = std::this_thread::get_id();
   tbb::parallel_for(
       std::size_t{0}, candidates_.size(),
       [&](std::size_t k) {
@@ -94,8 +110,12 @@ std::vector<Standing> Search::each_added(const Standing& standing, std::string_v
         if ((!has(standing.scenario, cause.id) || may_repeat(standing.scenario, cause.id)) &&
             cause.id != barred)
           all[k] = bench_.with(standing, cause, left ? &*left : nullptr);
+        const auto done = static_cast<double>(++tried);
+        if (std::this_thread::get_id() == caller)
+          tell_share(done / static_cast<double>(candidates_.size()));
       },
       tbb::simple_partitioner());
+  ++rounds_;
   return all;
 }
 
@@ -121,8 +141,8 @@ Standing Search::searched(Standing standing) {
     if (best == tried.end() || best->score <= standing.score + least_gain(standing, *best)) break;
     gains_.emplace_back(best->scenario.effects.back().id(), best->score - standing.score);
     standing = *best;
-    tell(fmt::format("adding {}", standing.scenario.effects.back().id()),
-         0.1 + 0.1 * static_cast<double>(step));
+    tell(fmt::format("beside {}", standing.scenario.effects.back().id()),
+         standing.scenario.effects.size() + 2);
     // What the newcomer made needless goes.
     for (bool dropped = true; dropped;) {
       dropped = false;
@@ -148,6 +168,7 @@ Standing Search::exchanged(Standing standing, FoundSet& found) {
     for (std::size_t k = 0; k < standing.scenario.effects.size(); ++k) {
       const Effect effect = standing.scenario.effects[k];
       if (bench_.is_marked(effect.id())) continue;
+      tell(fmt::format("rivals of {}", effect.id()), standing.scenario.effects.size() - k);
       const auto rest = bench_.without(standing, k);
       const auto others = each_added(rest, effect.id());
       double second = rest.score;
@@ -213,7 +234,7 @@ Scenario Search::likeliest_baseline() {
 
 FoundSet Search::run() {
   FoundSet found;
-  tell("reading values", 0.02);
+  tell("reading values", 3);
   const auto marks = marks_of(simulator_, recording_);
   const bool clipped = marks.limit_dps > 0.0 && bench_.is_allowed("saturation");
   const bool stale = marks.stale_probability > 0.0 && bench_.is_allowed("stale_samples");
@@ -239,7 +260,7 @@ FoundSet Search::run() {
     if (bench_.is_allowed(cause.id) && !is_compass(cause) && !bench_.is_marked(cause.id))
       candidates_.push_back(&cause);
 
-  tell("fitting the baseline", 0.05);
+  tell("fitting the baseline", 3);
   const auto baseline = bench_.baseline();
   bench_.mask_only(repeats_);
   found.baseline = baseline.scenario;
@@ -273,6 +294,7 @@ FoundSet Search::run() {
   if (clipped) mark(with_values("saturation", {{"limit_dps", marks.limit_dps}}), 50.0);
   if (clipped) bench_.mark_saturation();
 
+  tell("the first effect", 3);
   Standing standing = bench_.refitted(start);
   Tails tails;
   bool outliers = false, warm = false;
@@ -290,7 +312,6 @@ FoundSet Search::run() {
     if (round > 0 && bench_.masked() == hidden) break;
     standing = searched(bench_.refitted(standing.scenario));
   }
-  tell("trying rivals", 0.7);
   standing = exchanged(std::move(standing), found);
   found.screening = screening_;
   found.scenario = standing.scenario;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <mutex>
 #include <numeric>
-#include <ostream>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -54,7 +53,7 @@ void claim(const fs::path& folder, const BlindCheck& check) {
 
 }  // namespace
 
-void make_recordings(const BlindCheck& check, const fs::path& folder) {
+void make_recordings(const BlindCheck& check, const fs::path& folder, const Interrupt& interrupt) {
   fs::create_directories(folder / "recordings");
   fs::create_directories(folder / "diagnoses");
   claim(folder, check);
@@ -77,6 +76,7 @@ void make_recordings(const BlindCheck& check, const fs::path& folder) {
 
   tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t i) {
     const auto path = recording_of(folder, order[i]);
+    interrupt.check();
     if (fs::exists(path)) return;
     Series series;
     synthesise(items[i].c->scenario, {check.seed, items[i].trial}, series);
@@ -89,7 +89,7 @@ void make_recordings(const BlindCheck& check, const fs::path& folder) {
 }
 
 bool diagnose_recordings(const BlindCheck& check, const fs::path& folder,
-                         const std::string& program, std::ostream& log,
+                         const std::string& program, const BlindWatcher& watcher,
                          const std::atomic<bool>& stop) {
   const auto labels = open_labels(folder);  // for the leave-one-out runs alone
   struct Job {
@@ -114,16 +114,17 @@ bool diagnose_recordings(const BlindCheck& check, const fs::path& folder,
                                                 recording_of(folder, job.number).string(), "--json",
                                                 out.string()};
           if (!job.without.empty()) arguments.insert(arguments.end(), {"--without", job.without});
-          const int status = run_process(arguments, out.string() + ".log");
-          if (status != 0) {
+          const int status = run_process(arguments, out.string() + ".log", stop);
+          if (status != 0 && !stop) {
             const std::scoped_lock lock(mutex);
-            log << fmt::format("recording {:05}: the diagnosis ended with status {}; see {}.log\n",
-                               job.number, status, out.string());
+            watcher.say(
+                fmt::format("recording {:05}: the diagnosis ended with status {}; see {}.log",
+                            job.number, status, out.string()));
           }
         }
+        if (stop) return;
         const std::scoped_lock lock(mutex);
-        if (++done % 50 == 0 || done == jobs.size())
-          log << fmt::format("{} of {} diagnoses\n", done, jobs.size()) << std::flush;
+        watcher.progress(++done, jobs.size());
       },
       tbb::simple_partitioner());
   return !stop;

@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
 #include <gyrostat/diagnosis/gap/conditions.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/phase_progress.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/findings/diagnosis_page.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
@@ -15,6 +17,8 @@
 
 namespace gyrostat::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* diagnose_examples = R"(Examples:
   gyrostat diagnose REC.csv
@@ -31,6 +35,26 @@ struct DiagnoseArguments {
   gap::DiagnosisOptions options;
 };
 
+/// Nothing where Ctrl-C ended it.
+std::optional<gap::Diagnosis> diagnosed(const DiagnoseArguments& arguments, Console& console) {
+  const auto& file = arguments.recording.file;
+  const Interrupt interrupt(console.stop);
+  const auto read = arguments.recording.read_all(console.log);
+  PhaseProgress progress(console.log, console.log_is_terminal, "diagnose");
+  try {
+    interrupt.check();
+    const Series series = cut(gap::on_grid(read.series, file, read.first_row),
+                              arguments.span.from_s, arguments.span.to_s, file + ": --from, --to");
+    return about(file, [&] {
+      return gap::diagnose(
+          series, arguments.options,
+          [&](const auto& now) { progress.set(now.phase, now.detail, now.share); }, interrupt);
+    });
+  } catch (const Interrupted&) {
+    return std::nullopt;
+  }
+}
+
 int run(DiagnoseArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const auto& file = arguments.recording.file;
@@ -43,27 +67,22 @@ int run(DiagnoseArguments& arguments, Console& console) {
   }
   for (const auto& out : {arguments.json_out, arguments.html_out, arguments.scenario_out})
     if (!out.empty()) require_writable(out, file);
-  const auto read = arguments.recording.read_all(console.log);
-  const Series series = cut(gap::on_grid(read.series, file, read.first_row), arguments.span.from_s,
-                            arguments.span.to_s, file + ": --from, --to");
-  const auto diagnosis = about(file, [&] {
-    return gap::diagnose(series, arguments.options, [&](const std::string& what, double share) {
-      if (console.log_is_terminal)
-        console.log << fmt::format("\r\033[K{:3.0f} %  {}", 100.0 * share, what) << std::flush;
-    });
-  });
-  if (console.log_is_terminal) console.log << "\r\033[K";
-  const auto name = std::filesystem::path(file).filename().string();
+  const auto diagnosis = diagnosed(arguments, console);
+  if (!diagnosis) {
+    console.log << "stopped early: nothing was written\n";
+    return stopped;
+  }
+  const auto name = fs::path(file).filename().string();
   if (!arguments.json_out.empty())
-    write_atomically(arguments.json_out, gap::to_json(diagnosis).dump(1) + '\n');
+    write_atomically(arguments.json_out, gap::to_json(*diagnosis).dump(1) + '\n');
   if (!arguments.html_out.empty())
-    write_atomically(arguments.html_out, gap::diagnosis_page(diagnosis, name));
+    write_atomically(arguments.html_out, gap::diagnosis_page(*diagnosis, name));
   if (!arguments.scenario_out.empty())
-    write_atomically(arguments.scenario_out, gap::scenario_json(diagnosis).dump(2) + '\n');
-  if (format == Format::text) console.out << gap::in_words(diagnosis, name) << '\n';
-  console.out << render(gap::diagnosis_tables(diagnosis, name), format);
+    write_atomically(arguments.scenario_out, gap::scenario_json(*diagnosis).dump(2) + '\n');
+  if (format == Format::text) console.out << gap::in_words(*diagnosis, name) << '\n';
+  console.out << render(gap::diagnosis_tables(*diagnosis, name), format);
   if (arguments.timing)
-    for (const auto& [part, seconds] : diagnosis.seconds)
+    for (const auto& [part, seconds] : diagnosis->seconds)
       console.log << fmt::format("{:<16} {:.2f} s\n", part, seconds);
   return complete;
 }
