@@ -394,7 +394,7 @@ void Work::keep_bands() {
   }
 }
 
-/// Only where the verdict does not stand alone.
+/// Only where something is open: a rival, or what nothing explains.
 void Work::look_ahead() {
   const Cause *first = nullptr, *second = nullptr;
   const auto cause_of = [&](const std::string& effect) -> const Cause* {
@@ -409,11 +409,14 @@ void Work::look_ahead() {
       probability_of(closest->log_odds) >= thresholds::member_probability) {
     first = cause_of(closest->instead_of);
     second = cause_of(closest->effect);
-  } else if (result_.verdict.is_unknown() && result_.causes.size() > 1) {
-    first = &result_.causes[0];
-    second = &result_.causes[1];
   }
-  if (first == nullptr || second == nullptr) return;
+  const bool is_apart = first != nullptr && second != nullptr && first != second;
+  if (!is_apart) {
+    if (second != nullptr || result_.verdict.is_unknown())
+      result_.next = wider_recording(simulator_.conditions(), result_.duration_s,
+                                     result_.causes.empty() ? "" : result_.causes.front().effect);
+    return;
+  }
   tell("looking for the next experiment", 0.95);
   result_.next = next_experiment(first->scenario, second->scenario, result_.duration_s,
                                  options_.seed, simulator_.interrupt());
@@ -432,6 +435,7 @@ Diagnosis Work::run() {
   tell("running the filters", 0.92);
   result_.transfer =
       transfer(simulator_, recording_, result_.baseline, result_.enriched, transfer_replicas);
+  result_.portrait = portrait_of(simulator_, recording_, result_.baseline, result_.enriched);
   took("transfer");
   look_ahead();
   took("next experiment");

@@ -7,6 +7,7 @@
 
 #include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/diagnosis/next_experiment.hpp>
+#include <gyrostat/diagnosis/portrait.hpp>
 #include <gyrostat/diagnosis/transfer.hpp>
 #include <gyrostat/diagnosis/verdict.hpp>
 #include <gyrostat/generators/scenario.hpp>
@@ -84,8 +85,9 @@ struct Diagnosis {
   std::vector<Enrichment> enrichments;  ///< of the baseline, one after another
   std::vector<Shortfall> not_assessable;
   std::vector<Transfer> transfer;
-  NextExperiment next;  ///< empty where one cause stands alone
+  NextExperiment next;  ///< empty where nothing is open
   std::vector<Band> bands;
+  Portrait portrait;
   std::vector<std::pair<std::string, double>> screening;  ///< log scores at the starts
   std::vector<std::pair<std::string, double>> seconds;    ///< spent in each part of the work
 };

@@ -11,6 +11,7 @@
 #include <gyrostat/experiments/cli/phase_progress.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/findings/diagnosis_page.hpp>
+#include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 constexpr const char* diagnose_examples = R"(Examples:
   gyrostat diagnose REC.csv
   gyrostat diagnose REC.csv --html GAP.html --json GAP.json
+  gyrostat diagnose REC.csv --out-figures FIGURES    every picture as SVG
   gyrostat diagnose REC.csv --scenario STUDY.json    a study whose simulator has the effect
   gyrostat diagnose OTHER.csv --claim STUDY.json     does it close the gap of another recording?)";
 
@@ -30,7 +32,7 @@ struct DiagnoseArguments {
   RecordingOption recording;
   SpanOption span;
   FormatOption format;
-  std::string json_out, html_out, scenario_out, claim;
+  std::string json_out, html_out, scenario_out, figures_out, claim;
   bool timing = false;
   gap::DiagnosisOptions options;
 };
@@ -67,18 +69,26 @@ int run(DiagnoseArguments& arguments, Console& console) {
   }
   for (const auto& out : {arguments.json_out, arguments.html_out, arguments.scenario_out})
     if (!out.empty()) require_writable(out, file);
+  if (!arguments.figures_out.empty()) make_result_folder(arguments.figures_out);
   const auto diagnosis = diagnosed(arguments, console);
   if (!diagnosis) {
+    std::error_code not_empty;
+    if (!arguments.figures_out.empty()) fs::remove(arguments.figures_out, not_empty);
     console.log << "stopped early: nothing was written\n";
     return stopped;
   }
-  const auto name = fs::path(file).filename().string();
+  auto name = fs::path(file).filename().string();
+  if (!arguments.recording.axis.empty()) name += ", axis " + arguments.recording.axis;
   if (!arguments.json_out.empty())
     write_atomically(arguments.json_out, gap::to_json(*diagnosis).dump(1) + '\n');
   if (!arguments.html_out.empty())
     write_atomically(arguments.html_out, gap::diagnosis_page(*diagnosis, name));
   if (!arguments.scenario_out.empty())
-    write_atomically(arguments.scenario_out, gap::scenario_json(*diagnosis).dump(2) + '\n');
+    write_atomically(arguments.scenario_out, gap::scenario_json(*diagnosis, name).dump(2) + '\n');
+  if (!arguments.figures_out.empty())
+    for (const auto& picture : gap::diagnosis_pictures(*diagnosis))
+      write_atomically(fs::path(arguments.figures_out) / (picture.id + ".svg"),
+                       picture_file(picture));
   if (format == Format::text) console.out << gap::in_words(*diagnosis, name) << '\n';
   console.out << render(gap::diagnosis_tables(*diagnosis, name), format);
   if (arguments.timing)
@@ -101,6 +111,8 @@ void add_diagnose(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--html", arguments->html_out, "write the diagnosis as a page with pictures");
   verb->add_option("--scenario", arguments->scenario_out,
                    "write a study whose scenario has the effects found");
+  verb->add_option("--out-figures", arguments->figures_out,
+                   "folder to write every picture of the page to, as SVG");
   verb->add_flag("--timing", arguments->timing, "say where the time went");
   arguments->format.add_to(verb);
   verb->add_option("--without", arguments->options.without,

@@ -59,7 +59,7 @@ TEST(Diagnose, CtrlCEndsItInAMomentAndLeavesNothing) {
   const auto before = folder.contents();
   for (const int after_ms : {0, 300, 1500}) {
     Program program(folder.path(), {"diagnose", "rec.csv", "--json", "out.json", "--html",
-                                    "out.html", "--scenario", "s.json"});
+                                    "out.html", "--scenario", "s.json", "--out-figures", "f"});
     while (program.err_so_far().find("diagnose: looking for effects") == std::string::npos)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
@@ -68,11 +68,12 @@ TEST(Diagnose, CtrlCEndsItInAMomentAndLeavesNothing) {
   }
 }
 
-TEST(Diagnose, TellsOneLineAPhaseWhereNobodyWatches) {
+TEST(Diagnose, TellsOneLineAPhaseWhereNobodyWatchesAndTheAnswerFirst) {
   const TestFolder folder;
   record(folder, 200);
   const auto ended =
-      run_program(folder, {"diagnose", "rec.csv"});
+      run_program(folder, {"diagnose", "rec.csv", "--html", "page.html", "--scenario", "s.json",
+                           "--json", "out.json", "--out-figures", "figures"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_THAT(ended.err, Not(HasSubstr("\r")));
   std::istringstream lines(ended.err);
@@ -87,6 +88,25 @@ TEST(Diagnose, TellsOneLineAPhaseWhereNobodyWatches) {
     last = std::stod(parts[2]);
   }
   EXPECT_GE(phases.size(), 3);
+
+  EXPECT_TRUE(
+      ended.out.starts_with("rec.csv: To make recordings like this one, the simulator "
+                            "lacks "))
+      << ended.out;
+  EXPECT_THAT(ended.out.substr(0, ended.out.find('\n')), Not(HasSubstr("spreads")));
+  EXPECT_THAT(folder.read("page.html"), HasSubstr("<h1>rec.csv</h1>"));
+  EXPECT_THAT(folder.read("page.html"), Not(HasSubstr(folder.path().string())));
+  const auto figures = folder.contents();
+  for (const char* name : {"steps", "recording", "residual", "allan", "spectrum"})
+    EXPECT_THAT(figures.at(fmt::format("figures/{}.svg", name)), HasSubstr("</svg>")) << name;
+
+  const auto found = Json::parse(folder.read("out.json"));
+  for (const auto& row : found.at("transfer"))
+    EXPECT_THAT((std::set<std::string>{"closer", "nowhere", "away"}),
+                testing::Contains(row.at("moved").get<std::string>()));
+  EXPECT_THAT(Json::parse(folder.read("s.json")).at("title").get<std::string>(),
+              HasSubstr(fmt::format("rec.csv: a simulator that comes {:.0f} % closer",
+                                    100.0 * found.at("gap").at("closed").get<double>())));
 }
 
 TEST(BlindCheck, CtrlCEndsItInAMomentAndTheSameGoesOn) {
