@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include <gyrostat/analysis/fits/arima_likelihood.hpp>
-#include <gyrostat/analysis/fits/arima_moments.hpp>
 #include <gyrostat/core/error.hpp>
 
 namespace gyrostat {
@@ -55,8 +53,7 @@ Calibration calibrate(const Series& series, FitMethod method) {
         compass_noise_std(series, calibration.thermal->parameters, aiding_interval_s);
   }
   const auto rest = without_drift(series, calibration.thermal);
-  calibration.random_error =
-      method == FitMethod::likelihood ? fit_arima_likelihood(rest) : fit_arima_moments(rest);
+  calibration.random_error = fit_random_error(rest, method);
   double sum = 0.0;
   std::size_t count = 0;
   for (const double v : rest)

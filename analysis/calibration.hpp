@@ -3,14 +3,12 @@
 #include <optional>
 #include <vector>
 
-#include <gyrostat/analysis/fits/arima_fit.hpp>
+#include <gyrostat/analysis/fits/random_error.hpp>
 #include <gyrostat/analysis/fits/thermal_regression.hpp>
 #include <gyrostat/core/parameter_map.hpp>
 #include <gyrostat/core/series.hpp>
 
 namespace gyrostat {
-
-enum class FitMethod { likelihood, moments };
 
 /// The fit method called `name`; throws InputError at `place` otherwise.
 FitMethod fit_method_named(const std::string& name, const std::string& place);

@@ -22,6 +22,9 @@ namespace {
 constexpr std::size_t fewest_samples = 1000;
 constexpr std::size_t transfer_replicas = 6;
 
+/// Of the work, as it is told.
+constexpr double search_share = 0.55;
+
 /// Replicas that say what a set lacks without one of its effects.
 constexpr std::size_t lacking_replicas = 16;
 
@@ -38,18 +41,21 @@ using Clock = std::chrono::steady_clock;
 
 class Work {
  public:
-  Work(const Series& recording, const DiagnosisOptions& options, const DiagnosisProgress& progress)
+  Work(const Series& recording, const DiagnosisOptions& options, const DiagnosisProgress& progress,
+       const Interrupt& interrupt)
       : options_(options),
         progress_(progress),
-        simulator_(recording, options.seed),
+        simulator_(recording, options.seed, interrupt),
         recording_(recording),
         observed_(simulator_.readings(recording)) {}
 
   Diagnosis run();
 
  private:
-  void tell(const std::string& what, double share) {
-    if (progress_) progress_(what, share);
+  void tell(const std::string& phase, double share, const std::string& detail = {}) {
+    simulator_.interrupt().check();
+    share_ = std::max(share_, share);
+    if (progress_) progress_({phase, detail, share_});
   }
   void took(const std::string& part) {
     const auto now = Clock::now();
@@ -88,6 +94,7 @@ class Work {
   std::vector<Rung> rungs_;                 ///< one effect more each
   Diagnosis result_;
   Clock::time_point since_ = Clock::now();
+  double share_ = 0.0;  ///< told
 };
 
 void Work::describe(const Series& recording) {
@@ -120,12 +127,22 @@ std::vector<Where> Work::departures_of(const Ensemble& ensemble) const {
 
 void Work::localise() {
   found_ = find_set(simulator_, recording_, {.without = options_.without},
-                    [this](const std::string& what, double share) { tell(what, 0.5 * share); });
+                    [this](const std::string& what, double share) {
+                      tell("looking for effects", search_share * share, what);
+                    });
   took("search");
-  tell("simulating the baseline", 0.5);
+  tell("simulating the baseline", search_share);
   const auto fit = linearised(simulator_, with_drift(found_.baseline, recording_));
   result_.baseline = result_.enriched = fit.scenario;
-  simulator_.remember(fit.scenario, 0, options_.baseline_replicas);
+  simulator_.remember(fit.scenario, 0, 0);
+  constexpr std::size_t lot = 20;
+  for (std::size_t first = 0; first < options_.baseline_replicas; first += lot) {
+    simulator_.remember_more(static_cast<std::uint32_t>(first),
+                             std::min(lot, options_.baseline_replicas - first));
+    tell("simulating the baseline",
+         search_share + 0.1 * static_cast<double>(first + lot) /
+                            static_cast<double>(options_.baseline_replicas));
+  }
   baseline_replicas_ = simulator_.ensemble(fit.scenario, 0, options_.baseline_replicas);
   train_ = std::make_unique<Ensemble>(simulator_.instrument(Part::train), baseline_replicas_[0],
                                       fit.train_jacobian);
@@ -169,7 +186,8 @@ Scenario Work::with_drift(Scenario scenario, const Series& recording) const {
 }
 
 Rung Work::rung(const std::string& effect, const Scenario& scenario, std::size_t replicas) const {
-  return {effect, scenario, simulator_.ensemble(scenario, 0, replicas)};
+  auto readings = simulator_.ensemble(scenario, 0, replicas);
+  return {effect, scenario, std::move(readings)};
 }
 
 Scenario Work::with_effects(const std::vector<std::string>& names) const {
@@ -186,8 +204,9 @@ void Work::climb(const std::vector<std::string>& order) {
   std::vector<std::string> names;
   for (const auto& name : order) {
     names.push_back(name);
-    tell("adding " + name,
-         0.6 + 0.2 * static_cast<double>(names.size() - 1) / static_cast<double>(order.size()));
+    tell("adding one effect after another",
+         0.75 + 0.08 * static_cast<double>(names.size() - 1) / static_cast<double>(order.size()),
+         name);
     const bool is_whole = names.size() == order.size();
     rungs_.push_back(
         rung(name, is_whole ? result_.enriched : with_effects(names), options_.candidate_replicas));
@@ -210,7 +229,10 @@ void Work::attribute() {
   const auto whole = rung({}, result_.enriched, lacking_replicas);
   const auto truth = scoring_->of(whole.replicas[0]);
   for (const auto& m : found_.members) {
-    tell("weighing " + m.effect, 0.55);
+    tell("weighing each effect",
+         0.65 + 0.1 * static_cast<double>(result_.effects.size()) /
+                    static_cast<double>(found_.members.size()),
+         m.effect);
     auto others = names;
     std::erase(others, m.effect);
     const auto without = simulator_.ensemble(with_effects(others), 0, lacking_replicas);
@@ -261,14 +283,16 @@ void Work::attribute() {
   for (const auto& rival : found_.rivals)
     if (probability_of(rival.log_odds) >= thresholds::member_probability)
       add(Verdict::cause(rival.effect));
-  for (const auto& effect : result_.effects)
+  for (const auto& effect : result_.effects) {
+    const auto scenario = with_effects({effect.effect});
     result_.causes.push_back(
         {.effect = effect.effect,
-         .scenario = with_effects({effect.effect}),
+         .scenario = scenario,
          .log_score = effect.log_odds,
          .recovered = result_.recovered,
          .probability = unexplained ? effect.inclusion * std::clamp(result_.recovered, 0.0, 1.0)
                                     : effect.inclusion});
+  }
   for (const auto& rival : found_.rivals) {
     Scenario scenario = result_.enriched;
     scenario.effects = {rival.found};
@@ -290,7 +314,8 @@ void Work::judge_claim() {
   for (const auto& effect : scenario.effects) {
     names.emplace_back(effect.id());
     result_.verdict_set.push_back(Verdict::cause(names.back()));
-    result_.causes.push_back({.effect = names.back(), .scenario = with_effects({names.back()})});
+    const auto alone = with_effects({names.back()});
+    result_.causes.push_back({.effect = names.back(), .scenario = alone});
     result_.causes.back().probability = 1.0;
   }
   climb(names);
@@ -337,6 +362,10 @@ void Work::measure_shrinkage() {
   result_.gap_after = result_.enrichments.back().gap;
   result_.closed = closed(result_.gap_after);
   for (auto& cause : result_.causes) {
+    tell("simulating each cause alone",
+         0.83 + 0.09 * static_cast<double>(&cause - result_.causes.data()) /
+                    static_cast<double>(result_.causes.size()),
+         cause.effect);
     const auto alone = rung(cause.effect, cause.scenario, lacking_replicas);
     cause.gap_after = gap_of(held_out_scoring_->of(alone.replicas[1]), truth);
     cause.closed = closed(cause.gap_after);
@@ -378,7 +407,7 @@ void Work::keep_bands() {
   }
 }
 
-/// Only where the verdict does not stand alone.
+/// Only where something is open: a rival, or what nothing explains.
 void Work::look_ahead() {
   const Cause *first = nullptr, *second = nullptr;
   const auto cause_of = [&](const std::string& effect) -> const Cause* {
@@ -393,14 +422,17 @@ void Work::look_ahead() {
       probability_of(closest->log_odds) >= thresholds::member_probability) {
     first = cause_of(closest->instead_of);
     second = cause_of(closest->effect);
-  } else if (result_.verdict.is_unknown() && result_.causes.size() > 1) {
-    first = &result_.causes[0];
-    second = &result_.causes[1];
   }
-  if (first == nullptr || second == nullptr) return;
+  const bool is_apart = first != nullptr && second != nullptr && first != second;
+  if (!is_apart) {
+    if (second != nullptr || result_.verdict.is_unknown())
+      result_.next = wider_recording(simulator_.conditions(), result_.duration_s,
+                                     result_.causes.empty() ? "" : result_.causes.front().effect);
+    return;
+  }
   tell("looking for the next experiment", 0.95);
-  result_.next =
-      next_experiment(first->scenario, second->scenario, result_.duration_s, options_.seed);
+  result_.next = next_experiment(first->scenario, second->scenario, result_.duration_s,
+                                 options_.seed, simulator_.interrupt());
 }
 
 Diagnosis Work::run() {
@@ -416,6 +448,7 @@ Diagnosis Work::run() {
   tell("running the filters", 0.92);
   result_.transfer =
       transfer(simulator_, recording_, result_.baseline, result_.enriched, transfer_replicas);
+  result_.portrait = portrait_of(simulator_, recording_, result_.baseline, result_.enriched);
   took("transfer");
   look_ahead();
   took("next experiment");
@@ -432,7 +465,7 @@ std::vector<Effect> catalogue() {
 }
 
 Diagnosis diagnose(const Series& recording, const DiagnosisOptions& options,
-                   const DiagnosisProgress& progress) {
+                   const DiagnosisProgress& progress, const Interrupt& interrupt) {
   if (recording.size() < fewest_samples)
     throw InputError("recording", fmt::format("{} samples; at least {} are needed for a diagnosis",
                                               recording.size(), fewest_samples));
@@ -442,7 +475,7 @@ Diagnosis diagnose(const Series& recording, const DiagnosisOptions& options,
     throw InputError("recording", "gyro_dps never changes; there is nothing to diagnose");
   if (options.claim && options.claim->effects.empty())
     throw InputError("claim", "its scenario has no effects; there is nothing to judge");
-  return Work(recording, options, progress).run();
+  return Work(recording, options, progress, interrupt).run();
 }
 
 }  // namespace gyrostat::gap

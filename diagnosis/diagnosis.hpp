@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/diagnosis/likelihood/unexplained.hpp>
 #include <gyrostat/diagnosis/next_experiment.hpp>
+#include <gyrostat/diagnosis/portrait.hpp>
 #include <gyrostat/diagnosis/transfer.hpp>
 #include <gyrostat/diagnosis/verdict.hpp>
 #include <gyrostat/generators/scenario.hpp>
@@ -85,14 +87,20 @@ struct Diagnosis {
   std::vector<Enrichment> enrichments;  ///< of the baseline, one after another
   std::vector<Shortfall> not_assessable;
   std::vector<Transfer> transfer;
-  NextExperiment next;  ///< empty where one cause stands alone
+  NextExperiment next;  ///< empty where nothing is open
   std::vector<Band> bands;
+  Portrait portrait;
   std::vector<std::pair<std::string, double>> screening;  ///< log scores at the starts
   std::vector<std::pair<std::string, double>> seconds;    ///< spent in each part of the work
 };
 
-/// Says what is being done, with the share that is done.
-using DiagnosisProgress = std::function<void(const std::string&, double)>;
+/// How far a diagnosis is.
+struct DiagnosisStage {
+  std::string phase;   ///< as "looking for effects"
+  std::string detail;  ///< what of it was just done, or nothing
+  double share;        ///< of the work that is done; only grows
+};
+using DiagnosisProgress = std::function<void(const DiagnosisStage&)>;
 
 /// Diagnoses an evenly sampled series (NaN = missing). Everything that is chosen or fitted comes
 /// from the train part alone. Throws InputError for fewer than 1000 samples, or a gyro that never
@@ -107,9 +115,10 @@ using DiagnosisProgress = std::function<void(const std::string&, double)>;
 ///   std::fputs(gap::in_words(diagnosis, "REC.csv").c_str(), stdout);
 ///
 /// Thread safety: may be called from any thread; it works on all threads that oneTBB gives it, and
-/// their number changes no digit. `progress` is called by the thread that called.
+/// their number changes no digit. `progress` is called by the thread that called; once `interrupt`
+/// says so, Interrupted is thrown within a moment.
 Diagnosis diagnose(const Series& recording, const DiagnosisOptions& options,
-                   const DiagnosisProgress& progress = {});
+                   const DiagnosisProgress& progress = {}, const Interrupt& interrupt = {});
 
 /// Every effect that may be named as a cause, with its default parameters, in the catalogue's
 /// order.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <gyrostat/core/parameter_map.hpp>
@@ -95,14 +96,15 @@ Json to_json(const Diagnosis& d) {
                                 {"unit", t.unit},
                                 {"real", number(t.real)},
                                 {"sim_before", number(t.before)},
-                                {"sim_after", number(t.after)}});
+                                {"sim_after", number(t.after)},
+                                {"moved", name_of(t.moved)}});
   json["next_experiment"] = {{"what", d.next.what},
                              {"separates", Json::array({d.next.first, d.next.second})},
                              {"expected_power", d.next.expected_power}};
   return json;
 }
 
-Json scenario_json(const Diagnosis& d) {
+Json scenario_json(const Diagnosis& d, const std::string& name) {
   Json s;
   s["duration_s"] = d.duration_s;
   s["rate_hz"] = d.rate_hz;
@@ -118,7 +120,12 @@ Json scenario_json(const Diagnosis& d) {
     effect.update(parameters_json(any));
     s["effects"].push_back(effect);
   }
-  return {{"title", "A scenario that closes the gap of a recording"},
+  const auto title =
+      d.enriched.effects.empty()
+          ? fmt::format("{}: the simulator as it stands", name)
+          : fmt::format("{}: a simulator that comes {:.0f} % closer to it (95 %: {:.0f} to {:.0f})",
+                        name, 100.0 * d.closed, 100.0 * d.closed_low, 100.0 * d.closed_high);
+  return {{"title", title},
           {"cells", Json::array({{{"name", "enriched"}, {"trials", 1000}, {"scenario", s}}})}};
 }
 

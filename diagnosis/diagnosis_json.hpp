@@ -11,7 +11,8 @@ using Json = nlohmann::ordered_json;
 /// The diagnosis as the gap contract has it.
 Json to_json(const Diagnosis& diagnosis);
 /// A study of one cell whose scenario has the effects that were added, ready for `gyrostat run`.
-Json scenario_json(const Diagnosis& diagnosis);
+/// Its title says how much nearer that comes to the recording, which has the name.
+Json scenario_json(const Diagnosis& diagnosis, const std::string& name);
 /// The parameters of an effect, by name.
 Json parameters_json(const Effect& effect);
 

@@ -8,9 +8,10 @@
 
 namespace gyrostat::gap {
 
-/// The diagnosis in one paragraph.
+/// The answer in plain words, then the numbers that it rests on.
 std::string in_words(const Diagnosis& diagnosis, const std::string& name);
-/// Where, causes, steps, transfer and what cannot be assessed.
+/// Causes, steps, transfer, where the recording leaves the simulator (in the units that readings
+/// are logarithms of) and what cannot be assessed.
 std::vector<Table> diagnosis_tables(const Diagnosis& diagnosis, const std::string& name);
 
 }  // namespace gyrostat::gap

@@ -6,6 +6,7 @@
 
 #include <gyrostat/diagnosis/gap/scoring.hpp>
 #include <gyrostat/diagnosis/simulator.hpp>
+#include <gyrostat/diagnosis/verdict.hpp>
 #include <gyrostat/generators/environment/motion/list.hpp>
 #include <gyrostat/generators/environment/temperature/list.hpp>
 
@@ -46,10 +47,10 @@ std::vector<Proposal> proposals(const Scenario& like, double recorded_s) {
 }
 
 double power(const Scenario& conditions, const Scenario& first, const Scenario& second,
-             std::uint64_t seed) {
+             std::uint64_t seed, const Interrupt& interrupt) {
   Series imagined;
   synthesise(conditions, {seed, 0}, imagined);
-  const Simulator simulator(imagined, seed);
+  const Simulator simulator(imagined, seed, interrupt);
   const auto a = simulator.ensemble(first, 0, replicas)[0];
   const auto b = simulator.ensemble(second, 0, replicas)[0];
   const Ensemble yardstick(simulator.instrument(Part::train), a, {});
@@ -69,16 +70,33 @@ double power(const Scenario& conditions, const Scenario& first, const Scenario& 
 }  // namespace
 
 NextExperiment next_experiment(const Scenario& first, const Scenario& second, double recorded_s,
-                               std::uint64_t seed) {
+                               std::uint64_t seed, const Interrupt& interrupt) {
   NextExperiment best{.what = "",
                       .first = std::string(first.effects.back().id()),
                       .second = std::string(second.effects.back().id())};
   for (const auto& proposal : proposals(first, recorded_s))
-    if (const double p = power(proposal.conditions, first, second, seed); p > best.expected_power) {
+    if (const double p = power(proposal.conditions, first, second, seed, interrupt);
+        p > best.expected_power) {
       best.expected_power = p;
       best.what = proposal.what;
     }
   return best;
+}
+
+NextExperiment wider_recording(const Conditions& conditions, double recorded_s,
+                               const std::string& nearest) {
+  const auto& series = conditions.series();
+  constexpr double least_span_C = 4.0;
+  const auto& T = series.temperature_C;
+  const bool warms =
+      !T.empty() &&
+      *std::max_element(T.begin(), T.end()) - *std::min_element(T.begin(), T.end()) >= least_span_C;
+  std::string what = fmt::format("{:.3g} h at rest", 4.0 * recorded_s / 3600.0);
+  if (!warms) what += ", over temperature cycles of 20 min between 23 and 57 °C (temperature_C)";
+  if (conditions.motion_dps_s().empty()) what += ", then turns on a rate table (rate_ref_dps)";
+  if (series.acc_x_mps2.empty()) what += ", with the accelerometer beside it (acc_x_mps2, ...)";
+  what += "; and once more elsewhere, since what stays behind is not the sensor's";
+  return {.what = what, .first = nearest, .second = Verdict::unknown().text()};
 }
 
 }  // namespace gyrostat::gap

@@ -3,9 +3,12 @@
 #include <string>
 #include <vector>
 
+#include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
 namespace gyrostat::gap {
+
+class Conditions;
 
 /// A recording that one could make, and how surely it would tell two causes apart.
 struct NextExperiment {
@@ -19,6 +22,11 @@ struct NextExperiment {
 /// spot, the one that best separates two enriched scenarios whose last effects are the causes:
 /// recordings are simulated under each and scored under both.
 NextExperiment next_experiment(const Scenario& first, const Scenario& second, double recorded_s,
-                               std::uint64_t seed);
+                               std::uint64_t seed, const Interrupt& interrupt = {});
+
+/// Of what nothing explains: longer, and with what the recording does not hold. `nearest` is the
+/// effect that comes nearest, or nothing. Its power is 0: there is nothing to simulate.
+NextExperiment wider_recording(const Conditions& conditions, double recorded_s,
+                               const std::string& nearest);
 
 }  // namespace gyrostat::gap

@@ -46,11 +46,14 @@ bool effects_at(const Scenario& scenario, bool compass) {
 
 }  // namespace
 
-Simulator::Simulator(const Series& recording, std::uint64_t seed)
-    : conditions_(recording),
+Simulator::Simulator(const Series& recording, std::uint64_t seed, Interrupt interrupt)
+    : interrupt_(interrupt),
+      conditions_(recording),
       instruments_{Instrument(conditions_, Part::train), Instrument(conditions_, Part::held_out)},
       seed_(seed),
-      resolution_dps_(decimal_step(recording.gyro_dps, conditions_.spans(Part::train))) {}
+      resolution_dps_(decimal_step(recording.gyro_dps, conditions_.spans(Part::train))) {
+  interrupt_.check();
+}
 
 void Simulator::to_resolution(Series& series) const {
   if (resolution_dps_ > 0.0)
@@ -94,6 +97,7 @@ void Simulator::remember_more(std::uint32_t first, std::size_t count) {
 
 Readings Simulator::replica_readings(const Scenario& scenario, std::uint32_t number,
                                      std::span<const Part> of) const {
+  interrupt_.check();
   const auto known = memory_.find(number);
   if (known == memory_.end()) return readings(replica(scenario, number), of);
   const bool heading = differ(scenario.compass, remembered_.compass) ||

@@ -4,6 +4,7 @@
 #include <map>
 #include <span>
 
+#include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/diagnosis/gap/instrument.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
@@ -17,11 +18,13 @@ using ReplicaReadings = std::array<Eigen::MatrixXd, 2>;
 /// A scenario's readings under the conditions of one recording, written with as many decimals.
 class Simulator {
  public:
-  Simulator(const Series& recording, std::uint64_t seed);
+  Simulator(const Series& recording, std::uint64_t seed, Interrupt interrupt = {});
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
   const Conditions& conditions() const { return conditions_; }
+  /// What all work under these conditions asks now and then.
+  const Interrupt& interrupt() const { return interrupt_; }
   const Instrument& instrument(Part part) const { return instruments_[index_of(part)]; }
   /// Step of the recording's decimals, dps; 0 where none shows, or where it is so coarse that it
   /// is the sensor's own.
@@ -48,6 +51,7 @@ class Simulator {
   static Scenario simulable(Scenario scenario);
   void to_resolution(Series& series) const;
 
+  Interrupt interrupt_;
   Conditions conditions_;
   std::array<Instrument, 2> instruments_;
   std::uint64_t seed_;

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <gyrostat/analysis/calibration.hpp>
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/core/filter_type.hpp>
 #include <gyrostat/core/track.hpp>
 #include <gyrostat/diagnosis/simulator.hpp>
@@ -103,13 +104,15 @@ ParameterMap parameters_of(const Scenario& scenario, const Series& recording) {
 
 /// One entry a filter.
 std::vector<Values> all_values(const std::vector<const FilterType*>& filters,
-                               const ParameterMap& parameters, const Series& series) {
+                               const ParameterMap& parameters, const Series& series,
+                               const Interrupt& interrupt) {
   std::vector<Values> all(filters.size());
   const auto begun = static_cast<std::size_t>(random_error_s * series.rate_hz());
   const Series beginning =
       series.slice(0, std::min(series.size(), std::max<std::size_t>(begun, 2)));
   Track track;
   for (std::size_t f = 0; f < filters.size(); ++f) {
+    interrupt.check();
     all[f].fill(no_value);
     const bool is_thermal = filters[f]->role.corrects == Role::Corrects::thermal_drift;
     const Series& seen = is_thermal ? series : beginning;
@@ -120,19 +123,36 @@ std::vector<Values> all_values(const std::vector<const FilterType*>& filters,
   return all;
 }
 
+/// `changes` are those of each replica: both scenarios draw the same noise.
+Moved moved(const Transfer& row, const std::vector<double>& changes) {
+  const auto n = static_cast<double>(changes.size());
+  const double mean = row.after - row.before;
+  double square = 0.0;
+  for (const double change : changes) square += (change - mean) * (change - mean);
+  const double chance = student_t_two_sided(0.95, n - 1.0) * std::sqrt(square / (n * (n - 1.0)));
+  const double nearer = std::abs(row.before - row.real) - std::abs(row.after - row.real);
+  return nearer > chance ? Moved::closer : nearer < -chance ? Moved::away : Moved::nowhere;
+}
+
 }  // namespace
+
+std::string_view name_of(Moved moved) {
+  return moved == Moved::closer ? "closer" : moved == Moved::away ? "away" : "nowhere";
+}
 
 std::vector<Transfer> transfer(const Simulator& simulator, const Series& recording,
                                const Scenario& before, const Scenario& after,
                                std::size_t replicas) {
   const auto parameters = parameters_of(before, recording);
   const auto filters = published_filters();
-  const auto real = all_values(filters, parameters, recording);
+  const auto& interrupt = simulator.interrupt();
+  const auto real = all_values(filters, parameters, recording, interrupt);
   std::vector<std::vector<Values>> sims(2 * replicas);
   tbb::parallel_for(std::size_t{0}, sims.size(), [&](std::size_t k) {
     const auto& scenario = k < replicas ? before : after;
     sims[k] = all_values(filters, parameters,
-                         simulator.replica(scenario, static_cast<std::uint32_t>(k % replicas)));
+                         simulator.replica(scenario, static_cast<std::uint32_t>(k % replicas)),
+                         interrupt);
   });
   std::vector<Transfer> rows;
   for (std::size_t f = 0; f < filters.size(); ++f)
@@ -147,10 +167,16 @@ std::vector<Transfer> transfer(const Simulator& simulator, const Series& recordi
       // Signs of a drift are chance; its size is what is promised.
       const bool size = metric_names[m].first == "heading_drift_against_compass";
       if (size) row.real = std::abs(row.real);
-      for (std::size_t k = 0; k < sims.size(); ++k) {
-        const double value = size ? std::abs(sims[k][f][m]) : sims[k][f][m];
-        (k < replicas ? row.before : row.after) += value / static_cast<double>(replicas);
+      std::vector<double> changes;
+      const auto value = [&](std::size_t k) {
+        return size ? std::abs(sims[k][f][m]) : sims[k][f][m];
+      };
+      for (std::size_t k = 0; k < replicas; ++k) {
+        row.before += value(k) / static_cast<double>(replicas);
+        row.after += value(replicas + k) / static_cast<double>(replicas);
+        changes.push_back(value(replicas + k) - value(k));
       }
+      row.moved = moved(row, changes);
       rows.push_back(row);
     }
   return rows;

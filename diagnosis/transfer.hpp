@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gyrostat/generators/scenario.hpp>
@@ -9,11 +10,17 @@ namespace gyrostat::gap {
 
 class Simulator;
 
+/// Where a metric went when the effects were added: nearer to what the recording shows, or away
+/// from it, by more than chance moves it (95 %).
+enum class Moved { closer, nowhere, away };
+std::string_view name_of(Moved moved);
+
 /// What a filter shows on the recording, and what the simulator promises of it before and after the
 /// effects were added, by a metric that needs no truth.
 struct Transfer {
   std::string filter, metric, unit;
   double real, before, after;
+  Moved moved = Moved::nowhere;
 };
 
 /// Runs the filters of both studies over the recording and over `replicas` of either scenario, with

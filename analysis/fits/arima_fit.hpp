@@ -24,6 +24,8 @@ struct ArimaFit {
   std::string message;
   int iterations = 0;
   std::size_t samples = 0;
+  /// Samples that each of the fitted values is the mean of: more than one where noise is coloured.
+  std::size_t cluster = 1;
   /// Maximum likelihood: the log-likelihood. Moments: the chi-square of the misfit.
   double objective = 0.0;
 };

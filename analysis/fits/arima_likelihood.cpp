@@ -268,6 +268,11 @@ ArimaFit fit_whole_arima_likelihood(std::span<const double> rate_dps) {
   return descend(rate_dps, full);
 }
 
+ArimaFit fit_walk_likelihood(std::span<const double> rate_dps) {
+  check(rate_dps);
+  return descend(rate_dps, simpler.front());
+}
+
 ArimaFit fit_arima_likelihood(std::span<const double> rate_dps) {
   const ArimaFit whole = fit_whole_arima_likelihood(rate_dps);
   if (is_identified(whole)) return whole;

@@ -33,6 +33,9 @@ ArimaFit fit_arima_likelihood(std::span<const double> rate_dps);
 /// The same with all four parameters, whether the signal tells them or not.
 ArimaFit fit_whole_arima_likelihood(std::span<const double> rate_dps);
 
+/// The same with phi and delta2 held at 0: a random walk in white noise.
+ArimaFit fit_walk_likelihood(std::span<const double> rate_dps);
+
 /// Log-likelihood of the diffuse model, for the parameters as given.
 double arima_log_likelihood(const Arima111<double>& arima, std::span<const double> rate_dps);
 

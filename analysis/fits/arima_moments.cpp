@@ -19,7 +19,6 @@
 namespace gyrostat {
 namespace {
 
-constexpr std::size_t fewest_for_moments = 512;
 constexpr double most_missing = 0.05;
 constexpr double tie_break = 0.1;
 constexpr double significance = 0.999;
@@ -190,9 +189,7 @@ Moments measure(std::span<const double> rate, double& unit) {
   return moments;
 }
 
-}  // namespace
-
-ArimaFit fit_arima_moments(std::span<const double> rate_dps) {
+ArimaFit fitted(std::span<const double> rate_dps, Family largest) {
   double unit = 1.0;
   Moments moments = measure(rate_dps, unit);
   ArimaFit fit;
@@ -211,8 +208,9 @@ ArimaFit fit_arima_moments(std::span<const double> rate_dps) {
   moments.weigh(walk);
   const double walk_misfit = run(Family::RandomWalk, walk);
   FreeMoments best = walk;
-  double misfit = run(Family::Full, best);
-  for (FreeMoments& start : starting_points(moments))
+  const bool may_be_full = largest == Family::Full;
+  double misfit = may_be_full ? run(Family::Full, best) : walk_misfit;
+  for (FreeMoments& start : may_be_full ? starting_points(moments) : std::vector<FreeMoments>())
     if (const double other = run(Family::Full, start); other < misfit) {
       misfit = other;
       best = start;
@@ -243,6 +241,16 @@ ArimaFit fit_arima_moments(std::span<const double> rate_dps) {
   fit.parameters = {model.phi, model.delta1_dps * unit, model.delta2_dps * unit,
                     model.measurement_noise_std_dps * unit};
   return fit;
+}
+
+}  // namespace
+
+ArimaFit fit_arima_moments(std::span<const double> rate_dps) {
+  return fitted(rate_dps, Family::Full);
+}
+
+ArimaFit fit_walk_moments(std::span<const double> rate_dps) {
+  return fitted(rate_dps, Family::RandomWalk);
 }
 
 }  // namespace gyrostat

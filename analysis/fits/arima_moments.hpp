@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include <gyrostat/analysis/fits/arima_fit.hpp>
 
 namespace gyrostat {
+
+inline constexpr std::size_t fewest_for_moments = 512;
 
 /// Robust fit of ARIMA(1,1,1) + white noise to `rate_dps` (evenly sampled, static) by matching the
 /// Allan variances at clusters 1, 2, 4, ... n/16: the generalised method of wavelet moments
@@ -40,5 +43,8 @@ namespace gyrostat {
 ///
 /// Thread safety: may run in any number of threads at once; it starts none.
 ArimaFit fit_arima_moments(std::span<const double> rate_dps);
+
+/// The same with phi and delta2 held at 0: a random walk in white noise.
+ArimaFit fit_walk_moments(std::span<const double> rate_dps);
 
 }  // namespace gyrostat

@@ -97,6 +97,7 @@ std::vector<double> CompassSearch::error_of(const std::vector<Effect>& effects) 
 }
 
 CompassSearch::Law CompassSearch::law_of(const std::vector<Effect>& effects) const {
+  simulator_.interrupt().check();
   const auto error = error_of(effects);
   double count = 0.0, sum = 0.0, square = 0.0, lagged = 0.0;
   for (int pass = 0; pass < 2; ++pass) {
@@ -285,8 +286,7 @@ double CompassSearch::robust_score(const std::vector<Effect>& set) const {
     scale = sum / n;
   }
   double score = -0.5 * n * std::log(scale);
-  for (const double s : squares)
-    score -= 0.5 * (freedom + 1.0) * std::log1p(s / (freedom * scale));
+  for (const double s : squares) score -= 0.5 * (freedom + 1.0) * std::log1p(s / (freedom * scale));
   for (const auto& effect : set) score -= cost(effect);
   return score;
 }

@@ -83,9 +83,11 @@ std::vector<double> SetBench::rate_error_beside(const Scenario& scenario) const 
 }
 
 std::shared_ptr<const SetFitter> SetBench::fitter_of(const Scenario& scenario) const {
+  simulator_.interrupt().check();
   return std::make_shared<SetFitter>(
       conditions_,
-      std::make_shared<const ReducedRate>(conditions_, rate_error_beside(scenario), masked_));
+      std::make_shared<const ReducedRate>(conditions_, rate_error_beside(scenario), masked_),
+      simulator_.interrupt());
 }
 
 /// So much for each parameter that is fitted, and the logarithm of the places looked at for lines.
@@ -106,8 +108,10 @@ double SetBench::cost(const Scenario& scenario) const {
 
 Standing SetBench::fitted(const Scenario& scenario, std::shared_ptr<const SetFitter> fitter,
                           int iterations, Jumping jumping) const {
-  Standing s{
-      .scenario = {}, .fitter = fitter, .fit = fitter->maximise(scenario, iterations, jumping)};
+  // Not one initialiser beside others: where it throws, GCC 12 -O3 destroys those before it twice.
+  Standing s;
+  s.fit = fitter->maximise(scenario, iterations, jumping);
+  s.fitter = std::move(fitter);
   s.scenario = s.fit.scenario;
   s.score = s.fit.log_likelihood - cost(s.scenario);
   for (const auto& effect : s.scenario.effects)

@@ -63,12 +63,16 @@ NoiseLaw law_of(const Scenario& scenario, double interval_s) {
   return law;
 }
 
-SetFitter::SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced)
-    : SetFitter(conditions, std::move(reduced), Eigen::MatrixXd()) {}
+SetFitter::SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
+                     Interrupt interrupt)
+    : SetFitter(conditions, std::move(reduced), interrupt, Eigen::MatrixXd()) {}
 
 SetFitter::SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
-                     const Eigen::MatrixXd& further)
-    : conditions_(conditions), reduced_(std::move(reduced)), further_(further) {
+                     Interrupt interrupt, const Eigen::MatrixXd& further)
+    : conditions_(conditions),
+      reduced_(std::move(reduced)),
+      interrupt_(interrupt),
+      further_(further) {
   for (Eigen::Index c = 0; c < further_.cols(); ++c) {
     auto column = further_.col(c);
     column.array() -= column.mean();
@@ -164,6 +168,7 @@ RateTerms SetFitter::terms_with(const Scenario& scenario, const Regressors& regr
 }
 
 RateTerms SetFitter::terms(const Scenario& scenario, Part part, Jumping jumping) const {
+  interrupt_.check();
   return terms_with(scenario, regressors_of(scenario), part, jumping);
 }
 

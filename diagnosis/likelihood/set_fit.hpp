@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 
+#include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/diagnosis/likelihood/rate_likelihood.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
@@ -30,10 +31,11 @@ NoiseLaw law_of(const Scenario& scenario, double interval_s);
 /// whose signature is not slow must have been taken out of the recording.
 class SetFitter {
  public:
-  SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced);
+  SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
+            Interrupt interrupt = {});
   /// One that has further regressors of unknown size (cluster x any) beside every set.
   SetFitter beside(const Eigen::MatrixXd& further) const {
-    return SetFitter(conditions_, reduced_, further);
+    return SetFitter(conditions_, reduced_, interrupt_, further);
   }
 
   const ReducedRate& reduced() const { return *reduced_; }
@@ -47,10 +49,11 @@ class SetFitter {
 
  private:
   SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
-            const Eigen::MatrixXd& further);
+            Interrupt interrupt, const Eigen::MatrixXd& further);
 
   const Conditions& conditions_;
   std::shared_ptr<const ReducedRate> reduced_;
+  Interrupt interrupt_;
   /// Columns of unit spread: the drift's regressors, and the signatures of the scenario's slow
   /// effects.
   struct Regressors {

@@ -1,9 +1,11 @@
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -67,14 +69,23 @@ class Search {
   Scenario subset_of(const Scenario& whole, const std::vector<std::string>& names);
 
  private:
-  void tell(const std::string& what, double share) const {
-    if (progress_) progress_(what, share);
+  /// `left` rounds are to come at least, as far as is known.
+  void tell(const std::string& what, std::size_t left) {
+    doing_ = what;
+    left_ = left;
+    tell_share(0.0);
   }
-  std::vector<Standing> each_added(const Standing& standing) const;
+  /// So much of a round is done.
+  void tell_share(double of_round) const {
+    const auto rounds = static_cast<double>(rounds_);
+    if (progress_) progress_(doing_, (rounds + of_round) / (rounds + static_cast<double>(left_)));
+  }
+  /// One round of the search.
+  std::vector<Standing> each_added(const Standing& standing);
   Standing searched(Standing standing);
   /// The best of the sets with two more effects, neither of which pays alone: where both are slow,
   /// one leaves to the walk what hides it. The standing itself where there is none better.
-  Standing two_further(const Standing& standing, std::vector<Standing> tried) const;
+  Standing two_further(const Standing& standing, std::vector<Standing> tried);
   double least_gain(const Standing& standing, const Standing& next) const;
   /// Every member against all that might stand in its place.
   Standing exchanged(Standing standing, FoundSet& found);
@@ -101,23 +112,32 @@ class Search {
   bool is_normal_ = true;  ///< rounded finely enough for tails
   bool has_outliers_ = false, has_warm_noise_ = false;
   std::vector<const CauseType*> candidates_;
+  std::size_t rounds_ = 0;  ///< in which every candidate was tried
+  std::size_t left_ = 1;
+  std::string doing_;
   std::vector<std::pair<std::string, double>> screening_, gains_;
 };
 
-std::vector<Standing> Search::each_added(const Standing& standing) const {
+std::vector<Standing> Search::each_added(const Standing& standing) {
   std::vector<Standing> all(candidates_.size());
   std::optional<Evidence> left;
   if (std::any_of(candidates_.begin(), candidates_.end(),
                   [](const auto* cause) { return cause->guesses == nullptr; }))
     left.emplace(bench_.evidence_of(standing));
+  std::atomic<std::size_t> tried{0};
+  const auto caller = std::this_thread::get_id();
   tbb::parallel_for(
       std::size_t{0}, candidates_.size(),
       [&](std::size_t k) {
         const auto& cause = *candidates_[k];
         if (!has(standing.scenario, cause.id) || may_repeat(standing.scenario, cause.id))
           all[k] = bench_.with(standing, cause, left ? &*left : nullptr);
+        const auto done = static_cast<double>(++tried);
+        if (std::this_thread::get_id() == caller)
+          tell_share(done / static_cast<double>(candidates_.size()));
       },
       tbb::simple_partitioner());
+  ++rounds_;
   return all;
 }
 
@@ -131,7 +151,7 @@ double Search::least_gain(const Standing& standing, const Standing& next) const 
   return share_of_band * most;
 }
 
-Standing Search::two_further(const Standing& standing, std::vector<Standing> tried) const {
+Standing Search::two_further(const Standing& standing, std::vector<Standing> tried) {
   constexpr double nearly_pays = 6.0;
   constexpr std::size_t most_tried = 3;
   std::erase_if(tried, [&](const Standing& t) {
@@ -165,8 +185,8 @@ Standing Search::searched(Standing standing) {
     if (next.score <= standing.score) break;
     gains_.emplace_back(next.scenario.effects.back().id(), next.score - standing.score);
     standing = std::move(next);
-    tell(fmt::format("adding {}", standing.scenario.effects.back().id()),
-         0.1 + 0.1 * static_cast<double>(step));
+    tell(fmt::format("beside {}", standing.scenario.effects.back().id()),
+         standing.scenario.effects.size() + 2);
     // What the newcomer made needless goes.
     for (bool dropped = true; dropped;) {
       dropped = false;
@@ -192,6 +212,7 @@ Standing Search::exchanged(Standing standing, FoundSet& found) {
     for (std::size_t k = 0; k < standing.scenario.effects.size(); ++k) {
       const Effect effect = standing.scenario.effects[k];
       if (bench_.is_marked(effect.id())) continue;
+      tell(fmt::format("rivals of {}", effect.id()), standing.scenario.effects.size() - k);
       const auto rest = bench_.without(standing, k);
       // The same effect from other parameters may stand there, too, but is no rival.
       const auto others = each_added(rest);
@@ -362,9 +383,9 @@ void Search::add_tails(FoundSet& found) const {
 
 FoundSet Search::run() {
   FoundSet found;
-  tell("reading values", 0.02);
+  tell("reading values", 3);
   const auto marks = marks_of(simulator_, recording_);
-  tell("fitting the baseline", 0.05);
+  tell("fitting the baseline", 3);
   found.baseline = bench_.beside_noise({}).scenario;
   const auto marked = read_off(marks, found);
   for (const auto& cause : cause_types())
@@ -385,10 +406,10 @@ FoundSet Search::run() {
       return band == Band::fast || band == Band::slow;
     });
 
+  tell("the first effect", 3);
   auto standing = searched_beside_tails(begun);
-  tell("trying rivals", 0.7);
   standing = exchanged(std::move(standing), found);
-  tell("looking for what has no name", 0.9);
+  tell("looking for what has no name", 1);
   found.gain = standing.score - begun.score;
   found.unexplained = unexplained_by(conditions_, *standing.fitter, standing.scenario);
   add_nameless_tails(found);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <mutex>
-#include <ostream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -60,12 +59,13 @@ Series recorded(const BlindCase& c, const Noise& noise) {
 
 std::vector<BlindLabel> write_recordings(const BlindCheck& check,
                                          const std::vector<BlindCase>& cases,
-                                         const fs::path& folder) {
+                                         const fs::path& folder, const Interrupt& interrupt) {
   fs::create_directories(folder / "recordings");
   const auto order = shuffled(cases.size(), check.seed);
   tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t number) {
     const auto path = recording_of(folder, number);
     const auto index = order[number];
+    interrupt.check();
     if (!fs::exists(path))
       write_series(path, recorded(cases[index], {check.seed, static_cast<std::uint32_t>(index)}));
   });
@@ -75,15 +75,15 @@ std::vector<BlindLabel> write_recordings(const BlindCheck& check,
   return labels;
 }
 
-void make_recordings(const BlindCheck& check, const fs::path& folder) {
+void make_recordings(const BlindCheck& check, const fs::path& folder, const Interrupt& interrupt) {
   const auto cases = drawn_cases(check);
   fs::create_directories(folder / "diagnoses");
   claim(folder, check);
-  seal_labels(folder, write_recordings(check, cases, folder));
+  seal_labels(folder, write_recordings(check, cases, folder, interrupt));
 }
 
-bool diagnose_recordings(const fs::path& folder, const std::string& program, std::ostream& log,
-                         const std::atomic<bool>& stop) {
+bool diagnose_recordings(const fs::path& folder, const std::string& program,
+                         const BlindWatcher& watcher, const std::atomic<bool>& stop) {
   struct Job {
     std::size_t number;
     std::vector<std::string> without;
@@ -110,16 +110,17 @@ bool diagnose_recordings(const fs::path& folder, const std::string& program, std
           if (!job.without.empty())
             arguments.insert(arguments.end(),
                              {"--without", fmt::format("{}", fmt::join(job.without, ","))});
-          const int status = run_process(arguments, out.string() + ".log");
-          if (status != 0) {
+          const int status = run_process(arguments, out.string() + ".log", stop);
+          if (status != 0 && !stop) {
             const std::scoped_lock lock(mutex);
-            log << fmt::format("recording {:05}: the diagnosis ended with status {}; see {}.log\n",
-                               job.number, status, out.string());
+            watcher.say(
+                fmt::format("recording {:05}: the diagnosis ended with status {}; see {}.log",
+                            job.number, status, out.string()));
           }
         }
+        if (stop) return;
         const std::scoped_lock lock(mutex);
-        if (++done % 50 == 0 || done == jobs.size())
-          log << fmt::format("{} of {} diagnoses\n", done, jobs.size()) << std::flush;
+        watcher.progress(++done, jobs.size());
       },
       tbb::simple_partitioner());
   return !stop;

@@ -3,11 +3,12 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
-#include <iosfwd>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
@@ -66,12 +67,20 @@ std::vector<BlindCase> drawn_cases(const BlindCheck& check);
 
 /// Writes the recordings to `folder`/recordings under numbers in an order that tells nothing, with
 /// the channels that a recorder has, and their labels to `folder`/sealed_labels.json. What is there
-/// already stays; InputError where it is another check's.
-void make_recordings(const BlindCheck& check, const std::filesystem::path& folder);
+/// already stays; InputError where it is another check's. Throws Interrupted once it is to stop.
+void make_recordings(const BlindCheck& check, const std::filesystem::path& folder,
+                     const Interrupt& interrupt = {});
+
+/// What a blind check tells while it runs.
+struct BlindWatcher {
+  std::function<void(std::size_t done, std::size_t of)> progress;
+  std::function<void(const std::string& line)> say;
+};
 
 /// Runs `program` diagnose on every recording of `folder` in a process of its own, which is given
-/// the recording alone; finished ones are not run again. False when it was stopped.
+/// the recording alone; finished ones are not run again. False when it was stopped. `watcher` is
+/// called from one thread at a time.
 bool diagnose_recordings(const std::filesystem::path& folder, const std::string& program,
-                         std::ostream& log, const std::atomic<bool>& stop);
+                         const BlindWatcher& watcher, const std::atomic<bool>& stop);
 
 }  // namespace gyrostat::gap

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/experiments/study/json.hpp>
 
 namespace gyrostat::gap {
@@ -34,7 +35,8 @@ BlindLabel label_of(const BlindCase& c, std::size_t number);
 /// Writes the recordings of a check, one a case, under `folder`, and returns their labels.
 std::vector<BlindLabel> write_recordings(const BlindCheck& check,
                                          const std::vector<BlindCase>& cases,
-                                         const std::filesystem::path& folder);
+                                         const std::filesystem::path& folder,
+                                         const Interrupt& interrupt = {});
 
 Json labels_json(const std::vector<BlindLabel>& labels);
 std::vector<BlindLabel> labels_in(const Json& json);

@@ -6,6 +6,12 @@
 
 namespace gyrostat::cli {
 
+std::string progress_bar(double share) {
+  constexpr std::size_t width = 30;
+  const auto filled = static_cast<std::size_t>(share * static_cast<double>(width));
+  return fmt::format("[{:#<{}}{:.<{}}]", "", filled, "", width - filled);
+}
+
 Progress::Progress(std::ostream& out, bool is_terminal, std::string name, std::size_t total)
     : out_(out),
       is_terminal_(is_terminal),
@@ -52,9 +58,8 @@ void Progress::draw() {
         fmt::format("{}/{} trials, {:.0f} trials/s, {:.0f} s left", finished, total_, rate, left);
   }
   if (is_terminal_) {
-    const std::size_t filled = 30 * finished / total_;
-    out_ << fmt::format("\r{} [{:#<{}}{:.<{}}] {}\x1b[K", name_, "", filled, "", 30 - filled, line)
-         << std::flush;
+    const double share = static_cast<double>(finished) / static_cast<double>(total_);
+    out_ << fmt::format("\r{} {} {}\x1b[K", name_, progress_bar(share), line) << std::flush;
     return;
   }
   const std::size_t tenths = 10 * finished / total_;

@@ -10,6 +10,9 @@
 
 namespace gyrostat::cli {
 
+/// As "[####......]".
+std::string progress_bar(double share);
+
 /// Tells how far a cell is: a bar on a terminal, a plain line every tenth elsewhere. Draws from its
 /// own thread, so that trials never wait for it.
 class Progress {

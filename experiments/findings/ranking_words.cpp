@@ -58,12 +58,21 @@ class Speaker {
       return (p.better == a && p.worse == b) || (p.better == b && p.worse == a);
     });
   }
+  /// In the metric's unit, of signals of a dps or so: what is left of it is rounding.
+  static constexpr double exact = 1e-13;
+
   void say(std::string sentence) { sentences_.push_back(std::move(sentence)); }
 
   void winner() {
     const auto best = contenders_.front();
     const auto& m = ranking_.methods[best];
     if (std::isnan(m.mean)) return say("no method has a value");
+    if (std::all_of(contenders_.begin(), contenders_.end(), [&](std::size_t other) {
+          return std::abs(ranking_.methods[other].mean) <= exact;
+        }))
+      return say(
+          "every filter is exact to rounding, so none is better: this scenario has nothing to "
+          "estimate. Does its signal have measurement noise (R)?");
     std::vector<std::string> near;
     for (const auto other : contenders_)
       if (other != best && !pair(best, other).difference.separable) near.push_back(name(other));
@@ -83,7 +92,7 @@ class Speaker {
     if (std::isnan(d.mean) || std::isnan(d.low)) return;
     constexpr double rounding = 1e-9;
     const auto gap = with_interval(d.mean, d.low, d.high) + " " + ranking_.unit;
-    if (std::abs(d.mean) <= rounding * std::abs(ranking_.methods[p.better].mean))
+    if (std::abs(d.mean) <= std::max(exact, rounding * std::abs(ranking_.methods[p.better].mean)))
       return say(fmt::format("{} and {} are equal to rounding", name(p.better), name(p.worse)));
     if (d.separable && d.mean > 0.0)
       return say(fmt::format("{} beats {} in {} by {}", name(p.better), name(p.worse),

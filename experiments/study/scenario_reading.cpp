@@ -70,6 +70,12 @@ Scenario read_scenario(JsonObject object, const std::string& folder, FittedRecor
     });
   };
   nested("random_error", scenario.random_error);
+  if (recording_read && scenario.random_error.measurement_noise_std_dps == 0.0)
+    throw InputError(
+        object.place(),
+        "R is 0, as where the fit to a recording cannot tell R, and then every filter is "
+        "exact; allowed: \"random_error\": {\"measurement_noise_std_dps\": ...} above 0 "
+        "beside \"from_recording\"");
   nested("thermal_drift", scenario.thermal_drift);
   object.with_child("temperature", [&](JsonObject& temperature) {
     if (temperature.text("profile", "") != "recorded")

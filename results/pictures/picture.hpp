@@ -19,7 +19,7 @@ struct Mark {
   enum class Kind {
     line,    ///< through the points, with the band y_low to y_high where there is one
     points,  ///< with whiskers x_low to x_high and y_low to y_high where there are
-    bars,    ///< from x = 0 to each x, in row y, with whiskers x_low to x_high
+    bars,    ///< from x = 0, or each `from`, to x, in row y, with whiskers x_low to x_high
     boxes,   ///< x_low to x_high with the median x, in row y, with whiskers from to to
     cells,   ///< of a map, each in its own colour from `fills`
   };

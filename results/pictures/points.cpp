@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -41,7 +42,8 @@ std::string whiskers(const Point& p, const std::string& colour) {
 }
 
 std::string bar(const Point& p) {
-  const double half = 0.36 * p.f.row, zero = p.f.x.at(0.0);
+  const double begin = value(p.mark.from, p.i);
+  const double half = 0.36 * p.f.row, zero = p.f.x.at(std::isfinite(begin) ? begin : 0.0);
   std::string out = rectangle(std::min(p.x, zero), p.y - half, std::abs(p.x - zero), 2 * half,
                               "fill:" + p.colour + ";fill-opacity:.75");
   if (p.mark.labelled) out += text_at(std::max(p.x, zero) + 5.0, p.y + 4.0, p.label(), "start");

@@ -5,6 +5,7 @@
 #include <gyrostat/diagnosis/diagnosis.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 
@@ -229,6 +230,35 @@ TEST(PracticeRecordings, NoneIsNamed) { expect_named("none"); }
 TEST(PracticeRecordings, GaussMarkovIsNamed) { expect_named("gauss_markov"); }
 TEST(PracticeRecordings, ThermalHysteresisIsNamed) { expect_named("thermal_hysteresis"); }
 TEST(PracticeRecordings, ScaleFactorIsNamed) { expect_named("scale_factor"); }
+TEST(Diagnosis, ToldSharesOnlyGrowAndEndAtOne) {
+  Scenario s = still();
+  s.sampling.duration_s = 300.0;
+  s.effects = {effects::Outliers{0.01, 0.5}};
+  std::vector<double> shares;
+  diagnose(recorded(s, 41, false), {}, [&](const auto& now) { shares.push_back(now.share); });
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.back(), 1.0);
+  EXPECT_GT(shares.size(), 10U);
+}
+
+// Whatever it is at, and with what is running on other threads.
+TEST(Diagnosis, EndsWhereverItIsInterrupted) {
+  Scenario s = still();
+  s.sampling.duration_s = 120.0;
+  s.effects = {effects::Outliers{0.01, 0.5}, effects::Vibration{0.1, 4.0, 0.5}};
+  const Series series = recorded(s, 42, false);
+  std::size_t all = 0;
+  diagnose(series, {}, [&](const auto&) { ++all; });
+  for (std::size_t at = 0; at + 1 < all; at += std::max<std::size_t>(1, all / 12)) {
+    std::atomic<bool> stop{false};
+    std::size_t told = 0;
+    const auto stopping = [&](const auto&) {
+      EXPECT_FALSE(stop) << at;
+      stop = told++ == at;
+    };
+    EXPECT_THROW(diagnose(series, {}, stopping, Interrupt(stop)), Interrupted) << at;
+  }
+}
 
 }  // namespace
 }  // namespace gyrostat::gap::diagnosis_test

@@ -1,11 +1,16 @@
 #include <gyrostat/experiments/blind/blind_check.hpp>
 
+#include <chrono>
 #include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
 
 #include <gyrostat/experiments/blind/blind_export.hpp>
 #include <gyrostat/experiments/blind/blind_score.hpp>
 #include <gyrostat/experiments/blind/seal.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/progress.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/pages/page.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
@@ -30,6 +35,32 @@ struct BlindCheckArguments {
   std::uint64_t seed = 0;
   FormatOption format;
 };
+
+/// False where Ctrl-C ended it.
+bool check_blindly(const gap::BlindCheck& check, const std::filesystem::path& folder,
+                   Console& console) {
+  using Clock = std::chrono::steady_clock;
+  try {
+    console.log << "blind-check: making recordings\n" << std::flush;
+    gap::make_recordings(check, folder, Interrupt(console.stop));
+  } catch (const Interrupted&) {
+    return false;
+  }
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").string();
+  std::optional<Progress> bar;
+  const auto start = Clock::now();
+  const gap::BlindWatcher watcher{
+      .progress =
+          [&](std::size_t done, std::size_t of) {
+            if (!bar) bar.emplace(console.log, console.log_is_terminal, "blind-check", of);
+            const std::chrono::duration<double> elapsed = Clock::now() - start;
+            const double left_s =
+                elapsed.count() * static_cast<double>(of - done) / static_cast<double>(done);
+            bar->set(done, fmt::format("{} of {} diagnoses, {:.0f} s left", done, of, left_s));
+          },
+      .say = [&](const std::string& line) { console.log << line << '\n'; }};
+  return gap::diagnose_recordings(folder, program, watcher, console.stop);
+}
 
 /// The check of the file, as the options change it.
 gap::BlindCheck check_of(const BlindCheckArguments& arguments) {
@@ -72,9 +103,10 @@ int run(const BlindCheckArguments& arguments, Console& console) {
       arguments.folder.empty()
           ? std::filesystem::path("runs") / std::filesystem::path(arguments.file).stem()
           : std::filesystem::path(arguments.folder);
-  gap::make_recordings(check, folder);
-  const auto program = std::filesystem::read_symlink("/proc/self/exe").string();
-  const bool whole = gap::diagnose_recordings(folder, program, console.log, console.stop);
+  const bool whole = check_blindly(check, folder, console);
+  if (!whole)
+    console.log << "stopped early: the tables are of the diagnoses that were done, and the same "
+                   "command goes on from them\n";
   print(gap::score_recordings(check.title, folder), arguments, console);
   return whole ? complete : stopped;
 }

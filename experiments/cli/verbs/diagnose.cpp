@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -7,8 +8,10 @@
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
 #include <gyrostat/diagnosis/gap/conditions.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/phase_progress.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/findings/diagnosis_page.hpp>
+#include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
@@ -16,9 +19,12 @@
 namespace gyrostat::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr const char* diagnose_examples = R"(Examples:
   gyrostat diagnose REC.csv
   gyrostat diagnose REC.csv --html GAP.html --json GAP.json
+  gyrostat diagnose REC.csv --out-figures FIGURES    every picture as SVG
   gyrostat diagnose REC.csv --scenario STUDY.json    a study whose simulator has the effect
   gyrostat diagnose OTHER.csv --claim STUDY.json     does it close the gap of another recording?)";
 
@@ -26,10 +32,30 @@ struct DiagnoseArguments {
   RecordingOption recording;
   SpanOption span;
   FormatOption format;
-  std::string json_out, html_out, scenario_out, claim;
+  std::string json_out, html_out, scenario_out, figures_out, claim;
   bool timing = false;
   gap::DiagnosisOptions options;
 };
+
+/// Nothing where Ctrl-C ended it.
+std::optional<gap::Diagnosis> diagnosed(const DiagnoseArguments& arguments, Console& console) {
+  const auto& file = arguments.recording.file;
+  const Interrupt interrupt(console.stop);
+  const auto read = arguments.recording.read_all(console.log);
+  PhaseProgress progress(console.log, console.log_is_terminal, "diagnose");
+  try {
+    interrupt.check();
+    const Series series = cut(gap::on_grid(read.series, file, read.first_row),
+                              arguments.span.from_s, arguments.span.to_s, file + ": --from, --to");
+    return about(file, [&] {
+      return gap::diagnose(
+          series, arguments.options,
+          [&](const auto& now) { progress.set(now.phase, now.detail, now.share); }, interrupt);
+    });
+  } catch (const Interrupted&) {
+    return std::nullopt;
+  }
+}
 
 int run(DiagnoseArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
@@ -43,27 +69,30 @@ int run(DiagnoseArguments& arguments, Console& console) {
   }
   for (const auto& out : {arguments.json_out, arguments.html_out, arguments.scenario_out})
     if (!out.empty()) require_writable(out, file);
-  const auto read = arguments.recording.read_all(console.log);
-  const Series series = cut(gap::on_grid(read.series, file, read.first_row), arguments.span.from_s,
-                            arguments.span.to_s, file + ": --from, --to");
-  const auto diagnosis = about(file, [&] {
-    return gap::diagnose(series, arguments.options, [&](const std::string& what, double share) {
-      if (console.log_is_terminal)
-        console.log << fmt::format("\r\033[K{:3.0f} %  {}", 100.0 * share, what) << std::flush;
-    });
-  });
-  if (console.log_is_terminal) console.log << "\r\033[K";
-  const auto name = std::filesystem::path(file).filename().string();
+  if (!arguments.figures_out.empty()) make_result_folder(arguments.figures_out);
+  const auto diagnosis = diagnosed(arguments, console);
+  if (!diagnosis) {
+    std::error_code not_empty;
+    if (!arguments.figures_out.empty()) fs::remove(arguments.figures_out, not_empty);
+    console.log << "stopped early: nothing was written\n";
+    return stopped;
+  }
+  auto name = fs::path(file).filename().string();
+  if (!arguments.recording.axis.empty()) name += ", axis " + arguments.recording.axis;
   if (!arguments.json_out.empty())
-    write_atomically(arguments.json_out, gap::to_json(diagnosis).dump(1) + '\n');
+    write_atomically(arguments.json_out, gap::to_json(*diagnosis).dump(1) + '\n');
   if (!arguments.html_out.empty())
-    write_atomically(arguments.html_out, gap::diagnosis_page(diagnosis, name));
+    write_atomically(arguments.html_out, gap::diagnosis_page(*diagnosis, name));
   if (!arguments.scenario_out.empty())
-    write_atomically(arguments.scenario_out, gap::scenario_json(diagnosis).dump(2) + '\n');
-  if (format == Format::text) console.out << gap::in_words(diagnosis, name) << '\n';
-  console.out << render(gap::diagnosis_tables(diagnosis, name), format);
+    write_atomically(arguments.scenario_out, gap::scenario_json(*diagnosis, name).dump(2) + '\n');
+  if (!arguments.figures_out.empty())
+    for (const auto& picture : gap::diagnosis_pictures(*diagnosis))
+      write_atomically(fs::path(arguments.figures_out) / (picture.id + ".svg"),
+                       picture_file(picture));
+  if (format == Format::text) console.out << gap::in_words(*diagnosis, name) << '\n';
+  console.out << render(gap::diagnosis_tables(*diagnosis, name), format);
   if (arguments.timing)
-    for (const auto& [part, seconds] : diagnosis.seconds)
+    for (const auto& [part, seconds] : diagnosis->seconds)
       console.log << fmt::format("{:<16} {:.2f} s\n", part, seconds);
   return complete;
 }
@@ -82,6 +111,8 @@ void add_diagnose(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--html", arguments->html_out, "write the diagnosis as a page with pictures");
   verb->add_option("--scenario", arguments->scenario_out,
                    "write a study whose scenario has the effects found");
+  verb->add_option("--out-figures", arguments->figures_out,
+                   "folder to write every picture of the page to, as SVG");
   verb->add_flag("--timing", arguments->timing, "say where the time went");
   arguments->format.add_to(verb);
   verb->add_option("--without", arguments->options.without,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -54,8 +55,8 @@ Intervals normal_intervals(const P& fitted, const P& errors) {
   Intervals intervals;
   for (const auto& field : P::fields()) {
     const double error = errors.*(field.member);
-    intervals.push_back(
-        {fitted.*(field.member) - reach * error, fitted.*(field.member) + reach * error});
+    intervals.push_back({std::max(field.range.from, fitted.*(field.member) - reach * error),
+                         std::min(field.range.to, fitted.*(field.member) + reach * error)});
   }
   return intervals;
 }
@@ -84,7 +85,10 @@ int run(const FitArguments& arguments, Console& console) {
     const bool by_likelihood = methods[m] == FitMethod::likelihood;
     add_rows(table, arguments.methods[m], fit.random_error.parameters,
              fit.random_error.standard_errors,
-             by_likelihood ? likelihood_intervals(series, fit) : Intervals{});
+             fit.random_error.cluster > 1
+                 ? normal_intervals(fit.random_error.parameters, fit.random_error.standard_errors)
+             : by_likelihood ? likelihood_intervals(series, fit)
+                             : Intervals{});
     table.notes.push_back(arguments.methods[m] + ": " + fit.random_error.message);
     converged = converged && fit.random_error.converged;
     if (!fit.thermal || m > 0) continue;
@@ -95,9 +99,8 @@ int run(const FitArguments& arguments, Console& console) {
                                       fit.thermal->temperature_span_C));
   }
   table.notes.push_back(
-      "from, to: 95 % interval, by profile likelihood of all four parameters or, of the drift, by "
-      "its "
-      "standard error");
+      "from, to: 95 % interval, by profile likelihood of all four parameters or, of the drift and "
+      "beside coloured noise, by the standard error");
   console.out << render(std::span(&table, 1), format);
   return converged ? complete : error;
 }

@@ -529,6 +529,11 @@ TEST(BadInput, ARecordingThatAStudyNeedsIsNamed) {
   folder.write("study.json", study.dump());
   expect_refused(folder, {"validate", "study.json"},
                  {"cells[0].scenario.from_recording", "100 s", "9.99 s"});
+  study["cells"][0]["scenario"]["from_recording"] = {{"file", "rec.csv"}};
+  study["cells"][0]["scenario"]["random_error"]["measurement_noise_std_dps"] = 0;
+  folder.write("study.json", study.dump());
+  expect_refused(folder, {"validate", "study.json"},
+                 {"cells[0].scenario", "cannot tell R", "measurement_noise_std_dps", "above 0"});
 }
 
 /// `config` as the file that `apply --config` reads.

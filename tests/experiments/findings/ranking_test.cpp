@@ -18,6 +18,7 @@ namespace {
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::size_t metric_count = metric_types().size();
 const std::size_t columns = metric_count + Outcome::beside_metrics;
@@ -113,6 +114,16 @@ TEST(Ranking, WhatIsEqualIsSaidToBeEqual) {
   const auto ranking = rank_cell(cell_of({"kf", "stf"}), source_of({{1, 1}, {2, 2}, {3, 3}}));
   EXPECT_THAT(ranking.sentences, Contains(HasSubstr("equal to rounding")));
   EXPECT_THAT(ranking.not_separable, ElementsAre(ElementsAre(0, 1)));
+}
+
+TEST(Ranking, RoundingErrorsHaveNoWinner) {
+  const auto ranking = rank_cell(
+      cell_of({"kf", "stf"}), source_of({{1e-17, 2e-17}, {1.1e-17, 2.1e-17}, {0.9e-17, 2.2e-17}}));
+  EXPECT_THAT(ranking.sentences, Contains(HasSubstr("every filter is exact to rounding")));
+  for (const auto& sentence : ranking.sentences) {
+    EXPECT_THAT(sentence, Not(HasSubstr("beats")));
+    EXPECT_THAT(sentence, Not(HasSubstr("smallest")));
+  }
 }
 
 TEST(Ranking, IsAskedOfErrorsAlone) {

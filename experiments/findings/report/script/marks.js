@@ -64,13 +64,14 @@ const drawPoint = (c, picture, mark, i, at, px, labels) => {
   }
   if (mark.kind === 'bars') {
     c.globalAlpha = 0.75;
-    c.fillRect(Math.min(x, at.x(0)), y - 0.36 * row, Math.abs(x - at.x(0)), 0.72 * row);
+    const zero = at.x(mark.from?.[i] ?? 0);
+    c.fillRect(Math.min(x, zero), y - 0.36 * row, Math.abs(x - zero), 0.72 * row);
     c.globalAlpha = 1;
     c.strokeStyle = colour('ink');
     if (mark.labelled && mark.labels?.[i]) {
       c.fillStyle = colour('ink');
       c.textAlign = 'left';
-      c.fillText(mark.labels[i], Math.max(x, at.x(0)) + 5 * px, y + 4 * px);
+      c.fillText(mark.labels[i], Math.max(x, zero) + 5 * px, y + 4 * px);
     }
   }
   drawWhiskers(c, picture, mark, i, at, px);

@@ -1,0 +1,123 @@
+#include <gyrostat/diagnosis/answer.hpp>
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <gyrostat/diagnosis/diagnosis.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+/// "a, b and c".
+std::string listed(const std::vector<std::string>& words) {
+  if (words.size() < 2) return words.empty() ? "" : words.front();
+  return fmt::format("{} and {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
+}
+
+/// "quantization (values lie on a grid) and ...".
+std::string effects_in_words(const Diagnosis& d) {
+  std::vector<std::string> words;
+  for (const auto& found : d.effects)
+    words.push_back(
+        fmt::format("{} ({})", found.effect, effect_types().named(found.effect, "effects").title));
+  return listed(words);
+}
+
+std::string claimed_effects(const Diagnosis& d) {
+  std::vector<std::string> effects;
+  for (const auto& verdict : d.verdict_set) effects.push_back(verdict.text());
+  return fmt::format("{}", fmt::join(effects, ", then "));
+}
+
+/// What might stand in the place of an effect of the set.
+std::string rivals_in_words(const Diagnosis& d) {
+  std::vector<std::string> others;
+  const auto is_found = [&](const Verdict& verdict) {
+    return std::any_of(d.effects.begin(), d.effects.end(),
+                       [&](const auto& e) { return verdict.names(e.effect); });
+  };
+  for (const auto& verdict : d.verdict_set)
+    if (verdict != d.verdict && !is_found(verdict)) others.push_back(verdict.text());
+  return fmt::format("{}", fmt::join(others, ", "));
+}
+
+std::string closeness(const Diagnosis& d) {
+  if (d.closed < 0.005) return "no closer to the part of it that was held back";
+  return fmt::format(
+      "{:.0f} % closer to the part of it that was held back (95 %: {:.0f} to {:.0f})",
+      100.0 * d.closed, 100.0 * d.closed_low, 100.0 * d.closed_high);
+}
+
+}  // namespace
+
+std::string parameters_in_words(const Effect& effect) {
+  std::string words;
+  for (std::size_t i = 0; i < effect.fields().size(); ++i) {
+    const auto& field = effect.fields()[i];
+    words += fmt::format("{}{} = {:.4g}{}{}", words.empty() ? "" : ", ", field.name,
+                         effect.value(i), field.unit == "1" || field.unit.empty() ? "" : " ",
+                         field.unit == "1" ? "" : field.unit);
+  }
+  return words;
+}
+
+std::string answer(const Diagnosis& d) {
+  if (d.verdict.is_none()) return "The simulator already makes recordings like this one.";
+  if (d.claimed)
+    return fmt::format("With what is claimed, {}, the simulator comes {}.", claimed_effects(d),
+                       closeness(d));
+  const char* with = d.effects.size() > 1 ? "these" : "that";
+  if (d.verdict.is_unknown()) {
+    const std::string unknown =
+        "The recording has something that the simulator lacks and that no effect of the catalogue "
+        "explains";
+    if (d.effects.empty()) return unknown + '.';
+    return fmt::format("{}. Nearest: {}; given {} the simulator comes {}.", unknown,
+                       effects_in_words(d), with, closeness(d));
+  }
+  return fmt::format(
+      "To make recordings like this one, the simulator lacks {}. Given {}, it comes {}.",
+      effects_in_words(d), with, closeness(d));
+}
+
+std::string transfer_in_words(const Diagnosis& d) {
+  if (d.enrichments.size() < 2 || d.transfer.empty()) return "";
+  const auto count = [&](Moved moved) {
+    return std::count_if(d.transfer.begin(), d.transfer.end(),
+                         [&](const auto& t) { return t.moved == moved; });
+  };
+  return fmt::format(
+      "Of {} numbers that the filters show, {} come nearer to the recording, {} move away "
+      "and {} stay as they were.",
+      d.transfer.size(), count(Moved::closer), count(Moved::away), count(Moved::nowhere));
+}
+
+std::string next_in_words(const Diagnosis& d) {
+  if (d.next.what.empty()) return "";
+  if (d.next.expected_power == 0.0) return fmt::format("Record next: {}.", d.next.what);
+  return fmt::format("To tell {} from {}: {} (right in {:.0f} % of simulated recordings).",
+                     d.next.first, d.next.second, d.next.what, 100.0 * d.next.expected_power);
+}
+
+std::string evidence_in_words(const Diagnosis& d) {
+  if (d.verdict.is_none())
+    return fmt::format("No gap: p = {:.2g} under the simulator as it stands.", d.p_before);
+  std::string text = fmt::format(
+      "p = {:.2g} under the simulator as it stands, {:.2g} with the effects. Gap on the held-out "
+      "part: from {:.3g} to {:.3g} spreads of a reading.",
+      d.p_before, d.p_after, d.gap_before, d.gap_after);
+  for (std::size_t k = 0; k < d.effects.size(); ++k)
+    text += fmt::format("{}{} {:.2f}", k == 0 ? " Probability of being there: " : ", ",
+                        d.effects[k].effect, d.effects[k].inclusion);
+  if (!d.effects.empty())
+    text +=
+        fmt::format(". The set recovers {:.0f} % of what a true one would.", 100.0 * d.recovered);
+  if (const auto others = rivals_in_words(d); !others.empty())
+    text += fmt::format(" This recording cannot rule out: {}.", others);
+  return text;
+}
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+namespace gyrostat {
+class Effect;
+}
+
+namespace gyrostat::gap {
+
+struct Diagnosis;
+
+/// What came out, in one sentence that needs no statistics.
+std::string answer(const Diagnosis& diagnosis);
+
+/// How many metrics of the filters came nearer to the recording, and how many moved away from it;
+/// empty where nothing was added.
+std::string transfer_in_words(const Diagnosis& diagnosis);
+
+/// What to record next, and how surely that decides; empty where nothing is open.
+std::string next_in_words(const Diagnosis& diagnosis);
+
+/// The numbers that the answer rests on.
+std::string evidence_in_words(const Diagnosis& diagnosis);
+
+/// "amplitude_dps = 0.25 dps, ..."
+std::string parameters_in_words(const Effect& effect);
+
+}  // namespace gyrostat::gap

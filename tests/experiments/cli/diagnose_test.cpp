@@ -1,0 +1,138 @@
+// gyrostat diagnose and blind-check as a user meets them: how they go on, and how they are ended.
+
+#include <chrono>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <gyrostat/tests/program.hpp>
+
+namespace gyrostat {
+namespace {
+
+using Json = nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using Clock = std::chrono::steady_clock;
+
+/// A recording with vibration on a grid.
+void record(const TestFolder& folder, double duration_s) {
+  folder.write("one.json", fmt::format(R"({{"seed": 5, "cells": [{{"name": "one", "trials": 1,
+      "scenario": {{"duration_s": {}, "rate_hz": 50, "temperature": {{"profile": "quiet_room"}},
+        "random_error": {{"phi": 0, "delta1_dps": 1e-4, "delta2_dps": 0}},
+        "effects": [{{"effect": "vibration", "std_dps": 0.1, "centre_hz": 15, "bandwidth_hz": 1}},
+                    {{"effect": "quantization", "lsb_dps": 0.02}}]}},
+      "filters": ["none"]}}]}})",
+                                       duration_s));
+  ASSERT_EQ(run_program(folder, {"simulate", "one.json", "--out", "all.csv"}).exit_code, 0);
+  std::istringstream all(folder.read("all.csv"));
+  std::string rec, line;
+  while (std::getline(all, line))
+    rec += line.substr(0, line.find(',', line.find(',') + 1)) + '\n';  // t_s, gyro_dps
+  folder.write("rec.csv", rec);
+}
+
+// The aim is a second; a machine that is busy with other tests is given some more.
+constexpr auto a_moment = std::chrono::seconds(5);
+
+void expect_ended_by_interrupt(Program& program, const TestFolder& folder,
+                               const std::map<std::string, std::string>& before) {
+  const auto asked = Clock::now();
+  program.send(SIGINT);
+  const auto ended = program.wait();
+  EXPECT_LT(Clock::now() - asked, a_moment);
+  EXPECT_EQ(ended.exit_code, 4) << ended.err;
+  EXPECT_THAT(ended.out, IsEmpty());
+  EXPECT_THAT(ended.err, HasSubstr("stopped early: nothing was written"));
+  EXPECT_EQ(folder.contents(), before);
+}
+
+TEST(Diagnose, CtrlCEndsItInAMomentAndLeavesNothing) {
+  const TestFolder folder;
+  record(folder, 3600);
+  const auto before = folder.contents();
+  for (const int after_ms : {0, 300, 1500}) {
+    Program program(folder.path(), {"diagnose", "rec.csv", "--json", "out.json", "--html",
+                                    "out.html", "--scenario", "s.json", "--out-figures", "f"});
+    while (program.err_so_far().find("diagnose: looking for effects") == std::string::npos)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
+    SCOPED_TRACE(after_ms);
+    expect_ended_by_interrupt(program, folder, before);
+  }
+}
+
+TEST(Diagnose, TellsOneLineAPhaseWhereNobodyWatchesAndTheAnswerFirst) {
+  const TestFolder folder;
+  record(folder, 200);
+  const auto ended =
+      run_program(folder, {"diagnose", "rec.csv", "--html", "page.html", "--scenario", "s.json",
+                           "--json", "out.json", "--out-figures", "figures"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.err, Not(HasSubstr("\r")));
+  std::istringstream lines(ended.err);
+  std::set<std::string> phases;
+  double last = 0.0;
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch parts;
+    ASSERT_TRUE(std::regex_match(line, parts, std::regex(R"(diagnose: ([a-z ]+) \((\d+) %.*\))")))
+        << line;
+    EXPECT_TRUE(phases.insert(parts[1]).second) << line;
+    EXPECT_GE(std::stod(parts[2]), last) << line;
+    last = std::stod(parts[2]);
+  }
+  EXPECT_GE(phases.size(), 3);
+
+  EXPECT_TRUE(
+      ended.out.starts_with("rec.csv: To make recordings like this one, the simulator "
+                            "lacks "))
+      << ended.out;
+  EXPECT_THAT(ended.out.substr(0, ended.out.find('\n')), Not(HasSubstr("spreads")));
+  EXPECT_THAT(folder.read("page.html"), HasSubstr("<h1>rec.csv</h1>"));
+  EXPECT_THAT(folder.read("page.html"), Not(HasSubstr(folder.path().string())));
+  const auto figures = folder.contents();
+  for (const char* name : {"steps", "recording", "residual", "allan", "spectrum"})
+    EXPECT_THAT(figures.at(fmt::format("figures/{}.svg", name)), HasSubstr("</svg>")) << name;
+
+  const auto found = Json::parse(folder.read("out.json"));
+  for (const auto& row : found.at("transfer"))
+    EXPECT_THAT((std::set<std::string>{"closer", "nowhere", "away"}),
+                testing::Contains(row.at("moved").get<std::string>()));
+  EXPECT_THAT(Json::parse(folder.read("s.json")).at("title").get<std::string>(),
+              HasSubstr(fmt::format("rec.csv: a simulator that comes {:.0f} % closer",
+                                    100.0 * found.at("gap").at("closed").get<double>())));
+}
+
+TEST(BlindCheck, CtrlCEndsItInAMomentAndTheSameGoesOn) {
+  const TestFolder folder;
+  folder.write("check.json", R"({"seed": 3, "recordings": 1, "none_recordings": 2,
+      "durations_s": [3600], "left_out": 0, "scenarios": {"still": {"rate_hz": 50}},
+      "cases": [{"effect": "vibration", "scenario": "still", "strong": {"std_dps": 0.1}}]})");
+  Program program(folder.path(), {"blind-check", "check.json", "--out", "out"});
+  const auto is_diagnosing = [&] {
+    for (const auto& [name, contents] : folder.contents())
+      if (name.ends_with(".json.log") && contents.find("looking for effects") != std::string::npos)
+        return true;
+    return false;
+  };
+  while (!is_diagnosing()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const auto asked = Clock::now();
+  program.send(SIGINT);
+  const auto ended = program.wait();
+  EXPECT_LT(Clock::now() - asked, a_moment);
+  EXPECT_EQ(ended.exit_code, 4) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("stopped early"));
+  EXPECT_THAT(ended.err, Not(HasSubstr("ended with status")));
+  for (const auto& [name, contents] : folder.contents())
+    if (name.starts_with("out/diagnoses/") && name.ends_with(".json"))
+      EXPECT_TRUE(Json::accept(contents)) << name;
+}
+
+}  // namespace
+}  // namespace gyrostat
