@@ -130,7 +130,7 @@ try:
     assert "The median of each method" in (work / "runs/study/report.html").read_text(), "the picture"
     gyrostat("simulate", "study.json", "--out", "REC.csv")
     gyrostat("diagnose", "REC.csv", "--json", "GAP.json", "--html", "GAP.html")
-    assert "wandering over time" in (work / "GAP.html").read_text(), "the lens"
+    assert "Wandering over time" in (work / "GAP.html").read_text(), "the lens"
     assert "square_wave" in (work / "GAP.json").read_text(), "the effect, as a cause"
 finally:
     shutil.rmtree(copy, ignore_errors=True)
