@@ -39,6 +39,11 @@ Band band_of(std::string_view id) {
              : Band::slow;
 }
 
+bool is_slow(std::string_view id) {
+  const auto band = band_of(id);
+  return band == Band::slow || band == Band::thermal;
+}
+
 /// Standard deviation of white noise with what rounding adds.
 double white_with_rounding(const Scenario& scenario) {
   const auto law = law_of(scenario, 1.0);
@@ -155,18 +160,19 @@ Standing Search::two_further(const Standing& standing, std::vector<Standing> tri
   constexpr double nearly_pays = 6.0;
   constexpr std::size_t most_tried = 3;
   std::erase_if(tried, [&](const Standing& t) {
-    if (t.score < standing.score - nearly_pays) return true;
-    const auto band = band_of(t.scenario.effects.back().id());
-    return band != Band::slow && band != Band::thermal;
+    return t.score < standing.score - nearly_pays || !is_slow(t.scenario.effects.back().id());
   });
   std::stable_sort(tried.begin(), tried.end(),
                    [](const auto& a, const auto& b) { return a.score > b.score; });
   if (tried.size() > most_tried) tried.resize(most_tried);
+  const auto all = candidates_;
+  std::erase_if(candidates_, [](const auto* cause) { return !is_slow(cause->id); });
   Standing best = standing;
   for (const auto& t : tried)
     for (auto& further : each_added(t))
       if (further.score > best.score && further.score > standing.score + least_gain(t, further))
         best = std::move(further);
+  candidates_ = all;
   return best;
 }
 

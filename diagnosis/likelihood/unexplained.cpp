@@ -11,7 +11,7 @@
 namespace gyrostat::gap {
 namespace {
 
-constexpr int iterations = 8;
+constexpr int iterations = 6;
 constexpr std::size_t bands = 12;
 
 /// Regressors that have something in common.
@@ -101,6 +101,12 @@ std::vector<Group> groups_of(const Conditions& conditions) {
   return groups;
 }
 
+/// What is looked for may be in the walk.
+Scenario with_little_walk(Scenario set) {
+  set.random_error.delta1_dps *= 0.1;
+  return set;
+}
+
 double log_bayes_factor_of(const SetFitter& fitter, const Scenario& set, double without,
                            const Group& group) {
   Eigen::MatrixXd columns(static_cast<Eigen::Index>(group.columns.front().size()),
@@ -111,13 +117,7 @@ double log_bayes_factor_of(const SetFitter& fitter, const Scenario& set, double 
       columns(k, c) = is_missing(value) ? 0.0 : value;
     }
   const auto beside = fitter.beside(columns);
-  double best = -1e300;
-  for (const double walk : {1.0, 0.1}) {
-    Scenario start = set;
-    start.random_error.delta1_dps *= walk;
-    best = std::max(best, beside.maximise(start, iterations, Jumping::no).log_likelihood);
-  }
-  return best - without;
+  return beside.maximise(with_little_walk(set), iterations, Jumping::no).log_likelihood - without;
 }
 
 /// Of a slow error that forgets, beside the walk.
@@ -127,14 +127,12 @@ double log_bayes_factor_of_memory(const SetFitter& fitter, const Conditions& con
   const double slow_dps = fitter.slow_deviation_dps();
   double best = -1e300;
   for (double memory_s = 4.0 * conditions.slow_interval_s(); memory_s < duration_s / 6.0;
-       memory_s *= 4.0)
-    for (const double walk : {1.0, 0.1}) {
-      Scenario start = set;
-      start.random_error.delta1_dps *= walk;
-      start.effects.push_back(
-          with_values("gauss_markov", {{"std_dps", slow_dps}, {"correlation_time_s", memory_s}}));
-      best = std::max(best, fitter.maximise(start, iterations, Jumping::no).log_likelihood);
-    }
+       memory_s *= 4.0) {
+    Scenario start = with_little_walk(set);
+    start.effects.push_back(
+        with_values("gauss_markov", {{"std_dps", slow_dps}, {"correlation_time_s", memory_s}}));
+    best = std::max(best, fitter.maximise(start, iterations, Jumping::no).log_likelihood);
+  }
   constexpr double cost_of_two_parameters = 3.0;
   return best - without - cost_of_two_parameters;
 }

@@ -18,7 +18,7 @@ gyrostat_consumer(Install.HeadersOfTheSameNameAreKeptApart -DPROJECT=tests/insta
 gyrostat_consumer(Examples.CompareFilters -DPROJECT=examples/compare_filters
                   "-DSAYS=kf_ma beats kf in bias_rmse by" ${consume})
 gyrostat_consumer(Examples.DiagnoseRecording -DPROJECT=examples/diagnose_recording
-                  -DSIMULATE=examples/diagnose_recording/coarse.json "-DSAYS=Cause: quantization" ${consume})
+                  -DSIMULATE=examples/diagnose_recording/coarse.json "-DSAYS=lacks quantization" ${consume})
 gyrostat_consumer(Examples.OwnFilter -DPROJECT=examples/own_filter
                   -DARGUMENTS=${PROJECT_SOURCE_DIR}/examples/own_filter/study.json
                   "-DSAYS=beats leaky_mean_200 in bias_rmse by" ${consume})
