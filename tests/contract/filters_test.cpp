@@ -3,7 +3,10 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ceres/jet.h>
@@ -17,34 +20,122 @@ namespace {
 
 using Jet = ceres::Jet<double, 3>;
 
-template <class List>
-struct TypesOf;
-template <class... Plugins>
-struct TypesOf<PluginList<Plugins...>> {
-  using type = testing::Types<Plugins...>;
+/// A filter on doubles, by value, without its C++ type: the laws below are compiled once, and of
+/// each filter only what it does itself.
+class AnyFilter {
+ public:
+  template <class F>
+  explicit AnyFilter(F filter) : held_(std::make_unique<Of<F>>(std::move(filter))) {}
+  AnyFilter(const AnyFilter& other) : held_(other.held_->copy()) {}
+  AnyFilter& operator=(const AnyFilter&) = delete;
+
+  Step<double> step(const Sample<double>& sample) { return held_->step(sample); }
+
+ private:
+  struct Held {
+    Held() = default;
+    Held(const Held&) = default;
+    Held& operator=(const Held&) = delete;
+    virtual ~Held() = default;
+    virtual std::unique_ptr<Held> copy() const = 0;
+    virtual Step<double> step(const Sample<double>& sample) = 0;
+  };
+  template <class F>
+  struct Of final : Held {
+    F filter;
+    explicit Of(F given) : filter(std::move(given)) {}
+    std::unique_ptr<Held> copy() const override { return std::make_unique<Of>(*this); }
+    Step<double> step(const Sample<double>& sample) override { return filter.step(sample); }
+  };
+  std::unique_ptr<Held> held_;
 };
 
-struct Ids {
-  template <class Plugin>
-  static std::string GetName(int) {
-    return std::string(Plugin::id);
+/// Values of a filter's parameters, in the order of its fields.
+using Values = std::vector<double>;
+
+/// One filter of the list: what it says of itself, and how it is made.
+struct Listed {
+  std::string id;
+  bool draws;
+  std::span<const FieldInfo> fields;
+  AnyFilter (*make)(const Values&);
+  /// The weighted sum of its estimates on jets, where parameter `moved` goes in direction `moved`
+  /// % 3.
+  Jet (*sum_on_jets)(const Values&, std::size_t moved, const std::vector<Sample<double>>&);
+
+  Values defaults() const {
+    Values values;
+    for (const auto& field : fields) values.push_back(field.value);
+    return values;
   }
+  AnyFilter make_default() const { return make(defaults()); }
 };
+
+template <class P, class T>
+P parameters_of(const std::vector<T>& values) {
+  P p;
+  std::size_t i = 0;
+  for (const auto& field : P::fields()) p.*(field.member) = values[i++];
+  return p;
+}
+
+template <class T>
+Sample<T> cast(const Sample<double>& s) {
+  return {T(s.t_s),         T(s.gyro_dps),      T(s.temperature_C),
+          T(s.heading_deg), T(s.true_rate_dps), T(s.true_drift_dps)};
+}
+
+/// Each estimate is weighted differently, so that no error cancels.
+double weight(std::size_t i) { return 1.0 + std::sin(static_cast<double>(i)); }
+
+/// The filters of the list.
+const std::vector<Listed>& listed() {
+  static const std::vector<Listed> all = [] {
+    std::vector<Listed> to;
+    Filters::for_each([&]<class Plugin>(Plugin) {
+      using F = typename Plugin::type;
+      using OnJets = typename Plugin::template on<Jet>;
+      static_assert(Filter<OnJets>);
+      to.push_back({.id = std::string(Plugin::id),
+                    .draws = draws_noise<F>,
+                    .fields = field_infos_of<typename F::Parameters>,
+                    .make =
+                        [](const Values& values) {
+                          return AnyFilter(F(parameters_of<typename F::Parameters>(values)));
+                        },
+                    .sum_on_jets =
+                        [](const Values& values, std::size_t moved,
+                           const std::vector<Sample<double>>& samples) {
+                          std::vector<Jet> jets(values.begin(), values.end());
+                          jets[moved].v[static_cast<int>(moved % 3)] = 1.0;
+                          OnJets filter(parameters_of<typename OnJets::Parameters>(jets));
+                          Jet sum(0.0);
+                          for (std::size_t i = 0; i < samples.size(); ++i)
+                            sum += Jet(weight(i)) * filter.step(cast<Jet>(samples[i])).estimate_dps;
+                          return sum;
+                        }});
+    });
+    return to;
+  }();
+  return all;
+}
+
+std::vector<std::string> ids() {
+  std::vector<std::string> ids;
+  for (const auto& filter : listed()) ids.push_back(filter.id);
+  return ids;
+}
 
 /// What every filter owes to whoever runs it.
-template <class Plugin>
-class FilterContract : public testing::Test {
+class FilterContract : public testing::TestWithParam<std::string> {
  protected:
-  using F = typename Plugin::type;
-  using P = typename F::Parameters;
+  const Listed& it() const {
+    return *std::find_if(listed().begin(), listed().end(),
+                         [](const Listed& filter) { return filter.id == GetParam(); });
+  }
 };
-TYPED_TEST_SUITE(FilterContract, TypesOf<Filters>::type, Ids);
-
-/// One step, compiled once a filter: inlined into every test below it would be most of the build.
-template <class F>
-[[gnu::noinline]] auto next(F& filter, const Sample<typename F::Scalar>& sample) {
-  return filter.step(sample);
-}
+INSTANTIATE_TEST_SUITE_P(Each, FilterContract, testing::ValuesIn(ids()),
+                         [](const auto& given) { return given.param; });
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -94,10 +185,10 @@ void expect_sound(const Step<double>& step, const std::string& where) {
   ASSERT_TRUE(std::isfinite(step.innovation_variance) && step.innovation_variance > 0.0) << where;
 }
 
-template <class F>
-void expect_sound(F filter, const std::vector<Sample<double>>& samples, const std::string& where) {
+void expect_sound(AnyFilter filter, const std::vector<Sample<double>>& samples,
+                  const std::string& where) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    expect_sound(next(filter, samples[i]), where + ", sample " + std::to_string(i));
+    expect_sound(filter.step(samples[i]), where + ", sample " + std::to_string(i));
     if (testing::Test::HasFatalFailure()) return;
   }
 }
@@ -113,64 +204,63 @@ void expect_same_bits(const Step<double>& a, const Step<double>& b) {
 
 /// The defaults with every parameter that may be zero, or as close to it as its range allows, at
 /// zero.
-template <class P>
-P at_zero() {
-  P p;
-  for (const auto& field : p.fields()) {
-    if (field.range.contains(0.0)) p.*(field.member) = 0.0;
+Values at_zero(const Listed& filter) {
+  Values values = filter.defaults();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& field = filter.fields[i];
+    if (field.range.contains(0.0)) values[i] = 0.0;
     if (!field.range.contains(0.0) && field.name.find("std") != std::string_view::npos)
-      p.*(field.member) = 1e-12;
+      values[i] = 1e-12;
   }
-  return p;
+  return values;
 }
 
-TYPED_TEST(FilterContract, OnATameRecordingNothingBreaksDown) {
-  typename TestFixture::F filter{typename TestFixture::P{}};
+TEST_P(FilterContract, OnATameRecordingNothingBreaksDown) {
+  auto filter = it().make_default();
   for (const auto& sample : tame(2000)) {
-    const auto step = next(filter, sample);
+    const auto step = filter.step(sample);
     expect_sound(step, "tame");
     ASSERT_FALSE(is_breakdown(step.status)) << name_of(step.status);
   }
 }
 
-TYPED_TEST(FilterContract, NothingThatIsNotFiniteLeavesWhateverComesIn) {
+TEST_P(FilterContract, NothingThatIsNotFiniteLeavesWhateverComesIn) {
   for (const double share : {0.001, 0.01, 0.1, 0.5, 1.0})
-    expect_sound(typename TestFixture::F{typename TestFixture::P{}}, wild(4000, share),
-                 "share " + std::to_string(share));
+    expect_sound(it().make_default(), wild(4000, share), "share " + std::to_string(share));
 }
 
-TYPED_TEST(FilterContract, NothingThatIsNotFiniteLeavesWhereEveryVarianceIsZero) {
-  const typename TestFixture::F filter(at_zero<typename TestFixture::P>());
+TEST_P(FilterContract, NothingThatIsNotFiniteLeavesWhereEveryVarianceIsZero) {
+  const auto filter = it().make(at_zero(it()));
   expect_sound(filter, tame(2000), "tame");
   expect_sound(filter, wild(2000, 0.05), "wild");
 }
 
-TYPED_TEST(FilterContract, NothingThatIsNotFiniteLeavesWhereOneParameterIsAtAnEndOfItsRange) {
-  const typename TestFixture::P defaults;
-  for (const auto& field : defaults.fields())
-    for (const double value :
-         {field.range.from, field.range.to, std::nextafter(field.range.from, 1.0),
-          std::nextafter(field.range.to, 0.0)}) {
-      if (!field.range.contains(value) || std::abs(value) > 1e100) continue;
-      auto p = defaults;
-      p.*(field.member) = value;
-      expect_sound(typename TestFixture::F(p), tame(500),
-                   std::string(field.name) + " = " + std::to_string(value));
+TEST_P(FilterContract, NothingThatIsNotFiniteLeavesWhereOneParameterIsAtAnEndOfItsRange) {
+  const auto fields = it().fields;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const double from = fields[i].range.from, to = fields[i].range.to;
+    for (const double value : {from, to, std::nextafter(from, 1.0), std::nextafter(to, 0.0)}) {
+      if (!fields[i].range.contains(value) || std::abs(value) > 1e100) continue;
+      auto values = it().defaults();
+      values[i] = value;
+      expect_sound(it().make(values), tame(500),
+                   std::string(fields[i].name) + " = " + std::to_string(value));
     }
+  }
 }
 
-TYPED_TEST(FilterContract, AMissingSampleIsNoBreakdown) {
-  typename TestFixture::F filter{typename TestFixture::P{}};
+TEST_P(FilterContract, AMissingSampleIsNoBreakdown) {
+  auto filter = it().make_default();
   auto samples = tame(1000);
   for (std::size_t i = 0; i < samples.size(); i += 3) samples[i].gyro_dps = no_value;
   for (std::size_t i = 1; i < samples.size(); i += 3) samples[i].heading_deg = no_value;
   for (std::size_t i = 2; i < samples.size(); i += 3) samples[i].temperature_C = no_value;
-  for (const auto& sample : samples) ASSERT_FALSE(is_breakdown(next(filter, sample).status));
+  for (const auto& sample : samples) ASSERT_FALSE(is_breakdown(filter.step(sample).status));
 }
 
 /// Ninety samples on, an infinite sample has done no more than a missing one would have.
-TYPED_TEST(FilterContract, AnInfiniteSampleIsLeftBehind) {
-  typename TestFixture::F infinite{typename TestFixture::P{}}, missing{typename TestFixture::P{}};
+TEST_P(FilterContract, AnInfiniteSampleIsLeftBehind) {
+  auto infinite = it().make_default(), missing = it().make_default();
   const auto samples = tame(2000);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     auto one = samples[i], other = samples[i];
@@ -179,128 +269,108 @@ TYPED_TEST(FilterContract, AnInfiniteSampleIsLeftBehind) {
       one.heading_deg = infinity;
       other.gyro_dps = other.heading_deg = no_value;
     }
-    const auto a = next(infinite, one), b = next(missing, other);
+    const auto a = infinite.step(one), b = missing.step(other);
     if (i % 100 != 40 || a.estimate_dps == b.estimate_dps) continue;
     ASSERT_LT(std::abs(a.estimate_dps - b.estimate_dps), std::sqrt(a.estimate_variance)) << i;
   }
 }
 
-TYPED_TEST(FilterContract, ACopyGoesOnAsTheOriginalDoes) {
-  typename TestFixture::F original{typename TestFixture::P{}};
+TEST_P(FilterContract, ACopyGoesOnAsTheOriginalDoes) {
+  auto original = it().make_default();
   const auto samples = tame(1000);
-  for (std::size_t i = 0; i < 500; ++i) next(original, samples[i]);
+  for (std::size_t i = 0; i < 500; ++i) original.step(samples[i]);
   auto copy = original;
   for (std::size_t i = 500; i < samples.size(); ++i) {
-    const auto a = next(original, samples[i]);
-    expect_same_bits(a, next(copy, samples[i]));
+    const auto a = original.step(samples[i]);
+    expect_same_bits(a, copy.step(samples[i]));
   }
 }
 
-TYPED_TEST(FilterContract, TheFutureDoesNotReachThePast) {
-  typename TestFixture::F one{typename TestFixture::P{}}, other{typename TestFixture::P{}};
+TEST_P(FilterContract, TheFutureDoesNotReachThePast) {
+  auto one = it().make_default(), other = it().make_default();
   const auto samples = tame(600);
   auto changed = samples;
   for (std::size_t i = 400; i < changed.size(); ++i) changed[i].gyro_dps += 5.0;
   for (std::size_t i = 0; i < 400; ++i)
-    expect_same_bits(next(one, samples[i]), next(other, changed[i]));
+    expect_same_bits(one.step(samples[i]), other.step(changed[i]));
 }
 
-TYPED_TEST(FilterContract, EstimatesOfNothingAreZero) {
-  if (draws_noise<typename TestFixture::F>) GTEST_SKIP() << "its estimate is a draw";
-  typename TestFixture::F filter{typename TestFixture::P{}};
+TEST_P(FilterContract, EstimatesOfNothingAreZero) {
+  if (it().draws) GTEST_SKIP() << "its estimate is a draw";
+  auto filter = it().make_default();
   for (int i = 0; i < 1000; ++i)
-    ASSERT_EQ(next(filter, Sample<double>{0.2 * i, 0.0, 25.0, 0.0, 0.0, 0.0}).estimate_dps, 0.0);
+    ASSERT_EQ(filter.step(Sample<double>{0.2 * i, 0.0, 25.0, 0.0, 0.0, 0.0}).estimate_dps, 0.0);
 }
 
-TYPED_TEST(FilterContract, TheMirroredSignalGivesTheMirroredEstimate) {
-  if (draws_noise<typename TestFixture::F>) GTEST_SKIP() << "its estimate is a draw";
-  typename TestFixture::F filter{typename TestFixture::P{}}, mirror{typename TestFixture::P{}};
+TEST_P(FilterContract, TheMirroredSignalGivesTheMirroredEstimate) {
+  if (it().draws) GTEST_SKIP() << "its estimate is a draw";
+  auto filter = it().make_default(), mirror = it().make_default();
   for (auto sample : tame(2000)) {
-    const double estimate = next(filter, sample).estimate_dps;
+    const double estimate = filter.step(sample).estimate_dps;
     for (double* value :
          {&sample.gyro_dps, &sample.heading_deg, &sample.true_rate_dps, &sample.true_drift_dps})
       *value = -*value;
-    ASSERT_NEAR(next(mirror, sample).estimate_dps, -estimate, 1e-12);
+    ASSERT_NEAR(mirror.step(sample).estimate_dps, -estimate, 1e-12);
   }
 }
 
 /// Parameters inside their ranges, none where a derivative has a kink, no two of them alike.
-template <class P>
-P interior() {
-  P p;
+Values interior(const Listed& filter) {
+  Values values = filter.defaults();
   double value = 0.005;
-  for (const auto& field : p.fields())
-    if (p.*(field.member) == 0.0 && !field.range.whole) p.*(field.member) = value += 0.001;
-  return p;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] == 0.0 && !filter.fields[i].range.whole) values[i] = value += 0.001;
+  return values;
 }
 
 /// Whether the estimate is differentiable in this parameter.
-template <class Field>
-bool is_smooth(const Field& field) {
+bool is_smooth(const FieldInfo& field) {
   return !field.range.whole && field.name != "update_interval_s";
 }
 
-template <class T>
-Sample<T> cast(const Sample<double>& s) {
-  return {T(s.t_s),         T(s.gyro_dps),      T(s.temperature_C),
-          T(s.heading_deg), T(s.true_rate_dps), T(s.true_drift_dps)};
-}
-
-/// The sum of estimates over the recording, each weighted differently so that no error cancels.
-template <template <class> class F, class T>
-[[gnu::noinline]] T weighted_sum(const typename F<T>::Parameters& p,
-                                 const std::vector<Sample<double>>& samples) {
-  F<T> filter(p);
-  T sum(0.0);
+double weighted_sum(AnyFilter filter, const std::vector<Sample<double>>& samples) {
+  double sum = 0.0;
   for (std::size_t i = 0; i < samples.size(); ++i)
-    sum +=
-        T(1.0 + std::sin(static_cast<double>(i))) * next(filter, cast<T>(samples[i])).estimate_dps;
+    sum += weight(i) * filter.step(samples[i]).estimate_dps;
   return sum;
 }
 
 /// The derivative of the weighted sum by each smooth parameter at `p`, against central differences.
-template <class Plugin, class P>
-void expect_derivatives(const P& p) {
-  const auto fields = p.fields();
-  static_assert(Filter<typename Plugin::template on<Jet>>);
-  using JetParameters = typename Plugin::template on<Jet>::Parameters;
+void expect_derivatives(const Listed& filter, const Values& p) {
   const auto samples = tame(300);
-  const auto at = [&](const P& q) { return weighted_sum<Plugin::template on, double>(q, samples); };
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (!is_smooth(fields[i])) continue;
-    JetParameters jets;
-    for (std::size_t j = 0; j < fields.size(); ++j)
-      jets.*(JetParameters::fields()[j].member) = Jet(p.*(fields[j].member));
-    (jets.*(JetParameters::fields()[i].member)).v[static_cast<int>(i % 3)] = 1.0;
-    const Jet sum = weighted_sum<Plugin::template on, Jet>(jets, samples);
-    EXPECT_NEAR(sum.a, at(p), 1e-9 * (1.0 + std::abs(at(p)))) << fields[i].name;
+  const auto at = [&](const Values& q) { return weighted_sum(filter.make(q), samples); };
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const auto& field = filter.fields[i];
+    if (!is_smooth(field)) continue;
+    const Jet sum = filter.sum_on_jets(p, i, samples);
+    EXPECT_NEAR(sum.a, at(p), 1e-9 * (1.0 + std::abs(at(p)))) << field.name;
 
-    const double h = 1e-4 * p.*(fields[i].member);
+    const double h = 1e-4 * p[i];
     auto above = p, below = p;
-    above.*(fields[i].member) += h;
-    below.*(fields[i].member) -= h;
+    above[i] += h;
+    below[i] -= h;
     const double difference = (at(above) - at(below)) / (2.0 * h);
     // Truncation of order h^2 and rounding of order 1e-16 / h, relative to the scale of the sum.
-    const double scale = std::abs(difference) + 1e-3 / std::abs(p.*(fields[i].member));
-    EXPECT_NEAR(sum.v[static_cast<int>(i % 3)], difference, 1e-5 * scale) << fields[i].name;
-    EXPECT_EQ(sum.v[static_cast<int>((i + 1) % 3)], 0.0) << fields[i].name;
+    const double scale = std::abs(difference) + 1e-3 / std::abs(p[i]);
+    EXPECT_NEAR(sum.v[static_cast<int>(i % 3)], difference, 1e-5 * scale) << field.name;
+    EXPECT_EQ(sum.v[static_cast<int>((i + 1) % 3)], 0.0) << field.name;
   }
 }
 
-TYPED_TEST(FilterContract, DerivativesOnJetsAreCentralDifferences) {
-  if (draws_noise<typename TestFixture::F>) GTEST_SKIP() << "its estimate is a draw";
-  expect_derivatives<TypeParam>(interior<typename TestFixture::P>());
+TEST_P(FilterContract, DerivativesOnJetsAreCentralDifferences) {
+  if (it().draws) GTEST_SKIP() << "its estimate is a draw";
+  expect_derivatives(it(), interior(it()));
 }
 
 /// As a calibration starts every filter: x_k and x_{k-1} alike, so that some correlations are zero
 /// there while their derivatives are not.
-TYPED_TEST(FilterContract, DerivativesOnJetsHoldWhereTheInitialStatesAreAlike) {
-  if (draws_noise<typename TestFixture::F>) GTEST_SKIP() << "its estimate is a draw";
-  auto p = interior<typename TestFixture::P>();
-  for (const auto& field : p.fields())
-    if (field.name == "initial_x_dps" || field.name == "initial_x_previous_dps")
-      p.*(field.member) = 0.02;
-  expect_derivatives<TypeParam>(p);
+TEST_P(FilterContract, DerivativesOnJetsHoldWhereTheInitialStatesAreAlike) {
+  if (it().draws) GTEST_SKIP() << "its estimate is a draw";
+  auto p = interior(it());
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (it().fields[i].name == "initial_x_dps" || it().fields[i].name == "initial_x_previous_dps")
+      p[i] = 0.02;
+  expect_derivatives(it(), p);
 }
 
 }  // namespace
