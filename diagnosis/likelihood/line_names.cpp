@@ -35,35 +35,29 @@ Resonance joined(const Resonance& a, const Resonance& b) {
 }
 
 /// The spectrum of a line that wanders is not that of a resonance, and is found as several side by
-/// side. They are one where together they have the envelope of a sine more clearly than alone.
-void join_parts_of_wandering_lines(const SetBench& bench, const std::vector<char>& hidden,
-                                   Scenario& scenario) {
-  auto& effects = scenario.effects;
+/// side. They are parts of it where two together have the envelope of a sine more clearly than
+/// alone: by how much, an effect each; 0 where they have not.
+std::vector<double> parts_of_wandering_lines(const SetBench& bench, const std::vector<char>& hidden,
+                                             const Scenario& scenario) {
+  const auto& effects = scenario.effects;
+  std::vector<double> gains(effects.size(), 0.0);
   const auto left = bench.rate_left_by(scenario, hidden);
   const auto wandering = [&](const Resonance& line) {
     return line_shape(bench.conditions(), left, line).wandering;
   };
   for (std::size_t a = 0; a < effects.size(); ++a)
-    for (std::size_t b = a + 1; b < effects.size() && effects[a].id() == "vibration";) {
-      const auto is_part = [&] {
-        if (effects[b].id() != "vibration") return false;
-        const auto one = line_of(effects[a]), other = line_of(effects[b]);
-        const double reach_hz = 2.0 * (one.bandwidth_hz + other.bandwidth_hz);
-        if (std::abs(one.centre_hz - other.centre_hz) > reach_hz) return false;
-        const double together = wandering(joined(one, other));
-        return together > clear_shape && together > std::max(wandering(one), wandering(other));
-      };
-      if (!is_part()) {
-        ++b;
+    for (std::size_t b = a + 1; b < effects.size(); ++b) {
+      if (effects[a].id() != "vibration" || effects[b].id() != "vibration") continue;
+      const auto one = line_of(effects[a]), other = line_of(effects[b]);
+      const double reach_hz = 2.0 * (one.bandwidth_hz + other.bandwidth_hz);
+      if (std::abs(one.centre_hz - other.centre_hz) > reach_hz) continue;
+      const double together = wandering(joined(one, other));
+      if (together < clear_shape || together <= std::max(wandering(one), wandering(other)))
         continue;
-      }
-      const auto line = joined(line_of(effects[a]), line_of(effects[b]));
-      effects[a] = with_values("vibration", {{"std_dps", std::sqrt(line.variance)},
-                                             {"centre_hz", line.centre_hz},
-                                             {"bandwidth_hz", line.bandwidth_hz}});
-      effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(b));
-      b = a + 1;
+      gains[a] = std::max(gains[a], together);
+      gains[b] = std::max(gains[b], together);
     }
+  return gains;
 }
 
 }  // namespace
@@ -83,14 +77,15 @@ std::vector<char> samples_in_bursts(const SetBench& bench, const Scenario& scena
 }
 
 void name_lines(const SetBench& bench, const std::vector<char>& hidden, FoundSet& found) {
-  join_parts_of_wandering_lines(bench, hidden, found.scenario);
-  for (auto& effect : found.scenario.effects) {
+  const auto parts = parts_of_wandering_lines(bench, hidden, found.scenario);
+  for (std::size_t k = 0; k < found.scenario.effects.size(); ++k) {
+    auto& effect = found.scenario.effects[k];
     if (effect.id() != "vibration") continue;
     const auto line = line_of(effect);
     const auto left = bench.rate_left_by(found.scenario, hidden);
     const auto shape = line_shape(bench.conditions(), left, line);
-    const bool bursts = is_bursts(shape);
-    const double gain = std::max(shape.bursts, shape.wandering);
+    const bool bursts = is_bursts(shape) && parts[k] == 0.0;
+    const double gain = std::max({shape.bursts, shape.wandering, parts[k]});
     const std::string_view name = bursts ? "vibration_bursts" : "wandering_line";
     if (gain < clear_shape) continue;
     const auto known = std::find_if(found.members.begin(), found.members.end(),
