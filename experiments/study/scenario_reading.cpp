@@ -59,8 +59,10 @@ void read_recorded(JsonObject object, const std::string& folder, FittedRecording
 
 Scenario read_scenario(JsonObject object, const std::string& folder, FittedRecordings& fits) {
   Scenario scenario;
-  const bool recording_read = object.with_child("from_recording", [&](JsonObject& recorded) {
+  bool recording_read = false;
+  object.with_child("from_recording", [&](JsonObject& recorded) {
     read_recorded(recorded, folder, fits, scenario);
+    recording_read = true;
   });
   object.fields(scenario.sampling);
   const auto nested = [&](const std::string& key, auto& parameters) {

@@ -41,7 +41,6 @@ bool check_blindly(const gap::BlindCheck& check, const std::filesystem::path& fo
                    Console& console) {
   using Clock = std::chrono::steady_clock;
   try {
-    console.log << "blind-check: making recordings\n" << std::flush;
     gap::make_recordings(check, folder, Interrupt(console.stop));
   } catch (const Interrupted&) {
     return false;
