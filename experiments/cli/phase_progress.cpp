@@ -1,7 +1,6 @@
 #include <gyrostat/experiments/cli/phase_progress.hpp>
 
 #include <cmath>
-#include <condition_variable>
 
 #include <fmt/format.h>
 
@@ -11,7 +10,9 @@ namespace gyrostat::cli {
 
 PhaseProgress::PhaseProgress(std::ostream& out, bool is_terminal, std::string name)
     : out_(out), is_terminal_(is_terminal), name_(std::move(name)) {
-  if (is_terminal_) thread_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
+  if (is_terminal_)
+    thread_ =
+        std::jthread([this](const std::stop_token& stop) { redraw(stop, [this] { draw(); }); });
 }
 
 PhaseProgress::~PhaseProgress() {
@@ -45,16 +46,6 @@ std::string PhaseProgress::time_left() const {
   if (share_ < least_share || share_ >= 1.0 || left_s <= 0.0) return "";
   return left_s < minutes_from_s ? fmt::format(", about {:.0f} s left", left_s)
                                  : fmt::format(", about {:.0f} min left", left_s / 60.0);
-}
-
-void PhaseProgress::watch(const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any wake;
-  std::unique_lock lock(mutex);
-  while (!stop.stop_requested()) {
-    draw();
-    wake.wait_for(lock, stop, std::chrono::milliseconds(200), [] { return false; });
-  }
 }
 
 void PhaseProgress::draw() {

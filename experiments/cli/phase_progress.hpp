@@ -22,7 +22,6 @@ class PhaseProgress {
   void set(const std::string& phase, const std::string& detail, double share);
 
  private:
-  void watch(const std::stop_token& stop);
   void draw();
   double elapsed_s() const;
   /// As ", about 40 s left"; empty while nobody can know.

@@ -12,12 +12,25 @@ std::string progress_bar(double share) {
   return fmt::format("[{:#<{}}{:.<{}}]", "", filled, "", width - filled);
 }
 
+void redraw(const std::stop_token& stop, const std::function<void()>& draw) {
+  std::mutex mutex;
+  std::condition_variable_any wake;
+  std::unique_lock lock(mutex);
+  while (!stop.stop_requested()) {
+    draw();
+    wake.wait_for(lock, stop, std::chrono::milliseconds(200), [] { return false; });
+  }
+}
+
 Progress::Progress(std::ostream& out, bool is_terminal, std::string name, std::size_t total)
     : out_(out),
       is_terminal_(is_terminal),
       name_(std::move(name)),
       total_(total),
-      thread_([this](const std::stop_token& stop) { watch(stop); }) {}
+      thread_([this](const std::stop_token& stop) {
+        redraw(stop, [this] { draw(); });
+        draw();
+      }) {}
 
 Progress::~Progress() {
   thread_.request_stop();
@@ -31,17 +44,6 @@ void Progress::set(std::size_t finished, std::string line) {
   const std::lock_guard lock(mutex_);
   line_ = std::move(line);
   set(finished);
-}
-
-void Progress::watch(const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any wake;
-  std::unique_lock lock(mutex);
-  while (!stop.stop_requested()) {
-    draw();
-    wake.wait_for(lock, stop, std::chrono::milliseconds(200), [] { return false; });
-  }
-  draw();
 }
 
 void Progress::draw() {

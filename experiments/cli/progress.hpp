@@ -13,6 +13,9 @@ namespace gyrostat::cli {
 /// As "[####......]".
 std::string progress_bar(double share);
 
+/// Calls `draw` five times a second until it is to stop.
+void redraw(const std::stop_token& stop, const std::function<void()>& draw);
+
 /// Tells how far a cell is: a bar on a terminal, a plain line every tenth elsewhere. Draws from its
 /// own thread, so that trials never wait for it.
 class Progress {
@@ -28,7 +31,6 @@ class Progress {
   void set(std::size_t finished, std::string line);
 
  private:
-  void watch(const std::stop_token& stop);
   void draw();
 
   std::ostream& out_;
