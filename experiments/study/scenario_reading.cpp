@@ -59,10 +59,8 @@ void read_recorded(JsonObject object, const std::string& folder, FittedRecording
 
 Scenario read_scenario(JsonObject object, const std::string& folder, FittedRecordings& fits) {
   Scenario scenario;
-  bool recording_read = false;
-  object.with_child("from_recording", [&](JsonObject& recorded) {
+  const bool recording_read = object.with_child("from_recording", [&](JsonObject& recorded) {
     read_recorded(recorded, folder, fits, scenario);
-    recording_read = true;
   });
   object.fields(scenario.sampling);
   const auto nested = [&](const std::string& key, auto& parameters) {
@@ -72,7 +70,8 @@ Scenario read_scenario(JsonObject object, const std::string& folder, FittedRecor
     });
   };
   nested("random_error", scenario.random_error);
-  if (recording_read && scenario.random_error.measurement_noise_std_dps == 0.0)
+  if (recording_read && object.has("from_recording") &&
+      scenario.random_error.measurement_noise_std_dps == 0.0)
     throw InputError(
         object.place(),
         "R is 0, as where the fit to a recording cannot tell R, and then every filter is "
