@@ -83,6 +83,18 @@ std::string answer(const Diagnosis& d) {
       effects_in_words(d), with, closeness(d));
 }
 
+std::string remainder_in_words(const Diagnosis& d) {
+  if (d.remainder.parts.empty()) return "";
+  std::vector<std::string> words;
+  for (const auto& part : d.remainder.parts) words.push_back(part.in_words);
+  const double named = 100.0 * std::max(0.0, d.closed);
+  const double more = 100.0 * d.remainder.closed - named;
+  if (more < 0.5) return "";
+  return fmt::format(
+      "Named effects close {:.0f} % of the gap; {} {} another {:.0f} %; {:.0f} % is open.", named,
+      listed(words), words.size() > 1 ? "close" : "closes", more, 100.0 - named - more);
+}
+
 std::string transfer_in_words(const Diagnosis& d) {
   if (d.enrichments.size() < 2 || d.transfer.empty()) return "";
   const auto count = [&](Moved moved) {

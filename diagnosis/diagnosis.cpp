@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -75,8 +76,12 @@ class Work {
   void climb(const std::vector<std::string>& order);
   /// What the recording still shows that the simulator, enriched, does not.
   void see_what_is_left();
+  /// What effects of the rate leave is seen in the heading alone: it casts no doubt on them.
+  bool only_the_compass_is_left() const;
   /// Of all ways in which the set leaves something unexplained, Bonferroni's bound.
   double p_unexplained() const;
+  /// With what has no name.
+  void complete();
   void measure_shrinkage();
   void keep_bands();
   void look_ahead();
@@ -92,6 +97,7 @@ class Work {
   FoundSet found_;
   std::vector<LogScore> held_out_without_;  ///< of the set without each of result_.effects
   std::vector<Rung> rungs_;                 ///< one effect more each
+  std::optional<Rung> completed_;           ///< with what has no name
   Diagnosis result_;
   Clock::time_point since_ = Clock::now();
   double share_ = 0.0;  ///< told
@@ -270,8 +276,8 @@ void Work::attribute() {
   see_what_is_left();
   const bool misses = after.deficit() > thresholds::deficit_of_a_miss ||
                       result_.p_after < thresholds::strictness_after * options_.significance;
-  const bool unexplained =
-      (result_.recovered < thresholds::recovery && misses) || found_.nameless_log_odds > 0.0;
+  const bool open = result_.recovered < thresholds::recovery && misses;
+  const bool unexplained = (open && !only_the_compass_is_left()) || found_.nameless_log_odds > 0.0;
   result_.verdict =
       unexplained ? Verdict::unknown() : Verdict::cause(result_.effects.front().effect);
   auto& set = result_.verdict_set;
@@ -283,6 +289,7 @@ void Work::attribute() {
   for (const auto& rival : found_.rivals)
     if (probability_of(rival.log_odds) >= thresholds::member_probability)
       add(Verdict::cause(rival.effect));
+  if (open) add(Verdict::unknown());
   for (const auto& effect : result_.effects) {
     const auto scenario = with_effects({effect.effect});
     result_.causes.push_back(
@@ -330,10 +337,30 @@ void Work::see_what_is_left() {
   result_.where_after = departures_of(enriched);
 }
 
+bool Work::only_the_compass_is_left() const {
+  const auto& effects = result_.enriched.effects;
+  const auto& where = result_.where_after;
+  return !where.empty() && std::all_of(where.begin(), where.end(), [](const auto& w) {
+    return w.channel == "heading_deg";
+  }) && std::none_of(effects.begin(), effects.end(), [](const auto& effect) {
+    return effect.stage() == Stage::compass;
+  });
+}
+
 double Work::p_unexplained() const {
   double least = 1.0;
   for (const auto& u : found_.unexplained) least = std::min(least, u.p_value);
   return std::min(1.0, least * static_cast<double>(found_.unexplained.size()));
+}
+
+void Work::complete() {
+  if (result_.verdict.is_none()) return;
+  tell("modelling what has no name", 0.82);
+  auto& remainder = result_.remainder;
+  remainder.parts = found_.nameless(result_.enriched);
+  if (remainder.parts.empty()) return;
+  remainder.scenario = with_drift(with_nameless(result_.enriched, remainder.parts), recording_);
+  completed_ = rung({}, remainder.scenario, options_.candidate_replicas);
 }
 
 void Work::measure_shrinkage() {
@@ -343,7 +370,10 @@ void Work::measure_shrinkage() {
         std::min(replicas[1].cols(), static_cast<Eigen::Index>(options_.candidate_replicas))));
   };
   const auto before = held_out(baseline_replicas_);
-  const auto truth = rungs_.empty() ? before : held_out(rungs_.back().replicas);
+  const auto& best = completed_       ? completed_->replicas
+                     : rungs_.empty() ? baseline_replicas_
+                                      : rungs_.back().replicas;
+  const auto truth = held_out(best);
   result_.gap_before = result_.gap_after = gap_of(before, truth);
   result_.enrichments.push_back({"", result_.gap_before});
   const auto closed = [&](double to) {
@@ -351,6 +381,14 @@ void Work::measure_shrinkage() {
   };
   for (std::size_t k = 0; k < result_.effects.size(); ++k)
     result_.effects[k].gap_without = gap_of(held_out_without_[k], truth);
+  if (completed_) {
+    auto& remainder = result_.remainder;
+    remainder.gap = gap_of(truth, truth);
+    const Ensemble all(simulator_.instrument(Part::train), best[0], {});
+    if (all.p_value(observed_[0]) < thresholds::departure)
+      remainder.gap = std::max(remainder.gap, thresholds::least_left * result_.gap_before);
+    remainder.closed = closed(remainder.gap);
+  }
   if (rungs_.empty()) return;
   for (const auto& r : rungs_)
     result_.enrichments.push_back({r.effect, gap_of(held_out(r.replicas), truth)});
@@ -376,6 +414,7 @@ void Work::measure_shrinkage() {
   const auto interval = bootstrap_closed(instrument, before, after, truth, options_.seed);
   result_.closed_low = interval[0];
   result_.closed_high = std::max(result_.closed, std::min(interval[1], most_closed));
+  if (result_.remainder.closed <= result_.closed) result_.remainder = {};
 }
 
 void Work::keep_bands() {
@@ -442,6 +481,7 @@ Diagnosis Work::run() {
     judge_claim();
   else
     attribute();
+  if (!options_.claim) complete();
   measure_shrinkage();
   keep_bands();
   took("shrinkage");

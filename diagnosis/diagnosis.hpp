@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gyrostat/core/interrupt.hpp>
+#include <gyrostat/diagnosis/likelihood/nameless.hpp>
 #include <gyrostat/diagnosis/likelihood/unexplained.hpp>
 #include <gyrostat/diagnosis/next_experiment.hpp>
 #include <gyrostat/diagnosis/portrait.hpp>
@@ -52,6 +53,14 @@ struct Included {
   std::vector<Effect> parameters;  ///< fitted; several where it is there several times
 };
 
+/// What named effects leave, modelled without a name.
+struct Remainder {
+  std::vector<Nameless> parts;  ///< none: nothing, or nothing that helps
+  Scenario scenario;            ///< the enriched one with them
+  double gap = 0.0;             ///< held-out
+  double closed = 0.0;          ///< by named and nameless parts together
+};
+
 /// The simulator with one more effect.
 struct Enrichment {
   std::string added;  ///< nothing for the baseline
@@ -81,6 +90,7 @@ struct Diagnosis {
   std::vector<Included> effects;         ///< the set, those that close most first
   double recovered = 0.0;     ///< share of the log score that a true simulator would have gained
   std::vector<Cause> causes;  ///< those of the set, then their rivals
+  Remainder remainder;
   Verdict verdict = Verdict::none();
   bool claimed = false;                 ///< the causes were given, not found
   std::vector<Verdict> verdict_set;     ///< what the recording cannot rule out

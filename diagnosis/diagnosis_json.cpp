@@ -78,6 +78,12 @@ Json to_json(const Diagnosis& d) {
     json["effects"].push_back(found);
   }
   json["remainder"] = {{"gap", d.gap_after}, {"where", departures_json(d.where_after)}};
+  json["remainder"]["closed_with"] = d.remainder.parts.empty() ? d.closed : d.remainder.closed;
+  json["remainder"]["with"] = Json::array();
+  for (const auto& part : d.remainder.parts)
+    json["remainder"]["with"].push_back({{"effect", part.effect.id()},
+                                         {"in_words", part.in_words},
+                                         {"parameters", parameters_json(part.effect)}});
   json["remainder"]["unexplained"] = Json::array();
   for (const auto& u : d.unexplained)
     json["remainder"]["unexplained"].push_back({{"what", u.what}, {"p", u.p_value}});
@@ -111,17 +117,23 @@ Json scenario_json(const Diagnosis& d, const std::string& name) {
   const auto put = [](Json& into, const auto& p) {
     for (const auto& field : p.fields()) into[std::string(field.name)] = p.*(field.member);
   };
-  put(s["random_error"], d.enriched.random_error);
-  put(s["thermal_drift"], d.enriched.thermal_drift);
-  put(s["compass"], d.enriched.compass);
+  const bool completed = !d.remainder.parts.empty();
+  const auto& best = completed ? d.remainder.scenario : d.enriched;
+  put(s["random_error"], best.random_error);
+  put(s["thermal_drift"], best.thermal_drift);
+  put(s["compass"], best.compass);
   s["effects"] = Json::array();
-  for (const auto& any : d.enriched.effects) {
+  for (const auto& any : best.effects) {
     Json effect = {{"effect", any.id()}};
     effect.update(parameters_json(any));
     s["effects"].push_back(effect);
   }
   const auto title =
-      d.enriched.effects.empty()
+      completed ? fmt::format(
+                      "{}: a simulator that comes {:.0f} % closer to it, {:.0f} % by effects that "
+                      "have a name",
+                      name, 100.0 * d.remainder.closed, 100.0 * std::max(0.0, d.closed))
+      : d.enriched.effects.empty()
           ? fmt::format("{}: the simulator as it stands", name)
           : fmt::format("{}: a simulator that comes {:.0f} % closer to it (95 %: {:.0f} to {:.0f})",
                         name, 100.0 * d.closed, 100.0 * d.closed_low, 100.0 * d.closed_high);

@@ -23,8 +23,7 @@ std::vector<Dial> noise_dials(const Conditions& conditions) {
         logarithmic([](Scenario& s) -> double& { return s.compass.noise_std_deg; }, 1e-9, 180.0));
   dials.push_back(logarithmic(
       [](Scenario& s) -> double& { return s.random_error.measurement_noise_std_dps; }, 1e-12, 1e6));
-  dials.push_back(
-      logarithmic([](Scenario& s) -> double& { return s.random_error.delta1_dps; }, 1e-12, 1e6));
+  dials.push_back(size_of_walk(1e-12, 1e6));
   return dials;
 }
 

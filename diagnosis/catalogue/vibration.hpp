@@ -1,10 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
-#include <gyrostat/diagnosis/gap/spectral_bands.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
 #include <gyrostat/generators/effects/vibration.hpp>
 
@@ -33,11 +31,8 @@ struct Diagnosed<effects::Vibration> {
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
-  static bool is_what_it_is_called(const effects::Vibration& effect, const Conditions& c) {
-    const double line_hz =  // what its spectrum would show of a line
-        3.0 * spectrum_resolution_hz(c.spans(Part::train), c.rate_hz());
-    return effect.bandwidth_hz < 0.5 * effect.centre_hz &&
-           effect.bandwidth_hz > std::max(0.02 * effect.centre_hz, line_hz);
+  static bool is_what_it_is_called(const effects::Vibration& effect, const Conditions& /*c*/) {
+    return effect.bandwidth_hz < 0.5 * effect.centre_hz;
   }
 };
 

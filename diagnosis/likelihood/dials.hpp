@@ -17,8 +17,16 @@ struct Dial {
 
 /// On a logarithmic scale, from `low` to `high`.
 Dial logarithmic(const std::function<double&(Scenario&)>& value, double low, double high);
+/// The size of the walk, on a logarithmic scale; the memory beside it stays.
+Dial size_of_walk(double low_dps, double high_dps);
 /// In multiples of `unit`.
 Dial linear(const std::function<double&(Scenario&)>& value, double unit);
+
+/// The scenario with a walk so many times as large, the memory beside it as it is.
+Scenario with_walk_times(Scenario scenario, double factor);
+
+/// The scenario with a walk of that size at least.
+Scenario with_walk_of_at_least(Scenario scenario, double walk_dps);
 
 /// The scenario with every dial moved, each by its own.
 Scenario moved(Scenario scenario, const std::vector<Dial>& dials, const Eigen::VectorXd& by);

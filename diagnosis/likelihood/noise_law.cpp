@@ -47,8 +47,12 @@ std::vector<double> density_of(const NoiseLaw& given, const std::vector<double>&
       density[k] += law.decaying[i].variance * poisson_kernel(memories[i], c);
     density[k] += step / std::max(2.0 - 2.0 * c, 1e-12);
   }
+  // Through the window of a periodogram, no line is narrower than a bin.
+  const double bin_hz =
+      angles.size() > 1 ? (angles[1] - angles[0]) / (2.0 * std::numbers::pi * law.interval_s) : 0.0;
   for (const auto& r : law.resonances) {
-    const double a = std::exp(-std::numbers::pi * r.bandwidth_hz * law.interval_s);
+    const double bandwidth_hz = std::max(r.bandwidth_hz, bin_hz);
+    const double a = std::exp(-std::numbers::pi * bandwidth_hz * law.interval_s);
     const double centre = 2.0 * std::numbers::pi * r.centre_hz * law.interval_s;
     for (std::size_t k = 0; k < angles.size(); ++k)
       density[k] += 0.5 * r.variance *

@@ -45,7 +45,8 @@ struct NoiseLaw {
   NoiseLaw without_jumps() const;
 };
 
-/// One-sided density, dps²/Hz, at angles (radians a sample) given by their cosines and themselves.
+/// One-sided density, dps²/Hz, at evenly spaced angles (radians a sample) given by their cosines
+/// and themselves, as a periodogram with these bins shows it.
 std::vector<double> density_of(const NoiseLaw& law, const std::vector<double>& angles,
                                const std::vector<double>& cosines);
 

@@ -36,7 +36,7 @@ SlowLaw slow_law(const ReducedRate& reduced, const NoiseLaw& law, std::size_t cl
                .jumps = law.jumps,
                .interval_s = interval_s};
   for (const auto& d : law.decaying) {
-    if (d.memory_s < shortest_memory * interval_s) {
+    if (d.memory_s < shortest_memory * interval_s || d.variance < 0.0) {
       fast.decaying.push_back(d);
       continue;
     }

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/likelihood/arima_law.hpp>
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
+#include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 
 namespace gyrostat::gap {
@@ -23,6 +25,14 @@ bool is_taken_out(const Effect& effect) {
   const auto* cause = cause_types().find(effect.id());
   return cause != nullptr && cause->signature == Signature::repeated &&
          effect.stage() != Stage::compass;
+}
+
+/// White noise belongs in R: where the memory beside the walk were the larger, the noise would have
+/// passed a filter, and that is an effect.
+bool has_white_noise(const Scenario& scenario) {
+  const auto& e = scenario.random_error;
+  return e.phi == 0.0 ||
+         ArimaLaw::of(e).variance() <= e.measurement_noise_std_dps * e.measurement_noise_std_dps;
 }
 
 }  // namespace
@@ -93,7 +103,7 @@ std::shared_ptr<const SetFitter> SetBench::fitter_of(const Scenario& scenario) c
 /// So much for each parameter that is fitted, and the logarithm of the places looked at for lines.
 double SetBench::cost(const Scenario& scenario) const {
   const double values = static_cast<double>(conditions_.train_points().size());
-  double sum = 0.0;
+  double sum = scenario.random_error.phi != 0.0 ? prior + 2.0 * of_a_parameter : 0.0;
   for (const auto& effect : scenario.effects) {
     const auto* cause = cause_types().find(effect.id());
     if (cause == nullptr || is_marked(effect.id())) continue;
@@ -114,6 +124,7 @@ Standing SetBench::fitted(const Scenario& scenario, std::shared_ptr<const SetFit
   s.fitter = std::move(fitter);
   s.scenario = s.fit.scenario;
   s.score = s.fit.log_likelihood - cost(s.scenario);
+  if (!has_white_noise(s.scenario)) s.score = -1e300;
   for (const auto& effect : s.scenario.effects)
     if (const auto* cause = cause_types().find(effect.id());
         cause != nullptr && !cause->is_what_it_is_called(effect, conditions_))
@@ -140,8 +151,7 @@ Standing SetBench::with(const Standing& standing, const CauseType& cause,
     for (const auto& guess : cause.guesses(beside)) {
       screened.emplace_back();
       for (const double walk : {1.0, 0.1}) {
-        Scenario scenario = standing.scenario;
-        scenario.random_error.delta1_dps *= walk;
+        Scenario scenario = with_walk_times(standing.scenario, walk);
         scenario.effects.push_back(guess);
         scenario = standing.fitter->with_white_noise_scaled(std::move(scenario));
         auto tried = fitted(scenario, standing.fitter, screening_iterations, Jumping::no);
@@ -203,15 +213,13 @@ Standing SetBench::without(const Standing& standing, std::size_t effect) const {
   Scenario rest = standing.scenario;
   rest.effects.erase(rest.effects.begin() + static_cast<std::ptrdiff_t>(effect));
   // What the walk must stand in for has to begin where it can be seen.
-  auto& walk = rest.random_error.delta1_dps;
   const Beside beside{conditions_, *standing.fitter, standing.fit};
   const double small =
       0.1 * beside.slow_std_dps() / std::sqrt(static_cast<double>(conditions_.cluster()));
   Standing best = refitted(rest);
-  if (walk < small) {
-    walk = small;
-    if (auto other = refitted(rest); other.score > best.score) best = std::move(other);
-  }
+  if (ArimaLaw::of(rest.random_error).walk_dps < small)
+    if (auto other = refitted(with_walk_of_at_least(rest, small)); other.score > best.score)
+      best = std::move(other);
   return best;
 }
 
@@ -232,6 +240,23 @@ std::vector<double> SetBench::rate_left_by(const Scenario& scenario,
         for (std::size_t i = first; i < last; ++i) left[i] -= count > 0.0 ? sum / count : 0.0;
       }
   return left;
+}
+
+Standing SetBench::beside_memory(const Standing& standing) const {
+  Standing best;
+  for (const double phi : {0.5, 0.85}) {
+    Scenario scenario = standing.scenario;
+    auto law = ArimaLaw::of(scenario.random_error);
+    const double white = scenario.random_error.measurement_noise_std_dps;
+    law.phi = phi;
+    law.memory = 0.2 * white * white * (1.0 - phi * phi);
+    law.put(scenario.random_error);
+    scenario = standing.fitter->with_white_noise_scaled(std::move(scenario));
+    if (auto tried = fitted(scenario, standing.fitter, fitting_iterations);
+        tried.score > best.score)
+      best = std::move(tried);
+  }
+  return best;
 }
 
 Standing SetBench::beside_noise(std::vector<Effect> effects) const {

@@ -49,6 +49,8 @@ class SetBench {
   Scenario plain() const;
   /// The effects beside white noise and a walk that are found without a start.
   Standing beside_noise(std::vector<Effect> effects) const;
+  /// With an ARIMA(1,1,1) that remembers, in place of the walk.
+  Standing beside_memory(const Standing& standing) const;
   Standing fitted(const Scenario& scenario, std::shared_ptr<const SetFitter> fitter, int iterations,
                   Jumping jumping = Jumping::yes) const;
   Standing refitted(const Scenario& scenario, int iterations = fitting_iterations) const {

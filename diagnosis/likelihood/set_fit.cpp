@@ -7,11 +7,35 @@
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/likelihood/arima_law.hpp>
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 
 namespace gyrostat::gap {
 namespace {
+
+/// The innovation of the decaying error beside the walk, as a share of the white noise.
+Dial size_of_memory(double white) {
+  return {[=](const Scenario& s) { return ArimaLaw::of(s.random_error).memory / (white * white); },
+          [=](Scenario& s, double x) {
+            auto law = ArimaLaw::of(s.random_error);
+            const double from_walk = law.walk_dps * (1.0 + law.phi);
+            law.memory = std::max(x * white * white, -0.25 * from_walk * from_walk);
+            law.put(s.random_error);
+          },
+          0.5};
+}
+
+Dial length_of_memory() {
+  return {[](const Scenario& s) { return std::atanh(s.random_error.phi); },
+          [](Scenario& s, double x) {
+            auto law = ArimaLaw::of(s.random_error);
+            constexpr double longest = 0.967;  // beyond, it is a slow error
+            law.phi = std::clamp(std::tanh(x), 0.05, longest);
+            law.put(s.random_error);
+          },
+          0.5};
+}
 
 std::vector<Dial> dials_of(const Scenario& scenario) {
   std::vector<Dial> dials;
@@ -19,8 +43,11 @@ std::vector<Dial> dials_of(const Scenario& scenario) {
   dials.push_back(
       logarithmic([](Scenario& s) -> double& { return s.random_error.measurement_noise_std_dps; },
                   1e-6 * white, 1e6 * white));
-  dials.push_back(logarithmic([](Scenario& s) -> double& { return s.random_error.delta1_dps; },
-                              1e-9 * white, 1e3 * white));
+  dials.push_back(size_of_walk(1e-9 * white, 1e3 * white));
+  if (scenario.random_error.phi != 0.0) {
+    dials.push_back(size_of_memory(white));
+    dials.push_back(length_of_memory());
+  }
   for (std::size_t k = 0; k < scenario.effects.size(); ++k) {
     const auto& effect = scenario.effects[k];
     const auto& cause = cause_types().named(effect.id(), "effects");
@@ -51,11 +78,13 @@ std::vector<Dial> dials_of(const Scenario& scenario) {
 
 NoiseLaw law_of(const Scenario& scenario, double interval_s) {
   const auto& e = scenario.random_error;
-  const double step = (e.delta1_dps - e.delta2_dps) / (1.0 - e.phi);
+  const auto arima = ArimaLaw::of(e);
   NoiseLaw law{.interval_s = interval_s,
                .duration_s = scenario.sampling.duration_s,
                .white = e.measurement_noise_std_dps * e.measurement_noise_std_dps,
-               .walk = step * step / interval_s};
+               .walk = arima.walk_dps * arima.walk_dps / interval_s};
+  if (e.phi > 0.0 && arima.memory != 0.0)
+    law.decaying.push_back({arima.variance(), -interval_s / std::log(e.phi)});
   for (const auto& effect : scenario.effects)
     if (const auto* cause = cause_types().find(effect.id());
         cause != nullptr && cause->enter != nullptr)

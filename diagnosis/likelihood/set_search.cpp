@@ -12,6 +12,7 @@
 
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/likelihood/compass_search.hpp>
+#include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/line_names.hpp>
 #include <gyrostat/diagnosis/likelihood/marks.hpp>
@@ -39,9 +40,18 @@ Band band_of(std::string_view id) {
              : Band::slow;
 }
 
+Band band_of_last(const Standing& standing) {
+  return band_of(standing.scenario.effects.back().id());
+}
+
 bool is_slow(std::string_view id) {
   const auto band = band_of(id);
   return band == Band::slow || band == Band::thermal;
+}
+
+void add_mark(std::string_view effect, FoundSet& found) {
+  constexpr double odds_of_a_mark = 50.0;
+  found.members.push_back({std::string(effect), odds_of_a_mark});
 }
 
 /// Standard deviation of white noise with what rounding adds.
@@ -72,6 +82,7 @@ class Search {
   FoundSet run();
   Scenario likeliest_baseline();
   Scenario subset_of(const Scenario& whole, const std::vector<std::string>& names);
+  std::vector<Nameless> nameless_beside(const Scenario& set) const;
 
  private:
   /// `left` rounds are to come at least, as far as is known.
@@ -91,9 +102,13 @@ class Search {
   /// The best of the sets with two more effects, neither of which pays alone: where both are slow,
   /// one leaves to the walk what hides it. The standing itself where there is none better.
   Standing two_further(const Standing& standing, std::vector<Standing> tried);
-  double least_gain(const Standing& standing, const Standing& next) const;
+  /// Of a further effect of the band.
+  double least_gain(const Standing& standing, Band band) const;
   /// Every member against all that might stand in its place.
   Standing exchanged(Standing standing, FoundSet& found);
+  /// With an ARIMA(1,1,1) that remembers, beside what is there or in place of what colours the
+  /// noise.
+  Standing beside_memory(const Standing& standing) const;
   /// Samples within reach of the limit: there noise decides what is clipped, and what is left of it
   /// is no longer centred.
   std::vector<char> near_the_limit(const Marks& marks) const;
@@ -120,6 +135,7 @@ class Search {
   std::size_t rounds_ = 0;  ///< in which every candidate was tried
   std::size_t left_ = 1;
   std::string doing_;
+  std::optional<Standing> end_;  ///< of the search; none where the fast part has no law
   std::vector<std::pair<std::string, double>> screening_, gains_;
 };
 
@@ -146,8 +162,7 @@ std::vector<Standing> Search::each_added(const Standing& standing) {
   return all;
 }
 
-double Search::least_gain(const Standing& standing, const Standing& next) const {
-  const auto band = band_of(next.scenario.effects.back().id());
+double Search::least_gain(const Standing& standing, Band band) const {
   double most = 0.0;
   for (const auto& [effect, gain] : gains_)
     if (has(standing.scenario, effect) &&
@@ -170,7 +185,8 @@ Standing Search::two_further(const Standing& standing, std::vector<Standing> tri
   Standing best = standing;
   for (const auto& t : tried)
     for (auto& further : each_added(t))
-      if (further.score > best.score && further.score > standing.score + least_gain(t, further))
+      if (further.score > best.score &&
+          further.score > standing.score + least_gain(t, band_of_last(further)))
         best = std::move(further);
   candidates_ = all;
   return best;
@@ -186,7 +202,7 @@ Standing Search::searched(Standing standing) {
       if (t.score > -1e299)
         screening_.emplace_back(t.scenario.effects.back().id(), t.score - standing.score);
     if (best == tried.end()) break;
-    const bool pays = best->score > standing.score + least_gain(standing, *best);
+    const bool pays = best->score > standing.score + least_gain(standing, band_of_last(*best));
     auto next = pays ? *best : two_further(standing, std::move(tried));
     if (next.score <= standing.score) break;
     gains_.emplace_back(next.scenario.effects.back().id(), next.score - standing.score);
@@ -268,9 +284,9 @@ Scenario Search::subset_of(const Scenario& whole, const std::vector<std::string>
     if (is_in(effect.id())) some.effects.push_back(effect);
   Scenario rate = some;
   std::erase_if(rate.effects, [](const auto& e) { return e.stage() == Stage::compass; });
-  auto& walk = rate.random_error.delta1_dps;
-  walk = std::max(walk, 0.03 * rate.random_error.measurement_noise_std_dps /
-                            std::sqrt(static_cast<double>(conditions_.cluster())));
+  rate = with_walk_of_at_least(std::move(rate),
+                               0.03 * rate.random_error.measurement_noise_std_dps /
+                                   std::sqrt(static_cast<double>(conditions_.cluster())));
   auto fit = bench_.refitted(rate, 8);
   if (auto other = bench_.beside_noise(rate.effects); other.score > fit.score)
     fit = std::move(other);
@@ -278,10 +294,28 @@ Scenario Search::subset_of(const Scenario& whole, const std::vector<std::string>
   return some;
 }
 
+std::vector<Nameless> Search::nameless_beside(const Scenario& set) const {
+  if (!end_) return {};
+  return nameless_parts(simulator_, recording_, *end_->fitter, end_->scenario, set);
+}
+
 Scenario Search::likeliest_baseline() {
   FoundSet found{.baseline = bench_.beside_noise({}).scenario, .scenario = bench_.plain()};
   if (conditions_.has_heading()) search_compass(simulator_, recording_, options_, found);
   return found.baseline;
+}
+
+Standing Search::beside_memory(const Standing& standing) const {
+  if (standing.scenario.random_error.phi != 0.0) return {};
+  Standing best = bench_.beside_memory(standing);
+  Scenario plain = standing.scenario;
+  std::erase_if(plain.effects, [&](const auto& effect) {
+    return !bench_.is_marked(effect.id()) && band_of(effect.id()) == Band::fast;
+  });
+  if (plain.effects.size() < standing.scenario.effects.size())
+    if (auto other = bench_.beside_memory(bench_.refitted(plain)); other.score > best.score)
+      best = std::move(other);
+  return best;
 }
 
 std::vector<char> Search::near_the_limit(const Marks& marks) const {
@@ -301,10 +335,9 @@ std::vector<char> Search::near_the_limit(const Marks& marks) const {
 }
 
 std::vector<Effect> Search::read_off(const Marks& marks, FoundSet& found) {
-  constexpr double odds_of_a_mark = 50.0;
   std::vector<Effect> effects;
   const auto add = [&](Effect effect) {
-    found.members.push_back({std::string(effect.id()), odds_of_a_mark});
+    add_mark(effect.id(), found);
     effects.push_back(std::move(effect));
   };
   if (marks.lsb_dps > 0.0 && bench_.is_allowed("quantization"))
@@ -415,12 +448,21 @@ FoundSet Search::run() {
   tell("the first effect", 3);
   auto standing = searched_beside_tails(begun);
   standing = exchanged(std::move(standing), found);
+  if (auto other = beside_memory(standing);
+      other.score > standing.score + least_gain(other, Band::fast)) {
+    found.members.clear();
+    for (const auto& effect : marked) add_mark(effect.id(), found);
+    standing = exchanged(searched(std::move(other)), found);
+    if (standing.scenario.random_error.phi != 0.0)
+      found.baseline = bench_.beside_memory(bench_.beside_noise({})).scenario;
+  }
   tell("looking for what has no name", 1);
   found.gain = standing.score - begun.score;
   found.unexplained = unexplained_by(conditions_, *standing.fitter, standing.scenario);
   add_nameless_tails(found);
   found.screening = screening_;
   found.scenario = standing.scenario;
+  if (!coarse) end_ = standing;
   add_tails(found);
   auto unseen = repeats_;
   if (has_outliers_)
@@ -452,6 +494,7 @@ FoundSet find_set(const Simulator& simulator, const Series& recording,
   found.subset = [search, whole = found.scenario](const std::vector<std::string>& names) {
     return search->subset_of(whole, names);
   };
+  found.nameless = [search](const Scenario& set) { return search->nameless_beside(set); };
   return found;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
+#include <gyrostat/diagnosis/likelihood/nameless.hpp>
 #include <gyrostat/diagnosis/likelihood/unexplained.hpp>
 #include <gyrostat/diagnosis/simulator.hpp>
 
@@ -44,6 +45,8 @@ struct FoundSet {
   /// The scenario with those effects of the set alone that have one of the names, its noise fitted
   /// anew. Outlives neither the simulator nor the recording.
   std::function<Scenario(const std::vector<std::string>&)> subset;
+  /// What no name explains, beside the set with its drift; likewise.
+  std::function<std::vector<Nameless>(const Scenario&)> nameless;
 };
 
 using SetSearchProgress = std::function<void(const std::string&, double)>;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/likelihood/autoregression.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
@@ -12,22 +13,6 @@ namespace {
 
 constexpr std::size_t order = 16;
 constexpr double cut = 4.0;  ///< standard deviations beyond which a sample does not count at first
-
-/// Prediction coefficients by Levinson's recursion.
-std::vector<double> levinson(const std::vector<double>& r) {
-  std::vector<double> a;
-  double error = r[0];
-  for (std::size_t m = 1; m < r.size(); ++m) {
-    double k = r[m];
-    for (std::size_t j = 0; j + 1 < m; ++j) k -= a[j] * r[m - 1 - j];
-    k /= error;
-    const auto before = a;
-    a.push_back(k);
-    for (std::size_t j = 0; j + 1 < m; ++j) a[j] = before[j] - k * before[m - 2 - j];
-    error *= std::max(1e-6, 1.0 - k * k);
-  }
-  return a;
-}
 
 double robust_deviation(std::vector<double> values) {
   for (double& v : values) v = std::abs(v);
@@ -45,7 +30,7 @@ Whitened whiten(const Conditions& conditions, const std::vector<double>& left, P
   for (const auto& span : conditions.spans(part))
     for (std::size_t i = span.first + order; i < span.last; ++i) {
       double e = left[i];
-      for (std::size_t j = 0; j < order; ++j) e -= coefficients[j] * left[i - 1 - j];
+      for (std::size_t j = 0; j < order; ++j) e += coefficients[j] * left[i - 1 - j];
       if (is_missing(e)) continue;
       w.samples.push_back(i);
       w.innovations.push_back(e);
@@ -81,7 +66,7 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
   tails.outliers.assign(given.size(), 0);
   if (present.size() < 500) return tails;
   const double limit = 5.0 * robust_deviation(present);
-  const auto coefficients = levinson(covariances(conditions, given, limit));
+  const auto coefficients = autoregression(covariances(conditions, given, limit)).coefficients;
   // The predictions are from cut values, so that an outlier is one innovation and not seventeen.
   std::vector<double> left = given;
   for (double& v : left)
@@ -176,7 +161,7 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
       for (std::size_t i = span.first; i < span.last; ++i) {
         double e = given[i];
         for (std::size_t j = 0; j < std::min(order, i - span.first); ++j)
-          e -= coefficients[j] * (is_missing(left[i - 1 - j]) ? 0.0 : left[i - 1 - j]);
+          e += coefficients[j] * (is_missing(left[i - 1 - j]) ? 0.0 : left[i - 1 - j]);
         if (std::abs(e) > odd) tails.outliers[i] = 1;
       }
   return tails;

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <gyrostat/analysis/statistics/distributions.hpp>
+#include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 
 namespace gyrostat::gap {
@@ -102,10 +103,7 @@ std::vector<Group> groups_of(const Conditions& conditions) {
 }
 
 /// What is looked for may be in the walk.
-Scenario with_little_walk(Scenario set) {
-  set.random_error.delta1_dps *= 0.1;
-  return set;
-}
+Scenario with_little_walk(const Scenario& set) { return with_walk_times(set, 0.1); }
 
 double log_bayes_factor_of(const SetFitter& fitter, const Scenario& set, double without,
                            const Group& group) {

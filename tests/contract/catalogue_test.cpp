@@ -108,6 +108,8 @@ Series poor_recording() {
 TEST(CatalogueContract, EveryEffectOfOursIsInItUnderItsName) {
   std::vector<std::string> effects;
   Effects::for_each([&]<class Entry>(Entry) { effects.emplace_back(Entry::id); });
+  // What a recording shows without a cause is none.
+  std::erase_if(effects, [](const auto& id) { return id.starts_with("empirical_"); });
   EXPECT_EQ(cause_types().ids(), effects);
   for (const auto& cause : cause_types()) EXPECT_EQ(cause.effect().id(), cause.id);
 }

@@ -252,11 +252,18 @@ TEST(Diagnosis, EndsWhereverItIsInterrupted) {
   for (std::size_t at = 0; at + 1 < all; at += std::max<std::size_t>(1, all / 12)) {
     std::atomic<bool> stop{false};
     std::size_t told = 0;
-    const auto stopping = [&](const auto&) {
+    // How often it tells depends on the threads: a later moment may not come.
+    const auto stopping = [&](const DiagnosisStage& now) {
       EXPECT_FALSE(stop) << at;
-      stop = told++ == at;
+      stop = told++ == at && now.share < 1.0;
     };
-    EXPECT_THROW(diagnose(series, {}, stopping, Interrupt(stop)), Interrupted) << at;
+    bool interrupted = false;
+    try {
+      diagnose(series, {}, stopping, Interrupt(stop));
+    } catch (const Interrupted&) {
+      interrupted = true;
+    }
+    EXPECT_EQ(interrupted, stop.load()) << at;
   }
 }
 

@@ -3,11 +3,13 @@
 #include <gyrostat/diagnosis/likelihood/noise_law.hpp>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include <gyrostat/analysis/spectra/welch.hpp>
+#include <gyrostat/diagnosis/likelihood/arima_law.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/set_fit.hpp>
 #include <gyrostat/generators/effects/list.hpp>
@@ -53,6 +55,28 @@ TEST_P(Density, IsWhatTheGeneratorMakes) {
     for (std::size_t k = first; k < first + 8; ++k) seen += mean[k], law += expected[k];
     EXPECT_NEAR(seen / law, 1.0, 5.0 * std::sqrt(1.5 / (8.0 * segments)) + 0.02)
         << GetParam().id() << " from bin " << first;
+  }
+}
+
+/// The walk and the decaying error that an ARIMA(1,1,1) is taken apart into have its spectrum, and
+/// make it again.
+TEST(ArimaLaw, IsTheSpectrumOfTheModel) {
+  for (const auto& e :
+       {Arima111<double>{0.8, 0.003, 0.0028, 0.01}, Arima111<double>{0.5, 0.004, 0.002, 0.02},
+        Arima111<double>{0.8, 0.008, 0.002, 0.02}, Arima111<double>{0.3, 0.002, -0.001, 0.05}}) {
+    const auto law = ArimaLaw::of(e);
+    for (double angle = 0.05; angle < 3.14; angle += 0.3) {
+      const auto z = std::polar(1.0, -angle);
+      const double whole = std::norm(e.delta1_dps - e.delta2_dps * z) /
+                           (std::norm(1.0 - e.phi * z) * std::norm(1.0 - z));
+      const double parts = law.walk_dps * law.walk_dps / std::norm(1.0 - z) +
+                           law.memory / std::norm(1.0 - e.phi * z);
+      EXPECT_NEAR(parts / whole, 1.0, 1e-12) << e.delta1_dps << " at " << angle;
+    }
+    Arima111<double> again;
+    law.put(again);
+    EXPECT_NEAR(again.delta1_dps, e.delta1_dps, 1e-15);
+    EXPECT_NEAR(again.delta2_dps, e.delta2_dps, 1e-15);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
 #include <gyrostat/diagnosis/gap/conditions.hpp>
+#include <gyrostat/diagnosis/handling.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/phase_progress.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
@@ -37,6 +38,20 @@ struct DiagnoseArguments {
   gap::DiagnosisOptions options;
 };
 
+/// Without what is not the sensor's, which is told.
+Series at_rest(const Series& series, const std::string& file, std::ostream& log) {
+  const auto handling = gap::handling_of(series);
+  const auto tell = [&](const char* end, double seconds) {
+    if (seconds > 0.0)
+      log << fmt::format("{}: the {} {:.2g} s are left out: the sensor was moved\n", file, end,
+                         seconds);
+  };
+  tell("first", handling.first_s);
+  tell("last", handling.last_s);
+  if (handling.first_s + handling.last_s == 0.0) return series;
+  return cut(series, handling.first_s, series.duration_s() - handling.last_s, file);
+}
+
 /// Nothing where Ctrl-C ended it.
 std::optional<gap::Diagnosis> diagnosed(const DiagnoseArguments& arguments, Console& console) {
   const auto& file = arguments.recording.file;
@@ -45,8 +60,10 @@ std::optional<gap::Diagnosis> diagnosed(const DiagnoseArguments& arguments, Cons
   PhaseProgress progress(console.log, console.log_is_terminal, "diagnose");
   try {
     interrupt.check();
-    const Series series = cut(gap::on_grid(read.series, file, read.first_row),
-                              arguments.span.from_s, arguments.span.to_s, file + ": --from, --to");
+    const Series series =
+        at_rest(cut(gap::on_grid(read.series, file, read.first_row), arguments.span.from_s,
+                    arguments.span.to_s, file + ": --from, --to"),
+                file, console.log);
     return about(file, [&] {
       return gap::diagnose(
           series, arguments.options,

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <gyrostat/diagnosis/diagnosis.hpp>
 #include <gyrostat/experiments/blind/blind_export.hpp>
 #include <gyrostat/experiments/blind/blind_labels.hpp>
 #include <gyrostat/experiments/blind/blind_score.hpp>
@@ -171,9 +172,10 @@ TEST(BlindCheck, DrawsEveryEffectWhereItCanBeSeen) {
     EXPECT_TRUE(with.gyro_dps != without.gyro_dps || with.heading_deg != without.heading_deg)
         << c.effects.front();
   }
-  for (const auto& id : effect_types().ids())
-    EXPECT_THAT(strengths[id], testing::ElementsAre("strong", "medium")) << id;
-  EXPECT_EQ(strengths.size(), effect_types().ids().size());
+  for (const auto& effect : gap::catalogue())
+    EXPECT_THAT(strengths[std::string(effect.id())], testing::ElementsAre("strong", "medium"))
+        << effect.id();
+  EXPECT_EQ(strengths.size(), gap::catalogue().size());
 }
 
 // Sets of every size are there in every scenario, and every recording is of a case that is scored.

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <gyrostat/diagnosis/likelihood/set_fit.hpp>
+#include <gyrostat/diagnosis/simulator.hpp>
+
+namespace gyrostat::gap {
+
+/// A part of what named effects leave, as it shows, without a cause.
+struct Nameless {
+  Effect effect;         ///< outside the catalogue, as empirical_noise
+  std::string in_words;  ///< as "a coloured noise, mostly from 3 to 12 Hz"
+};
+
+/// What the white noise of a fitted set lacks of the recording's fast spectrum, and what its white
+/// compass noise lacks of the heading's, each as an autoregression of the train part. Its order is
+/// that of the least Akaike criterion, which is what leaving out one by one would choose (Stone,
+/// Journal of the Royal Statistical Society B 39, 1977), with the likelihood of Whittle; none where
+/// it gains no more than chance would.
+///
+/// `fitted` is the set as `fitter` knows it, `set` the same with its drift, its compass and its
+/// names.
+std::vector<Nameless> nameless_parts(const Simulator& simulator, const Series& recording,
+                                     const SetFitter& fitter, const Scenario& fitted,
+                                     const Scenario& set);
+
+/// The set with them.
+Scenario with_nameless(Scenario set, const std::vector<Nameless>& parts);
+
+}  // namespace gyrostat::gap

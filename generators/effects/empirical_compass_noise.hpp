@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/random.hpp>
+#include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/all_pole.hpp>
+#include <gyrostat/generators/sampled.hpp>
+#include <gyrostat/generators/stage.hpp>
+
+namespace gyrostat::effects {
+
+/// A compass whose noise is an autoregression: what a recording shows where no cause is known. It
+/// is not in the catalogue, and is never named as one.
+struct EmpiricalCompassNoise {
+  double innovation_std_deg = 0.3;
+  double reflection_1 = -0.3, reflection_2 = 0.0, reflection_3 = 0.0, reflection_4 = 0.0;
+
+  static constexpr std::string_view title = "the compass noise has a colour without a name";
+  static constexpr Stage stage = Stage::compass;
+  static constexpr std::array needs = {&Series::heading_deg};
+
+  static constexpr auto fields() {
+    using P = EmpiricalCompassNoise;
+    constexpr Range stable{.from = -1, .to = 1};
+    constexpr auto& of_order = "reflection coefficient of the autoregression";
+    return std::array{
+        Field{"innovation_std_deg", &P::innovation_std_deg, "deg", ranges::non_negative,
+              "standard deviation of the white noise that drives it"},
+        Field{"reflection_1", &P::reflection_1, "1", stable, of_order},
+        Field{"reflection_2", &P::reflection_2, "1", stable, of_order},
+        Field{"reflection_3", &P::reflection_3, "1", stable, of_order},
+        Field{"reflection_4", &P::reflection_4, "1", stable, of_order},
+    };
+  }
+
+  static constexpr std::size_t order = 4;
+  static constexpr EmpiricalCompassNoise absent() { return {.innovation_std_deg = 0.0}; }
+
+  void apply(Series& series, const Noise& noise) const {
+    Deviates white(noise.stream("empirical_compass_noise"));
+    AllPole<order> coloured({reflection_1, reflection_2, reflection_3, reflection_4});
+    for (double& heading : series.heading_deg)
+      heading += coloured(innovation_std_deg * white.next());
+  }
+};
+
+}  // namespace gyrostat::effects
