@@ -73,6 +73,7 @@ class Work {
   Rung rung(const std::string& effect, const Scenario& scenario, std::size_t replicas) const;
   /// The scenario with those of the set's effects that have one of the names, its noise fitted.
   Scenario with_effects(const std::vector<std::string>& names) const;
+  void add_intervals(Included& included) const;
   void climb(const std::vector<std::string>& order);
   /// What the recording still shows that the simulator, enriched, does not.
   void see_what_is_left();
@@ -205,6 +206,19 @@ Scenario Work::with_effects(const std::vector<std::string>& names) const {
   return scenario;
 }
 
+/// Those of the search are of the effects under the names that it fitted them by.
+void Work::add_intervals(Included& included) const {
+  if (included.parameters.empty()) return;
+  const auto& effects = found_.scenario.effects;
+  const auto first = std::find_if(effects.begin(), effects.end(), [&](const auto& effect) {
+    return effect.id() == included.effect;
+  });
+  included.intervals.assign(included.parameters.front().fields().size(), {no_value, no_value});
+  for (const auto& interval : found_.intervals)
+    if (first == effects.begin() + static_cast<std::ptrdiff_t>(interval.effect))
+      included.intervals[interval.field] = {interval.low, interval.high};
+}
+
 /// One effect of the set after another.
 void Work::climb(const std::vector<std::string>& order) {
   std::vector<std::string> names;
@@ -247,10 +261,12 @@ void Work::attribute() {
                                .log_odds = m.log_odds,
                                .lack = truth.value - scoring_->of(without[0]).value,
                                .gap_without = 0.0,
-                               .parameters = {}});
+                               .parameters = {},
+                               .intervals = {}});
     held_out_without_.push_back(held_out_scoring_->of(without[1]));
     for (const auto& effect : result_.enriched.effects)
       if (effect.id() == m.effect) result_.effects.back().parameters.push_back(effect);
+    add_intervals(result_.effects.back());
   }
   std::vector<std::size_t> order(names.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

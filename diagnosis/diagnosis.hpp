@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -51,6 +52,9 @@ struct Included {
   double lack = 0.0;               ///< log score of the train part that the set loses without it
   double gap_without = 0.0;        ///< held-out, of the set without it
   std::vector<Effect> parameters;  ///< fitted; several where it is there several times
+  /// Of the first of them: where the recording tells, between which values each field lies with
+  /// 95 %; NaN elsewhere.
+  std::vector<std::array<double, 2>> intervals;
 };
 
 /// What named effects leave, modelled without a name.

@@ -74,6 +74,11 @@ Json to_json(const Diagnosis& d) {
     found["parameters"] = parameters_json(e.parameters.front());
     for (std::size_t k = 1; k < e.parameters.size(); ++k)
       found["further"].push_back(parameters_json(e.parameters[k]));
+    found["intervals"] = Json::object();
+    for (std::size_t f = 0; f < e.intervals.size(); ++f)
+      if (std::isfinite(e.intervals[f][0]))
+        found["intervals"][std::string(e.parameters.front().fields()[f].name)] =
+            Json::array({e.intervals[f][0], e.intervals[f][1]});
     found["gap_without"] = e.gap_without;
     json["effects"].push_back(found);
   }

@@ -10,6 +10,8 @@ struct Evidence {
   const Series& recording;
   Scene scene;
   Scenario baseline;  ///< fitted to the recording
+  /// Of the train part's cluster means under the set, at the clusters; 0 elsewhere.
+  std::vector<double> slow_innovations = {};
 
   const Conditions& conditions() const { return simulator.conditions(); }
 };

@@ -49,17 +49,12 @@ struct Diagnosed<effects::Sinusoidal> {
         reach = step;
         step /= 8.0;
       }
-      const auto line = line_at(values, spans, best, interval_s);
-      const double half =
-          slow ? 0.5 * (conditions.slow_interval_s() - conditions.interval_s()) : 0.0;
-      const double phase = (std::arg(line) + 0.5 * std::numbers::pi) * 180.0 / std::numbers::pi -
-                           360.0 * best * half;
-      const double x = std::numbers::pi * best * interval_s;
-      const double lost = slow && x > 0.0 ? std::sin(x) / x : 1.0;
-      const effects::Sinusoidal sine{std::abs(line) / lost, best, wrap_degrees(phase)};
-      if (follows_motion(e, sine)) continue;
-      found.push_back(sine);
+      keep(e, sine_at(e, best, slow), found);
     }
+    // Under the set's own red noise, a line stands out in what cannot be foretold.
+    if (const double best = clearest_line_hz(e.slow_innovations, conditions.slow_interval_s());
+        best > 0.0)
+      keep(e, sine_at(e, best, true), found);
     return found;
   }
 
@@ -70,6 +65,27 @@ struct Diagnosed<effects::Sinusoidal> {
   }
 
  private:
+  static void keep(const Evidence& e, const effects::Sinusoidal& sine,
+                   std::vector<effects::Sinusoidal>& in) {
+    if (!follows_motion(e, sine)) in.push_back(sine);
+  }
+
+  /// The sine of a frequency in the rate error, seen in samples or in the means of clusters.
+  static effects::Sinusoidal sine_at(const Evidence& e, double frequency_hz, bool slow) {
+    const auto& conditions = e.conditions();
+    const double interval_s = slow ? conditions.slow_interval_s() : conditions.interval_s();
+    const auto line =
+        line_at(slow ? e.scene.slow_dps : e.scene.rate_error_dps,
+                slow ? conditions.slow_spans(Part::train) : conditions.spans(Part::train),
+                frequency_hz, interval_s);
+    const double half = slow ? 0.5 * (conditions.slow_interval_s() - conditions.interval_s()) : 0.0;
+    const double phase = (std::arg(line) + 0.5 * std::numbers::pi) * 180.0 / std::numbers::pi -
+                         360.0 * frequency_hz * half;
+    const double x = std::numbers::pi * frequency_hz * interval_s;
+    const double lost = slow && x > 0.0 ? std::sin(x) / x : 1.0;
+    return {std::abs(line) / lost, frequency_hz, wrap_degrees(phase)};
+  }
+
   /// Power and phase of `values` at a frequency over the given stretches.
   static std::complex<double> line_at(const std::vector<double>& values,
                                       const std::vector<Span>& spans, double frequency_hz,

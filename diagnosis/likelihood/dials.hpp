@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <gyrostat/core/numerics/linear.hpp>
@@ -13,6 +15,11 @@ struct Dial {
   std::function<double(const Scenario&)> get;
   std::function<void(Scenario&, double)> set;
   double furthest = 1.0;  ///< in one step of a fit
+  /// The effect and the field of it that it moves, where it moves one.
+  struct Place {
+    std::size_t effect, field;
+  };
+  std::optional<Place> place = std::nullopt;
 };
 
 /// On a logarithmic scale, from `low` to `high`.

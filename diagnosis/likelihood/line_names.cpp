@@ -95,6 +95,8 @@ void name_lines(const SetBench& bench, const std::vector<char>& hidden, FoundSet
       if (known != found.members.end()) found.members.erase(known);
       continue;
     }
+    // Those of the resonance are not those of what it is called.
+    std::erase_if(found.intervals, [&](const auto& interval) { return interval.effect == k; });
     if (bursts)
       effect = with_values("vibration_bursts", {{"std_dps", shape.on_std_dps},
                                                 {"centre_hz", line.centre_hz},

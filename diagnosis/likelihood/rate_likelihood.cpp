@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace gyrostat::gap {
@@ -35,20 +36,31 @@ SlowLaw slow_law(const ReducedRate& reduced, const NoiseLaw& law, std::size_t cl
                .parts = {},
                .jumps = law.jumps,
                .interval_s = interval_s};
-  for (const auto& d : law.decaying) {
-    if (d.memory_s < shortest_memory * interval_s || d.variance < 0.0) {
-      fast.decaying.push_back(d);
-      continue;
-    }
-    const auto mean = mean_over(interval_s / d.memory_s);
-    slow.parts.push_back({d.variance * mean.variance, mean.neighbours / mean.variance});
-  }
+  const auto is_fast = [&](const Decaying& d) {
+    return d.memory_s < shortest_memory * interval_s || d.variance < 0.0;
+  };
+  std::copy_if(law.decaying.begin(), law.decaying.end(), std::back_inserter(fast.decaying),
+               is_fast);
   const auto density = density_of(fast, reduced.angles(), reduced.cosines());
   const auto& weights = reduced.of_a_mean();
   slow.white = std::inner_product(density.begin(), density.end(), weights.begin(), 0.0) *
                reduced.noise_of_means();
   // The mean of a walk over its cluster has a sixth of a step's variance less than its end.
   slow.white = std::max(slow.white - slow.walk / 6.0, 0.05 * (slow.white + slow.walk));
+  for (const auto& d : law.decaying) {
+    if (is_fast(d)) continue;
+    // Means over u memories have covariances that fall by exp(-u) from lag to lag, from the first
+    // on; that at lag 0 is a little less than where they come from. The white noise of the means
+    // takes the difference up as far as it goes.
+    const double u = interval_s / d.memory_s;
+    const auto mean = mean_over(u);
+    const double neighbours = d.variance * mean.neighbours, variance = d.variance * mean.variance;
+    constexpr double share_left = 0.2;
+    const double taken =
+        std::min(neighbours * std::exp(u) - variance, (1.0 - share_left) * slow.white);
+    slow.white -= taken;
+    slow.parts.push_back({variance + taken, neighbours / (variance + taken)});
+  }
   return slow;
 }
 

@@ -20,13 +20,6 @@ constexpr int screening_iterations = 3;
 /// Of an effect's guesses, so many are fitted to the end.
 constexpr std::size_t guesses_fitted = 2;
 
-/// Same in every replica and not slow: taken out of the recording, sample by sample.
-bool is_taken_out(const Effect& effect) {
-  const auto* cause = cause_types().find(effect.id());
-  return cause != nullptr && cause->signature == Signature::repeated &&
-         effect.stage() != Stage::compass;
-}
-
 /// White noise belongs in R: where the memory beside the walk were the larger, the noise would have
 /// passed a filter, and that is an effect.
 bool has_white_noise(const Scenario& scenario) {
@@ -40,6 +33,12 @@ bool has_white_noise(const Scenario& scenario) {
 bool has(const Scenario& scenario, std::string_view effect) {
   return std::any_of(scenario.effects.begin(), scenario.effects.end(),
                      [&](const auto& e) { return e.id() == effect; });
+}
+
+bool is_taken_out(const Effect& effect) {
+  const auto* cause = cause_types().find(effect.id());
+  return cause != nullptr && cause->signature == Signature::repeated &&
+         effect.stage() != Stage::compass;
 }
 
 bool SetBench::is_allowed(std::string_view effect) const {
@@ -136,6 +135,12 @@ Evidence SetBench::evidence_of(const Standing& standing) const {
   const Series left = left_by(standing.scenario);
   Evidence evidence{simulator_, recording_, Scene(conditions_, left), standing.scenario};
   evidence.baseline.effects.clear();
+  const auto& points = standing.fitter->reduced().slow(Part::train).points;
+  const auto innovations =
+      standing.fitter->terms(standing.fit.scenario, Part::train, Jumping::no).slow.innovations;
+  evidence.slow_innovations.assign(conditions_.slow_size(), 0.0);
+  for (std::size_t k = 0; k < innovations.size(); ++k)  // there is none of the first
+    evidence.slow_innovations[points[k + 1]] = innovations[k];
   return evidence;
 }
 

@@ -23,6 +23,8 @@ struct Standing {
 };
 
 bool has(const Scenario& scenario, std::string_view effect);
+/// Same in every replica and not slow: taken out of the recording, sample by sample.
+bool is_taken_out(const Effect& effect);
 
 /// Fits sets of effects to the train part of one recording, of which some samples may not count.
 class SetBench {
@@ -59,6 +61,9 @@ class SetBench {
   /// With one more effect; a score of -1e300 where it cannot be had. `left` is what the set leaves.
   Standing with(const Standing& standing, const CauseType& cause, const Evidence* left) const;
   Standing without(const Standing& standing, std::size_t effect) const;
+  /// Of the parameters of a fitted set; those of what is taken out from the curvature of the
+  /// likelihood, the other effects as they are.
+  std::vector<ParameterInterval> intervals_of(const Standing& standing) const;
   /// What starts of a further effect are made from.
   Evidence evidence_of(const Standing& standing) const;
   /// The rate error less its level and what is taken out; NaN where `hidden` (a flag a sample).
@@ -72,6 +77,8 @@ class SetBench {
   std::vector<double> rate_error_beside(const Scenario& scenario) const;
   std::shared_ptr<const SetFitter> fitter_of(const Scenario& scenario) const;
   double cost(const Scenario& scenario) const;
+  void add_intervals_of_taken_out(const Scenario& scenario, std::size_t effect,
+                                  std::vector<ParameterInterval>& to) const;
   /// The parameters of what is taken out, each by parabolas through the likelihood, the noise as it
   /// is.
   Standing polished(Standing standing) const;

@@ -69,6 +69,7 @@ std::vector<Dial> dials_of(const Scenario& scenario) {
                                     std::min(field.range.to, 1e3 * start)));
       else
         dials.push_back(linear(value, largest));
+      dials.back().place = Dial::Place{k, f};
     }
   }
   return dials;
@@ -227,6 +228,101 @@ void SetFitter::take_coefficients(const RateTerms& terms, SetFit& fit) const {
   }
 }
 
+Eigen::MatrixXd SetFitter::slopes_of(const Scenario& scenario, const std::vector<Dial>& dials,
+                                     const RateTerms& here, Jumping jumping,
+                                     Eigen::VectorXd* gradient) const {
+  constexpr double step = 1e-3;
+  const auto count = static_cast<Eigen::Index>(dials.size());
+  const auto rows = static_cast<Eigen::Index>(here.slow.innovations.size());
+  const auto bins = static_cast<Eigen::Index>(here.log_density.size());
+  Eigen::MatrixXd slopes(2 * rows + bins, count);
+  const double root = std::sqrt(reduced_->degrees(Part::train));
+  for (Eigen::Index d = 0; d < count; ++d) {
+    const auto there =
+        terms(moved(scenario, dials, step * Eigen::VectorXd::Unit(count, d)), Part::train, jumping);
+    if (gradient != nullptr) (*gradient)[d] = (there.log_likelihood - here.log_likelihood) / step;
+    for (Eigen::Index k = 0; k < rows; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      slopes(k, d) =
+          std::sqrt(0.5) * (there.slow.log_variances[i] - here.slow.log_variances[i]) / step;
+      slopes(rows + k, d) = (there.slow.innovations[i] - here.slow.innovations[i]) / step;
+    }
+    for (Eigen::Index k = 0; k < bins; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      slopes(2 * rows + k, d) = root * (there.log_density[i] - here.log_density[i]) / step;
+    }
+  }
+  return slopes;
+}
+
+std::pair<Eigen::VectorXd, Eigen::VectorXd> SetFitter::coefficients_over_walks(
+    const Scenario& scenario) const {
+  const double white = scenario.random_error.measurement_noise_std_dps;
+  const double least = 0.01 * white / std::sqrt(reduced_->cluster_s() / conditions_.interval_s());
+  std::vector<double> weights;
+  std::vector<SlowTerms> each;
+  double best = -1e300;
+  for (double factor = 1.0; factor < 300.0; factor *= 1.6) {
+    const auto there = with_walk_of_at_least(with_walk_times(scenario, 1e-6), factor * least);
+    auto tried = terms(there, Part::train, Jumping::no);
+    weights.push_back(tried.log_likelihood + std::log(factor));
+    best = std::max(best, weights.back());
+    each.push_back(std::move(tried.slow));
+  }
+  double sum = 0.0;
+  for (double& w : weights) sum += w = std::exp(w - best);
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(each.front().coefficients.size());
+  Eigen::VectorXd square = mean;
+  for (std::size_t k = 0; k < each.size(); ++k) {
+    const double share = weights[k] / sum;
+    mean += share * each[k].coefficients;
+    square += share * (each[k].coefficients.cwiseAbs2() + each[k].coefficients_std.cwiseAbs2());
+  }
+  return {mean, (square - mean.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt()};
+}
+
+std::vector<ParameterInterval> SetFitter::intervals(const SetFit& fit) const {
+  constexpr double two_sided_95 = 1.959964;
+  std::vector<ParameterInterval> found;
+  const auto dials = dials_of(fit.scenario);
+  const auto here = terms(fit.scenario, Part::train, Jumping::no);
+  const auto slopes = slopes_of(fit.scenario, dials, here, Jumping::no, nullptr);
+  Eigen::MatrixXd information = slopes.transpose() * slopes;
+  information.diagonal().array() += 1e-6;  // what nothing is known of has an interval, too
+  const Eigen::MatrixXd covariance =
+      information.ldlt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+  for (std::size_t d = 0; d < dials.size(); ++d) {
+    if (!dials[d].place) continue;
+    const auto [effect, field] = *dials[d].place;
+    const auto at = static_cast<Eigen::Index>(d);
+    const double reach = two_sided_95 * std::sqrt(std::max(0.0, covariance(at, at)));
+    const auto end = [&](double by) {
+      Scenario there = fit.scenario;
+      dials[d].set(there, dials[d].get(there) + by);
+      return there.effects[effect].value(field);
+    };
+    const double low = end(-reach), high = end(reach);
+    found.push_back({effect, field, low, high});
+  }
+  if (here.slow.coefficients.size() == 0) return found;
+  const auto [coefficients, coefficients_std] = coefficients_over_walks(fit.scenario);
+  const auto spreads = regressors_of(fit.scenario).spreads;
+  auto at = static_cast<std::size_t>(drift_.cols());
+  for (std::size_t k = 0; k < fit.scenario.effects.size(); ++k) {
+    const auto& effect = fit.scenario.effects[k];
+    const auto* cause = cause_types().find(effect.id());
+    if (cause == nullptr || cause->signature != Signature::slow) continue;
+    for (std::size_t a = 0; a < cause->amplitudes; ++a, ++at) {
+      const auto c = static_cast<Eigen::Index>(at);
+      const double value = coefficients[c] / spreads[at];
+      const double reach = two_sided_95 * coefficients_std[c] / spreads[at];
+      found.push_back(
+          {k, field_of(effect, cause->free_parameters[a]), value - reach, value + reach});
+    }
+  }
+  return found;
+}
+
 SetFit SetFitter::maximise(const Scenario& start, int iterations, Jumping jumping) const {
   SetFit fit{.scenario = start, .drift = {}};
   const auto dials = dials_of(start);
@@ -234,28 +330,9 @@ SetFit SetFitter::maximise(const Scenario& start, int iterations, Jumping jumpin
   fit.parameters = dials.size();
   RateTerms here = terms(fit.scenario, Part::train, jumping);
   double damping = 1e-2;
-  constexpr double step = 1e-3;
   for (int iteration = 0; iteration < iterations; ++iteration) {
-    const auto rows = static_cast<Eigen::Index>(here.slow.innovations.size());
-    const auto bins = static_cast<Eigen::Index>(here.log_density.size());
-    Eigen::MatrixXd slopes(2 * rows + bins, count);
     Eigen::VectorXd gradient(count);
-    const double root = std::sqrt(reduced_->degrees(Part::train));
-    for (Eigen::Index d = 0; d < count; ++d) {
-      const auto there = terms(moved(fit.scenario, dials, step * Eigen::VectorXd::Unit(count, d)),
-                               Part::train, jumping);
-      gradient[d] = (there.log_likelihood - here.log_likelihood) / step;
-      for (Eigen::Index k = 0; k < rows; ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        slopes(k, d) =
-            std::sqrt(0.5) * (there.slow.log_variances[i] - here.slow.log_variances[i]) / step;
-        slopes(rows + k, d) = (there.slow.innovations[i] - here.slow.innovations[i]) / step;
-      }
-      for (Eigen::Index k = 0; k < bins; ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        slopes(2 * rows + k, d) = root * (there.log_density[i] - here.log_density[i]) / step;
-      }
-    }
+    const auto slopes = slopes_of(fit.scenario, dials, here, jumping, &gradient);
     const Eigen::MatrixXd information = slopes.transpose() * slopes;
     bool better = false;
     for (int attempt = 0; attempt < 4 && !better; ++attempt) {

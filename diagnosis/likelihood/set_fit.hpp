@@ -4,8 +4,10 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include <gyrostat/core/interrupt.hpp>
+#include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/rate_likelihood.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
@@ -17,6 +19,12 @@ struct SetFit {
   double log_likelihood = -1e300;
   Eigen::VectorXd drift;  ///< coefficients of Conditions::drift_regressors() without the constant
   std::size_t parameters = 0;
+};
+
+/// Between which values a parameter of a scenario's effect lies with 95 %.
+struct ParameterInterval {
+  std::size_t effect, field;  ///< numbers, in the scenario and of the effect
+  double low, high;
 };
 
 /// Whether jumps are followed, or stood in for by a Gaussian law of the same covariance.
@@ -43,6 +51,10 @@ class SetFitter {
   double slow_deviation_dps() const { return amplitude_dps_; }
   /// Fisher scoring from `start`, damped (Levenberg and Marquardt), for at most `iterations`.
   SetFit maximise(const Scenario& start, int iterations, Jumping jumping = Jumping::yes) const;
+  /// Of what a fit moves or finds by least squares, from the information of its likelihood
+  /// (Kay, "Fundamentals of Statistical Signal Processing: Estimation Theory", 1993, 3.7 and 15.7),
+  /// jumps as a Gaussian law of their covariance.
+  std::vector<ParameterInterval> intervals(const SetFit& fit) const;
   /// With as much white noise as the fast part calls for, all else as it is.
   Scenario with_white_noise_scaled(Scenario scenario) const;
   RateTerms terms(const Scenario& scenario, Part part, Jumping jumping = Jumping::yes) const;
@@ -60,6 +72,14 @@ class SetFitter {
     Eigen::MatrixXd columns;
     std::vector<double> spreads;  ///< that they had
   };
+  /// Derivatives of what a likelihood is made of, a dial each; their products are its information.
+  Eigen::MatrixXd slopes_of(const Scenario& scenario, const std::vector<Dial>& dials,
+                            const RateTerms& here, Jumping jumping,
+                            Eigen::VectorXd* gradient) const;
+  /// Mean and standard deviation of the regressors' coefficients over what the walk may be: a
+  /// small one is hardly seen, and spreads them all the same. Its prior is flat in its size.
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> coefficients_over_walks(
+      const Scenario& scenario) const;
   Regressors regressors_of(const Scenario& scenario) const;
   RateTerms terms_with(const Scenario& scenario, const Regressors& regressors, Part part,
                        Jumping jumping) const;

@@ -462,6 +462,7 @@ FoundSet Search::run() {
   add_nameless_tails(found);
   found.screening = screening_;
   found.scenario = standing.scenario;
+  found.intervals = bench_.intervals_of(standing);
   if (!coarse) end_ = standing;
   add_tails(found);
   auto unseen = repeats_;

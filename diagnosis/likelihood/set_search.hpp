@@ -6,6 +6,7 @@
 
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
 #include <gyrostat/diagnosis/likelihood/nameless.hpp>
+#include <gyrostat/diagnosis/likelihood/set_fit.hpp>
 #include <gyrostat/diagnosis/likelihood/unexplained.hpp>
 #include <gyrostat/diagnosis/simulator.hpp>
 
@@ -38,7 +39,8 @@ struct FoundSet {
   /// the form of is not in the catalogue; 0: all has its name.
   double nameless_log_odds = 0.0;
   std::vector<Rival> rivals;
-  std::vector<Unexplained> unexplained;  ///< beside the set
+  std::vector<ParameterInterval> intervals;  ///< of parameters of `scenario`, where they are known
+  std::vector<Unexplained> unexplained;      ///< beside the set
   double gain = 0.0;  ///< log-likelihood of the rate's set, less its cost, beyond the baseline's
   /// What each effect would have gained at each step of the search.
   std::vector<std::pair<std::string, double>> screening;

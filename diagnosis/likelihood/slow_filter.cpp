@@ -155,6 +155,9 @@ SlowTerms gaussian_terms(const SlowLaw& law, std::span<const std::size_t> points
     const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
     const Eigen::VectorXd units = solver.solve(scaled.transpose() * left);
     terms.coefficients = prior_std.cwiseProduct(units);
+    const Eigen::MatrixXd inverse =
+        solver.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+    terms.coefficients_std = prior_std.cwiseProduct(inverse.diagonal().cwiseMax(0.0).cwiseSqrt());
     left -= scaled * units;
     terms.cost_of_coefficients = 0.5 * (solver.vectorD().array().log().sum() + units.squaredNorm());
     logs += 2.0 * terms.cost_of_coefficients;

@@ -25,6 +25,7 @@ struct SlowLaw {
 struct SlowTerms {
   double log_likelihood = 0.0;
   Eigen::VectorXd coefficients;       ///< of the regressors, most likely
+  Eigen::VectorXd coefficients_std;   ///< how well they are known
   double cost_of_coefficients = 0.0;  ///< log-likelihood lost by not knowing them
   std::vector<double> log_variances;  ///< of the innovations but the first
   std::vector<double> innovations;    ///< in units of their standard deviation

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+
+#include <unsupported/Eigen/FFT>
 
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
@@ -39,6 +42,23 @@ SpectralPeak highest_peak(const Spectrum& spectrum) {
     }
   }
   return best;
+}
+
+double clearest_line_hz(const std::vector<double>& white, double interval_s) {
+  constexpr std::size_t fewest = 64, padding = 4;
+  constexpr std::ptrdiff_t lowest_periods = 3;
+  if (white.size() < fewest) return 0.0;
+  std::vector<double> padded(padding * white.size(), 0.0);
+  std::copy(white.begin(), white.end(), padded.begin());
+  std::vector<std::complex<double>> transform;
+  Eigen::FFT<double> fft;
+  fft.fwd(transform, padded);
+  const auto best =
+      std::max_element(transform.begin() + lowest_periods * static_cast<std::ptrdiff_t>(padding),
+                       transform.begin() + static_cast<std::ptrdiff_t>(padded.size() / 2),
+                       [](const auto& a, const auto& b) { return std::norm(a) < std::norm(b); });
+  return static_cast<double>(best - transform.begin()) /
+         (interval_s * static_cast<double>(padded.size()));
 }
 
 }  // namespace gyrostat::gap

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <gyrostat/analysis/spectra/welch.hpp>
 
 namespace gyrostat::gap {
@@ -11,5 +13,9 @@ struct SpectralPeak {
 };
 
 SpectralPeak highest_peak(const Spectrum& spectrum);
+
+/// Frequency of the highest line in the periodogram of `white`, to a quarter of what its length
+/// resolves; 0 where that is too short.
+double clearest_line_hz(const std::vector<double>& white, double interval_s);
 
 }  // namespace gyrostat::gap

@@ -8,6 +8,10 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
+#include <gyrostat/diagnosis/gap/conditions.hpp>
+#include <gyrostat/diagnosis/likelihood/rate_likelihood.hpp>
+#include <gyrostat/tests/diagnosis/known_recordings.hpp>
+
 #include <gyrostat/core/random.hpp>
 
 namespace gyrostat::gap::slow_filter_test {
@@ -104,6 +108,35 @@ TEST(SlowFilter, FollowsTwoLevelsAsTheSumOverAllHistoriesDoes) {
   const auto terms = slow_terms(law, points, values, Eigen::MatrixXd(10, 0), Eigen::VectorXd());
   // Histories are merged and dropped: a few hundredths of a nat.
   EXPECT_NEAR(terms.log_likelihood, std::log(sum), 0.1);
+}
+
+/// The means of a decaying error over clusters have the covariances that integrating its own twice
+/// gives: of one that is slow to the clusters the law has them at every lag.
+TEST(SlowLaw, HasTheCovariancesOfMeans) {
+  const Series series = recorded(still(), 3, false);
+  const Conditions conditions(series);
+  const ReducedRate reduced(conditions, series.gyro_dps, std::vector<char>(series.size(), 0));
+  const double memory_s = 15.0, variance = 4e-4, interval_s = conditions.slow_interval_s();
+  const NoiseLaw white{.interval_s = conditions.interval_s(), .white = 0.0025};
+  NoiseLaw law = white;
+  law.decaying.push_back({variance, memory_s});
+  const auto slow = slow_law(reduced, law, conditions.cluster());
+  const double noise = slow_law(reduced, white, conditions.cluster()).white;
+  const auto of_the_law = [&](int lag) {
+    return slow.parts[0].variance * std::pow(slow.parts[0].decay, lag) +
+           (lag == 0 ? slow.white : 0.0);
+  };
+  // By sums over 400 points a cluster.
+  constexpr int points = 400;
+  const auto integrated = [&](int lag) {
+    double sum = 0.0;
+    for (int i = 0; i < points; ++i)
+      for (int j = 0; j < points; ++j)
+        sum += std::exp(-std::abs(lag + (i - j) / double{points}) * interval_s / memory_s);
+    return variance * sum / (points * points) + (lag == 0 ? noise : 0.0);
+  };
+  for (const int lag : {0, 1, 2, 30})
+    EXPECT_NEAR(of_the_law(lag) / integrated(lag), 1.0, 1e-5) << lag;
 }
 
 }  // namespace
