@@ -6,10 +6,8 @@
 
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
-#include <gyrostat/diagnosis/gap/conditions.hpp>
-#include <gyrostat/diagnosis/handling.hpp>
+#include <gyrostat/experiments/cli/diagnosed.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
-#include <gyrostat/experiments/cli/phase_progress.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/findings/diagnosis_page.hpp>
 #include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
@@ -27,10 +25,13 @@ constexpr const char* diagnose_examples = R"(Examples:
   gyrostat diagnose REC.csv --html GAP.html --json GAP.json
   gyrostat diagnose REC.csv --out-figures FIGURES    every picture as SVG
   gyrostat diagnose REC.csv --scenario STUDY.json    a study whose simulator has the effect
+  gyrostat diagnose REC.csv --axis all               every axis, and what they share
+  gyrostat diagnose A.csv B.csv C.csv                every sensor of a fleet, likewise
   gyrostat diagnose OTHER.csv --claim STUDY.json     does it close the gap of another recording?)";
 
 struct DiagnoseArguments {
   RecordingOption recording;
+  std::vector<std::string> further;
   SpanOption span;
   FormatOption format;
   std::string json_out, html_out, scenario_out, figures_out, claim;
@@ -38,46 +39,28 @@ struct DiagnoseArguments {
   gap::DiagnosisOptions options;
 };
 
-/// Without what is not the sensor's, which is told.
-Series at_rest(const Series& series, const std::string& file, std::ostream& log) {
-  const auto handling = gap::handling_of(series);
-  const auto tell = [&](const char* end, double seconds) {
-    if (seconds > 0.0)
-      log << fmt::format("{}: the {} {:.2g} s are left out: the sensor was moved\n", file, end,
-                         seconds);
-  };
-  tell("first", handling.first_s);
-  tell("last", handling.last_s);
-  if (handling.first_s + handling.last_s == 0.0) return series;
-  return cut(series, handling.first_s, series.duration_s() - handling.last_s, file);
-}
-
-/// Nothing where Ctrl-C ended it.
-std::optional<gap::Diagnosis> diagnosed(const DiagnoseArguments& arguments, Console& console) {
-  const auto& file = arguments.recording.file;
-  const Interrupt interrupt(console.stop);
-  const auto read = arguments.recording.read_all(console.log);
-  PhaseProgress progress(console.log, console.log_is_terminal, "diagnose");
-  try {
-    interrupt.check();
-    const Series series =
-        at_rest(cut(gap::on_grid(read.series, file, read.first_row), arguments.span.from_s,
-                    arguments.span.to_s, file + ": --from, --to"),
-                file, console.log);
-    return about(file, [&] {
-      return gap::diagnose(
-          series, arguments.options,
-          [&](const auto& now) { progress.set(now.phase, now.detail, now.share); }, interrupt);
-    });
-  } catch (const Interrupted&) {
-    return std::nullopt;
-  }
+/// What a diagnosis of several at once does not write.
+void refuse_beside_members(const DiagnoseArguments& arguments) {
+  const std::pair<const char*, bool> given[] = {{"--html", !arguments.html_out.empty()},
+                                                {"--scenario", !arguments.scenario_out.empty()},
+                                                {"--out-figures", !arguments.figures_out.empty()},
+                                                {"--claim", !arguments.claim.empty()}};
+  for (const auto& [option, is_given] : given)
+    if (is_given)
+      throw InputError(option,
+                       "is of one recording and axis; of several there are tables and --json");
 }
 
 int run(DiagnoseArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const auto& file = arguments.recording.file;
   for (const auto& name : arguments.options.without) (void)effect_types().named(name, "--without");
+  if (!arguments.further.empty() || arguments.recording.axis == "all") {
+    refuse_beside_members(arguments);
+    if (!arguments.json_out.empty()) require_writable(arguments.json_out, file);
+    return diagnose_members(arguments.recording, arguments.further, arguments.span,
+                            arguments.options, format, arguments.json_out, console);
+  }
   if (!arguments.claim.empty()) {
     const auto study = read_study(arguments.claim);
     if (study.cells.front().scenario.effects.empty())
@@ -87,7 +70,7 @@ int run(DiagnoseArguments& arguments, Console& console) {
   for (const auto& out : {arguments.json_out, arguments.html_out, arguments.scenario_out})
     if (!out.empty()) require_writable(out, file);
   if (!arguments.figures_out.empty()) make_result_folder(arguments.figures_out);
-  const auto diagnosis = diagnosed(arguments, console);
+  const auto diagnosis = diagnosed(arguments.recording, arguments.span, arguments.options, console);
   if (!diagnosis) {
     std::error_code not_empty;
     if (!arguments.figures_out.empty()) fs::remove(arguments.figures_out, not_empty);
@@ -123,6 +106,8 @@ void add_diagnose(CLI::App& program, Console& console, int& exit_code) {
       "the gap closes once it is added");
   auto arguments = std::make_shared<DiagnoseArguments>();
   arguments->recording.add_to(verb);
+  verb->add_option("further", arguments->further,
+                   "further sensors of its kind: each is diagnosed, then what they share");
   arguments->span.add_to(verb);
   verb->add_option("--json", arguments->json_out, "write the diagnosis as JSON");
   verb->add_option("--html", arguments->html_out, "write the diagnosis as a page with pictures");

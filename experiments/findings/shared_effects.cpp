@@ -1,0 +1,189 @@
+#include <gyrostat/experiments/findings/shared_effects.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <gyrostat/analysis/statistics/distributions.hpp>
+#include <gyrostat/core/step.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+/// A parameter of one member, with its standard error.
+struct Known {
+  double value, error;
+};
+
+double sum_of_weights(const std::vector<Known>& all, double variance) {
+  double sum = 0.0;
+  for (const auto& k : all) sum += 1.0 / (k.error * k.error + variance);
+  return sum;
+}
+
+double weighted_mean(const std::vector<Known>& all, double variance) {
+  double sum = 0.0;
+  for (const auto& k : all) sum += k.value / (k.error * k.error + variance);
+  return sum / sum_of_weights(all, variance);
+}
+
+/// Cochran's Q with a variance between the members; it falls with that.
+double q_of(const std::vector<Known>& all, double variance) {
+  const double mean = weighted_mean(all, variance);
+  double q = 0.0;
+  for (const auto& k : all)
+    q += (k.value - mean) * (k.value - mean) / (k.error * k.error + variance);
+  return q;
+}
+
+/// The standard deviation between members at which Q is `q`; 0 where it is less without one.
+double spread_at(const std::vector<Known>& all, double q) {
+  if (q_of(all, 0.0) <= q) return 0.0;
+  double low = 0.0, high = 0.0;
+  for (const auto& k : all) high = std::max(high, std::abs(k.value) + k.error);
+  while (q_of(all, high * high) > q && high < 1e12) high *= 2.0;
+  for (int halving = 0; halving < 80; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (q_of(all, middle * middle) > q ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+SharedParameter over_members(const std::vector<Known>& all, const Effect& of, std::size_t field) {
+  const auto& described = of.fields()[field];
+  SharedParameter p{.name = std::string(described.name),
+                    .unit = std::string(described.unit),
+                    .mean = 0.0,
+                    .mean_low = no_value,
+                    .mean_high = no_value,
+                    .spread = no_value,
+                    .spread_low = no_value,
+                    .spread_high = no_value,
+                    .p_equal = no_value};
+  const auto n = static_cast<double>(all.size());
+  if (std::any_of(all.begin(), all.end(), [](const auto& k) { return !(k.error > 0.0); })) {
+    for (const auto& k : all) p.mean += k.value / n;
+    return p;
+  }
+  const double degrees = n - 1.0;
+  p.p_equal = chi_squared_upper_tail(q_of(all, 0.0), degrees);
+  p.spread = spread_at(all, degrees);
+  p.spread_low = spread_at(all, chi_squared_upper_quantile(0.025, degrees));
+  p.spread_high = spread_at(all, chi_squared_quantile(0.025, degrees));
+  const double variance = p.spread * p.spread;
+  p.mean = weighted_mean(all, variance);
+  // Never narrower than the members' own errors make it.
+  const double q = std::max(1.0, q_of(all, variance) / degrees);
+  const double reach =
+      student_t_two_sided(0.95, degrees) * std::sqrt(q / sum_of_weights(all, variance));
+  p.mean_low = p.mean - reach;
+  p.mean_high = p.mean + reach;
+  return p;
+}
+
+const Included* found_in(const Member& member, const std::string& effect) {
+  const auto& effects = member.diagnosis.effects;
+  const auto at = std::find_if(effects.begin(), effects.end(),
+                               [&](const auto& e) { return e.effect == effect; });
+  return at == effects.end() || at->parameters.empty() ? nullptr : &*at;
+}
+
+std::string effects_of(const Diagnosis& d) {
+  std::vector<std::string> names;
+  for (const auto& e : d.effects) names.push_back(e.effect);
+  return names.empty() ? d.verdict.text() : fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::vector<SharedEffect> shared_effects(const std::vector<Member>& members) {
+  std::vector<SharedEffect> shared;
+  for (const auto& cause : catalogue()) {
+    SharedEffect one{.effect = std::string(cause.id()), .members = {}, .parameters = {}};
+    std::vector<const Included*> found;
+    for (const auto& member : members)
+      if (const auto* included = found_in(member, one.effect)) {
+        one.members.push_back(member.name);
+        found.push_back(included);
+      }
+    if (found.size() < 2) continue;
+    for (std::size_t field = 0; field < cause.fields().size(); ++field) {
+      std::vector<Known> known;
+      for (const auto* included : found) {
+        const auto interval = included->intervals.size() > field
+                                  ? included->intervals[field]
+                                  : std::array<double, 2>{no_value, no_value};
+        const double error = (interval[1] - interval[0]) / (2.0 * normal_quantile(0.975));
+        known.push_back({included->parameters.front().value(field), error});
+      }
+      one.parameters.push_back(over_members(known, cause, field));
+    }
+    shared.push_back(std::move(one));
+  }
+  std::stable_sort(shared.begin(), shared.end(), [](const auto& a, const auto& b) {
+    return a.members.size() > b.members.size();
+  });
+  return shared;
+}
+
+std::string shared_in_words(const std::vector<Member>& members) {
+  std::vector<std::string> everywhere, some, alone;
+  for (const auto& cause : catalogue()) {
+    std::vector<std::string> with;
+    for (const auto& member : members)
+      if (found_in(member, std::string(cause.id())) != nullptr) with.push_back(member.name);
+    if (with.size() == members.size())
+      everywhere.emplace_back(cause.id());
+    else if (with.size() > 1)
+      some.push_back(fmt::format("{} ({})", cause.id(), fmt::join(with, ", ")));
+    else if (with.size() == 1)
+      alone.push_back(fmt::format("{} ({})", cause.id(), with.front()));
+  }
+  const auto told = [](const char* who, const std::vector<std::string>& what) {
+    return what.empty() ? std::string() : fmt::format("{}: {}. ", who, fmt::join(what, ", "));
+  };
+  auto words =
+      told("All have", everywhere) + told("Some have", some) + told("One alone has", alone);
+  if (words.empty()) return "None has an effect that has a name.";
+  words.pop_back();
+  return words;
+}
+
+std::vector<Table> member_tables(const std::vector<Member>& members, const std::string& kind) {
+  Table each{.title = "each " + kind,
+             .columns = {{kind, ""},
+                         {"verdict", ""},
+                         {"effects", ""},
+                         {"p", "1"},
+                         {"gap", "spreads"},
+                         {"closed", "1"},
+                         {"with nameless", "1"}}};
+  for (const auto& m : members) {
+    const auto& d = m.diagnosis;
+    each.rows.push_back({m.name, d.verdict.text(), effects_of(d), d.p_before, d.gap_before,
+                         d.closed, d.remainder.parts.empty() ? d.closed : d.remainder.closed});
+  }
+  Table shared{.title = "what they share",
+               .columns = {{"effect", ""},
+                           {"in", ""},
+                           {"parameter", ""},
+                           {"unit", ""},
+                           {"mean", ""},
+                           {"95 %", ""},
+                           {"spread", ""},
+                           {"95 % of it", ""},
+                           {"p, equal", "1"}}};
+  const auto range = [](double low, double high) {
+    return is_missing(low) ? std::string() : fmt::format("{:.4g} to {:.4g}", low, high);
+  };
+  for (const auto& s : shared_effects(members))
+    for (const auto& p : s.parameters)
+      shared.rows.push_back({s.effect, fmt::format("{} of {}", s.members.size(), members.size()),
+                             p.name, p.unit, cell(p.mean), range(p.mean_low, p.mean_high),
+                             cell(p.spread), range(p.spread_low, p.spread_high), cell(p.p_equal)});
+  return {each, shared};
+}
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <gyrostat/core/table.hpp>
+#include <gyrostat/diagnosis/diagnosis.hpp>
+
+namespace gyrostat::gap {
+
+/// One of several that were diagnosed alike: an axis of a sensor, or a sensor of a fleet.
+struct Member {
+  std::string name;
+  Diagnosis diagnosis;
+};
+
+/// A parameter of an effect over the members that have it, each with its own error and beside that
+/// with a spread between them (random effects: Paule and Mandel, Journal of Research of the NBS 87,
+/// 1982).
+struct SharedParameter {
+  std::string name, unit;
+  double mean, mean_low, mean_high;        ///< 95 % (Hartung and Knapp, Statistics in Medicine 20,
+                                           ///< 2001); NaN where no error is known
+  double spread, spread_low, spread_high;  ///< standard deviation between members, 95 % (Q profile:
+                                           ///< Viechtbauer, Statistics in Medicine 26, 2007)
+  double p_equal;  ///< that chance alone makes equal members differ so (Cochran's Q)
+};
+
+/// An effect that two members have, or more.
+struct SharedEffect {
+  std::string effect;
+  std::vector<std::string> members;
+  std::vector<SharedParameter> parameters;  ///< of the first of its kind in each
+};
+
+/// Those of most members first.
+std::vector<SharedEffect> shared_effects(const std::vector<Member>& members);
+
+/// What all have, what some have, what one alone has; a sentence each.
+std::string shared_in_words(const std::vector<Member>& members);
+
+/// A row a member, then what they share. `kind` is what a member is: "axis", "sensor".
+std::vector<Table> member_tables(const std::vector<Member>& members, const std::string& kind);
+
+}  // namespace gyrostat::gap
