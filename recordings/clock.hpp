@@ -39,6 +39,10 @@ struct EvenRecording {
 EvenRecording evenly_sampled(Series series, std::string_view place, std::size_t first_row = 2,
                              double resample_hz = 0.0);
 
+/// Throws InputError at `place` where fewer than one sample in fifty of an even clock is there, as
+/// of short bursts with long pauses: no model of a series is told by that.
+void require_dense(const Series& series, std::string_view place);
+
 /// Whether every interval is within 10 % of the median one.
 bool is_even(const std::vector<double>& t_s);
 

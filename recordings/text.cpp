@@ -34,7 +34,12 @@ std::string_view take(std::string_view& text, char separator) {
   return piece;
 }
 
+/// Blanks and tabs alike where blanks separate.
+bool separates(char c, char separator) { return c == separator || (separator == ' ' && c == '\t'); }
+
 const char* cell_end(const char* begin, const char* row_end, char separator) {
+  constexpr std::string_view blanks = " \t";
+  if (separator == ' ') return std::find_first_of(begin, row_end, blanks.begin(), blanks.end());
   const void* comma = std::memchr(begin, separator, static_cast<std::size_t>(row_end - begin));
   return comma ? static_cast<const char*>(comma) : row_end;
 }
@@ -249,8 +254,8 @@ CsvHeader take_header(std::string_view& csv, std::string_view place) {
   const auto first = take(names, '\n');
   header.separator = separator_of(first);
   // "time (sec)" above single numbers is one name.
-  const auto second = names.substr(0, names.find('\n'));
-  if (header.separator == ' ' && !trimmed(second).empty() && separator_of(second) != ' ')
+  const auto second = trimmed(names.substr(0, names.find('\n')));
+  if (header.separator == ' ' && !second.empty() && second.find_first_of(" \t") == second.npos)
     header.separator = separator_of(second);
   header.names = cells_of(first, header.separator);
   if (is_row(header.names)) {
@@ -333,7 +338,8 @@ void CsvRows::read_row(const Row& row) {
       double value = no_value;
       const auto [stop, error] = fast_float::from_chars(cell, row_end, value);
       end = stop;
-      if (error != std::errc() || (end != row_end && *end != separator) || !std::isfinite(value)) {
+      if (error != std::errc() || (end != row_end && !separates(*end, separator)) ||
+          !std::isfinite(value)) {
         end = cell_end(cell, row_end, separator);
         value = odd_cell({cell, static_cast<std::size_t>(end - cell)}, i, row);
       }

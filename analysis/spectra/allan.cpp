@@ -91,8 +91,9 @@ double lag1_autocorrelation(const std::vector<double>& z) {
 /// than white is taken for white: long clusters of a rate that returns to its mean are
 /// anticorrelated, yet do not decorrelate within a sample as blue noise would.
 int power_law_exponent(const Phase& phase, std::size_t m) {
+  constexpr std::size_t enough = std::size_t{1} << 22;
   std::vector<double> z;
-  for (std::size_t i = m; i < phase.size(); i += m)
+  for (std::size_t i = m; i < phase.size() && z.size() < enough; i += m)
     if (const double sum = phase.cluster(i - m, m); !std::isnan(sum)) z.push_back(sum);
   if (z.size() < 3) return 0;
   int differences = 0;

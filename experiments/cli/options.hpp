@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/recordings/clock.hpp>
 #include <gyrostat/recordings/format_type.hpp>
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/results/render/render.hpp>
@@ -105,9 +106,12 @@ struct RecordingOption {
             .resample_hz = resample_hz};
   }
 
+  enum class Bursts { refused, taken };
+
   /// All of it, evenly sampled; says in `log` as what it was read and what was done to it. `wanted`
   /// as `read_recording` has it.
-  Recording read_all(std::ostream& log, std::span<const std::string_view> wanted = {}) const {
+  Recording read_all(std::ostream& log, std::span<const std::string_view> wanted = {},
+                     Bursts bursts = Bursts::refused) const {
     const auto how = layout();
     auto recording = read_recording(file, axis, how, wanted);
     make_even(recording, file, how);
@@ -121,16 +125,19 @@ struct RecordingOption {
                          fmt::join(recording.ignored_columns, ", "));
     if (!recording.notes.empty())
       log << fmt::format("{}: {}\n", file, fmt::join(recording.notes, "; "));
+    if (bursts == Bursts::refused) require_dense(recording.series, file);
     return recording;
   }
 
   /// The span of it.
   Series read(std::ostream& log, const SpanOption& span = {},
-              std::span<const std::string_view> wanted = {}) const {
-    auto recording = read_all(log, wanted);
-    const auto& series = recording.series;
-    if (span.from_s <= 0.0 && span.to_s > series.duration_s()) return std::move(recording.series);
-    return cut(series, span.from_s, span.to_s, file + ": --from, --to");
+              std::span<const std::string_view> wanted = {},
+              Bursts bursts = Bursts::refused) const {
+    auto series = read_all(log, wanted, Bursts::taken).series;
+    if (span.from_s > 0.0 || span.to_s <= series.duration_s())
+      series = cut(series, span.from_s, span.to_s, file + ": --from, --to");
+    if (bursts == Bursts::refused) require_dense(series, file);
+    return series;
   }
 };
 

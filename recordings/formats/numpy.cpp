@@ -129,7 +129,9 @@ void add_array(std::string_view bytes, const std::string& name, const std::strin
   const bool by_columns = behind(header, "'fortran_order'").starts_with("True");
   auto described = behind(header, "'descr'");
   const bool records = described.starts_with('[');
-  if (!records) described = header.substr(header.find("'descr'") + 7);
+  const auto key = header.find("'descr'");
+  require(key != header.npos, "has no 'descr' in its header");
+  if (!records) described = header.substr(key + 7);
   const auto fields =
       records ? record_fields(described) : std::vector<Field>{{"", quoted(described)}};
   require(!fields.empty() && shape.size() <= 2 && !(records && shape.size() != 1),

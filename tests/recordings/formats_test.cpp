@@ -311,7 +311,7 @@ TEST(Formats, ABombIsRefusedBeforeItsMemoryIsTaken) {
   std::string packed;
   Gzip gzip([&](std::string_view piece) { packed += piece; });
   const std::string row(1 << 20, '\n');
-  gzip.write("t_s,gyro_dps\n");
+  gzip.write("t_s,gyro_z_dps\n");
   for (int i = 0; i < 100; ++i) gzip.write(row);
   gzip.finish();
   folder.write("bomb.csv.gz", packed);

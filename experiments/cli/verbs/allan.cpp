@@ -23,7 +23,8 @@ struct AllanArguments {
 int run(const AllanArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   constexpr std::array<std::string_view, 1> wanted = {"gyro_dps"};
-  const Series series = arguments.recording.read(console.log, {}, wanted);
+  const Series series =
+      arguments.recording.read(console.log, {}, wanted, RecordingOption::Bursts::taken);
   Table table{.title = arguments.recording.file + ": overlapping Allan deviation",
               .columns = {{"tau", "s"},
                           {"deviation", "dps"},

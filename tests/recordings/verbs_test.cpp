@@ -6,7 +6,7 @@
 
 #include <gyrostat/tests/program.hpp>
 
-namespace gyrostat::recordings_test {
+namespace gyrostat::verbs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,10 +29,10 @@ const Row table[] = {
     {"mpu6050_turning.csv.gz", "z", "", "stamps are not"},
     {"px4_auav_x21.ulg", "z", "", "topic sensor_combined"},
     {"px4_auav_x21_static.csv.gz", "z", "", "of 14387 samples"},
-    {"xsens_dot_01_static.csv.gz", "z", "", "3 infinite values taken as missing"},
+    {"xsens_dot_01_static.csv.gz", "z", "", "taken as missing"},
 };
 
-TEST(Recordings, AllGoThroughTheVerbs) {
+TEST(Verbs, AllRecordingsGoThroughTheVerbs) {
   const char* named = std::getenv("GYROSTAT_RECORDINGS");
   const fs::path folder = named ? named : GYROSTAT_SOURCE_DIR "/../shared/recordings";
   if (!fs::exists(folder / table[0].name))
@@ -50,6 +50,11 @@ TEST(Recordings, AllGoThroughTheVerbs) {
         words.insert(words.end(), {"--resample", row.resample});
       }
       const auto ended = run_program(here, words);
+      if (std::string_view(row.name).starts_with("cubesat") && std::string_view(verb) != "allan") {
+        EXPECT_EQ(ended.exit_code, 2);
+        EXPECT_THAT(ended.err, AllOf(HasSubstr("is 25 bursts"), HasSubstr("--resample 0.0033")));
+        continue;
+      }
       EXPECT_EQ(ended.exit_code, 0) << verb << ' ' << row.name << ": " << ended.err;
       EXPECT_THAT(ended.err, HasSubstr(row.said)) << row.name;
       EXPECT_THAT(ended.out, Not(HasSubstr("nan"))) << verb << ' ' << row.name;
@@ -57,4 +62,4 @@ TEST(Recordings, AllGoThroughTheVerbs) {
 }
 
 }  // namespace
-}  // namespace gyrostat::recordings_test
+}  // namespace gyrostat::verbs_test
