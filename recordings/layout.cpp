@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -56,12 +57,62 @@ std::string_view quantity_of(std::string_view standard) {
   return channel == channels.end() ? std::string_view() : channel->unit;
 }
 
+/// The number that all of `text` is, of at most six digits.
+std::optional<std::size_t> number_of(std::string_view text) {
+  if (text.empty() || text.size() > 6) return std::nullopt;
+  std::size_t number = 0;
+  for (const char c : text) {
+    if (c < '0' || c > '9') return std::nullopt;
+    number = 10 * number + static_cast<std::size_t>(c - '0');
+  }
+  return number;
+}
+
+/// Channel → column, of "1=t" as of "t=1".
+std::map<std::string, std::string> by_channel(const RecordingLayout& layout) {
+  std::map<std::string, std::string> columns;
+  for (const auto& [left, right] : layout.columns) {
+    const bool turned = number_of(left).has_value();
+    if (!columns
+             .emplace(turned ? split_unit(right).first : left,
+                      turned ? left + right.substr(split_unit(right).first.size()) : right)
+             .second)
+      throw InputError(layout.place, fmt::format("'{}' stands twice; allowed: once", right));
+  }
+  return columns;
+}
+
+/// The unit that is stated of a column, by the standard name of its channel; taken out of `given`.
+std::string take_stated(std::map<std::string, std::string>& given, const FileColumn& column,
+                        bool one_gyro) {
+  if (const auto own = given.find(column.standard); own != given.end()) {
+    auto unit = own->second;
+    given.erase(own);
+    return unit;
+  }
+  const bool is_gyro = column.standard.starts_with("gyro_") && !one_gyro;
+  const auto all = is_gyro                               ? given.find("gyro_dps")
+                   : column.standard.starts_with("acc_") ? given.find("acc")
+                                                         : given.end();
+  return all == given.end() ? "" : all->second;
+}
+
 /// The column that is meant by `wanted`: the very name, or the same name before the unit.
 std::size_t find_column(std::span<const std::string> names, const std::string& wanted,
                         const RecordingLayout& layout, const std::string& header) {
   const auto exact = std::ranges::find(names, wanted);
   if (exact != names.end()) return static_cast<std::size_t>(exact - names.begin());
   const auto [base, unit] = split_unit(wanted);
+  if (const auto number = number_of(base)) {
+    if (*number >= 1 && *number <= names.size()) return *number - 1;
+    throw InputError(header, fmt::format("{}: there is no column {}; allowed: 1 to {}",
+                                         layout.place, *number, names.size()));
+  }
+  // A field of a struct goes by its own name, too.
+  for (auto dot = wanted.find('.'); dot != wanted.npos; dot = wanted.find('.', dot + 1)) {
+    const auto field = std::ranges::find(names, wanted.substr(dot + 1));
+    if (field != names.end()) return static_cast<std::size_t>(field - names.begin());
+  }
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto [other, other_unit] = split_unit(names[i]);
@@ -138,13 +189,32 @@ std::map<std::string, std::string> parse_assignments(const std::string& text,
   return assignments;
 }
 
+RecordingLayout over(const RecordingLayout& stated, const RecordingLayout& known) {
+  RecordingLayout both = stated;
+  for (const auto& [channel, column] : known.columns) {
+    const bool named = std::ranges::any_of(by_channel(stated), [&](const auto& one) {
+      return standard_name(one.first, stated.place) == standard_name(channel, stated.place);
+    });
+    if (named) continue;
+    both.columns[channel] = column;
+    if (const auto unit = known.units.find(channel); unit != known.units.end()) {
+      const bool own = std::ranges::any_of(stated.units, [&](const auto& one) {
+        return one.first == channel || channel.starts_with(one.first + '_');
+      });
+      if (!own) both.units[channel] = unit->second;
+    }
+  }
+  if (both.rate_hz == 0.0) both.rate_hz = known.rate_hz;
+  return both;
+}
+
 std::vector<FileColumn> under_layout(std::span<const std::string> names,
                                      std::span<const std::string> units,
                                      const RecordingLayout& layout, const std::string& header) {
   std::vector<FileColumn> columns;
   for (const auto& name : names) columns.push_back({name, name, nullptr});
   Names wanted(names.size());
-  for (const auto& [channel, text] : layout.columns) {
+  for (const auto& [channel, text] : by_channel(layout)) {
     const auto standard = standard_name(channel, layout.place);
     const auto at = find_column(names, text, layout, header);
     for (auto& column : columns)
@@ -154,17 +224,29 @@ std::vector<FileColumn> under_layout(std::span<const std::string> names,
   }
   std::map<std::string, std::string> given;
   for (const auto& [channel, unit] : layout.units)
-    given[standard_name(channel, layout.place)] = unit;
+    given[channel == "acc" ? channel : standard_name(channel, layout.place)] = unit;
+  const bool one_gyro =
+      std::ranges::find(columns, "gyro_dps", &FileColumn::standard) != columns.end();
+  bool axes = false, accelerations = false;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     auto& column = columns[i];
-    const auto stated = given.extract(column.standard);
-    if (quantity_of(column.standard).empty()) continue;
-    if (!stated.empty())
-      column.unit = &unit_named(stated.mapped(), quantity_of(column.standard),
-                                fmt::format("{}: {}", layout.place, column.standard));
+    const auto quantity = quantity_of(column.standard);
+    if (quantity.empty()) continue;
+    axes = axes || (column.standard.starts_with("gyro_") && !one_gyro);
+    accelerations = accelerations || column.standard.starts_with("acc_");
+    if (const auto stated = take_stated(given, column, one_gyro); !stated.empty())
+      column.unit =
+          &unit_named(stated, quantity, fmt::format("{}: {}", layout.place, column.standard));
     else if (!wanted[i].empty() || !units.empty())
       column.unit = unit_of(column, wanted[i], i < units.size() ? units[i] : "", header);
+    if (quantity == "dps" && !wanted[i].empty() && !column.unit)
+      throw InputError(
+          header, fmt::format("{}: column '{}' does not say its unit, and a rate in rad/s is 57 "
+                              "times one in dps; say --units gyro=rad/s, dps, mdps or lsb/131",
+                              layout.place, printable(column.name)));
   }
+  if (axes) given.erase("gyro_dps");
+  if (accelerations) given.erase("acc");
   if (!given.empty())
     throw InputError(header,
                      fmt::format("{}: a unit for '{}', but there is no such column; allowed: "

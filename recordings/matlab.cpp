@@ -12,6 +12,7 @@
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
+#include <gyrostat/recordings/column_table.hpp>
 #include <gyrostat/recordings/matlab_integrity.hpp>
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/recordings/temporary_folder.hpp>
@@ -79,7 +80,7 @@ bool is_numeric(const matvar_t& variable) {
          !variable.isComplex && variable.rank == 2 && variable.data;
 }
 
-void add_matrix(const matvar_t& variable, const std::string& name, MatColumns& columns) {
+void add_matrix(const matvar_t& variable, const std::string& name, ColumnTable& columns) {
   const bool is_vector = variable.dims[0] == 1 || variable.dims[1] == 1;
   const auto rows = is_vector ? variable.dims[0] * variable.dims[1] : variable.dims[0];
   const auto count = is_vector ? 1 : variable.dims[1];
@@ -95,7 +96,7 @@ void add_matrix(const matvar_t& variable, const std::string& name, MatColumns& c
   }
 }
 
-void add_variable(matvar_t& variable, const std::string& within, MatColumns& columns) {
+void add_variable(matvar_t& variable, const std::string& within, ColumnTable& columns) {
   if (!variable.name) return;
   std::string name = variable.name;
   if (std::ranges::find(columns.names, name) != columns.names.end()) name = within + name;
@@ -166,37 +167,16 @@ void write_variables(mat_t* file, std::span<const CsvColumn> columns) {
 
 }  // namespace
 
-void MatColumns::take(std::span<std::vector<double>* const> targets, const std::string& place) {
-  const auto first = std::ranges::find_if(targets, [](const auto* target) { return target; });
-  const auto reference = static_cast<std::size_t>(first - targets.begin());
-  const auto length = first == targets.end() ? 0 : values[reference].size();
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    if (!targets[i]) continue;
-    if (values[i].size() != length)
-      throw InputError(place, fmt::format("'{}' has {} values, '{}' has {}; allowed: equally many",
-                                          names[i], values[i].size(), names[reference], length));
-    const auto infinite =
-        std::ranges::find_if(values[i], [](double value) { return std::isinf(value); });
-    if (infinite != values[i].end())
-      throw InputError(
-          fmt::format("{}: row {}", place, infinite - values[i].begin() + 1),
-          fmt::format("'{}': {} is not a number; allowed: finite numbers, or NaN for no value",
-                      names[i], *infinite));
-  }
-  for (std::size_t i = 0; i < targets.size(); ++i)
-    if (targets[i]) *targets[i] = std::move(values[i]);
-}
-
 bool is_mat_file(const fs::path& path) { return path.extension() == ".mat"; }
 
-MatColumns read_mat(const fs::path& path) {
+ColumnTable read_mat(const fs::path& path) {
   const auto place = path.string();
   if (!fs::exists(path)) throw InputError(place, "cannot be read: No such file or directory");
   if (!fs::is_regular_file(path)) throw InputError(place, "is no file");
   require_whole_mat(path);
   const File file(Mat_Open(place.c_str(), MAT_ACC_RDONLY));
   if (!file) throw InputError(place, "cannot be read as a MATLAB file");
-  MatColumns columns;
+  ColumnTable columns;
   while (Variable variable{Mat_VarReadNext(file.get())}) add_variable(*variable, "", columns);
   if (columns.names.empty())
     throw InputError(place,

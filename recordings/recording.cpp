@@ -12,6 +12,9 @@
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
+#include <gyrostat/recordings/clock.hpp>
+#include <gyrostat/recordings/format_type.hpp>
+#include <gyrostat/recordings/input_file.hpp>
 #include <gyrostat/recordings/matlab.hpp>
 #include <gyrostat/recordings/text.hpp>
 
@@ -59,8 +62,9 @@ Names unknown_columns(const Names& names) {
   throw InputError(header,
                    fmt::format("column '{}' is missing{}; required: t_s and gyro_dps (or"
                                " gyro_x_dps, gyro_y_dps, gyro_z_dps) between commas, semicolons or"
-                               " tabs, or --columns t=NAME,gyro=NAME",
-                               name, nearest.empty() ? "" : ", is it '" + nearest + "'?"));
+                               " tabs, or --columns t=NAME,gyro=NAME{}",
+                               name, nearest.empty() ? "" : ", is it '" + nearest + "'?",
+                               name == "t_s" ? ", or --rate HZ where there are no times" : ""));
 }
 
 std::string choose_axis(std::string_view axis, const Names& names, const Names& unknown,
@@ -162,99 +166,239 @@ std::string text_cell(std::string_view text) {
 
 namespace {
 
+namespace fs = std::filesystem;
 using Targets = std::vector<std::vector<double>*>;
 
-/// A recording of columns that `read` appends to their targets.
-template <class Read>
-Recording assemble(const CsvHeader& header, const std::string& place, std::string_view axis,
-                   const RecordingLayout& layout, const Read& read) {
-  const bool has_lines = header.line > 0;
-  const auto header_place = has_lines ? fmt::format("{}:{}", place, header.line) : place;
-  const auto columns = under_layout(header.names, header.units, layout, header_place);
-  Names names;
-  for (const auto& column : columns) names.push_back(column.standard);
-
+/// The columns of a file, under a layout, and where their values go.
+struct Assembly {
+  std::string place, header_place;
+  std::vector<FileColumn> columns;
+  Names names;  ///< standard ones
   Recording recording;
-  recording.first_row = header.first_row;
-  for (const auto& column : columns)
-    if (unknown_columns({column.standard}).empty()) {
-      if (column.name != column.standard || column.unit)
-        recording.taken_as.push_back(
-            printable(column.name) + " as " + column.standard +
-            (column.unit ? fmt::format(" in {}", column.unit->name) : std::string()));
-    } else {
-      recording.ignored_columns.push_back(printable(column.name));
-    }
-  if (!contains(names, "t_s")) throw_missing("t_s", recording.ignored_columns, header_place);
-  recording.axis = choose_axis(axis, names, recording.ignored_columns, header_place);
+  Targets targets;
+  double rate_hz;
 
-  const auto place_in = [&](const Channel& channel) {
+  /// Of columns called so in the file; `line` of the header, 0 where there are no lines.
+  Assembly(const CsvHeader& header, std::string file, std::string_view axis,
+           const RecordingLayout& layout, std::span<const std::string_view> wanted)
+      : place(std::move(file)),
+        header_place(header.line > 0 ? fmt::format("{}:{}", place, header.line) : place),
+        columns(under_layout(header.names, header.units, layout, header_place)),
+        rate_hz(layout.rate_hz) {
+    for (const auto& column : columns) names.push_back(column.standard);
+    recording.first_row = header.first_row;
+    for (const auto& column : columns)
+      if (unknown_columns({column.standard}).empty()) {
+        if (column.name != column.standard || column.unit)
+          recording.taken_as.push_back(
+              printable(column.name) + " as " + column.standard +
+              (column.unit ? fmt::format(" in {}", column.unit->name) : std::string()));
+      } else if (!column.name.empty()) {
+        recording.ignored_columns.push_back(printable(column.name));
+      }
+    if (!contains(names, "t_s") && rate_hz == 0.0)
+      throw_missing("t_s", recording.ignored_columns, header_place);
+    recording.axis = choose_axis(axis, names, recording.ignored_columns, header_place);
+    targets.resize(names.size());
+    for (const auto& channel : channels) {
+      const bool is_wanted = wanted.empty() || channel.name == "gyro_dps" ||
+                             channel.name == "t_s" ||
+                             std::ranges::find(wanted, channel.name) != wanted.end();
+      const bool has_clock = channel.name == "t_s" && rate_hz > 0.0;
+      if (place_of(channel) < names.size() && is_wanted && !has_clock)
+        targets[place_of(channel)] = &(recording.series.*channel.values);
+    }
+  }
+  Assembly(const Assembly&) = delete;  // the targets are in it
+  Assembly& operator=(const Assembly&) = delete;
+
+  std::size_t place_of(const Channel& channel) const {
     const auto column = std::ranges::find(names, column_of(channel, recording.axis, names));
     return static_cast<std::size_t>(column - names.begin());
-  };
-  Targets targets(names.size());
-  for (const auto& channel : channels)
-    if (place_in(channel) < names.size())
-      targets[place_in(channel)] = &(recording.series.*channel.values);
-  read(targets);
+  }
 
-  if (recording.series.t_s.empty())
-    throw InputError(has_lines ? fmt::format("{}:{}", place, header.first_row) : place,
-                     has_lines ? "no samples below the header; required: at least one"
-                               : "no samples; required: at least one");
-  for (const auto& channel : channels) {
-    if (place_in(channel) == names.size()) continue;
-    auto& values = recording.series.*channel.values;
-    take_channel(values, {channel, columns[place_in(channel)], place, header.first_row});
-    if (std::ranges::all_of(values, is_nan)) values.clear();
+  /// Checks and converts what the targets were given.
+  Recording finished(bool calendar_times = false) && {
+    auto& series = recording.series;
+    if (series.gyro_dps.empty())
+      throw InputError(
+          recording.first_row > 0 ? fmt::format("{}:{}", place, recording.first_row) : place,
+          recording.first_row > 0 ? "no samples below the header; required: at least one"
+                                  : "no samples; required: at least one");
+    if (rate_hz > 0.0) {
+      series.t_s.resize(series.gyro_dps.size());
+      for (std::size_t i = 0; i < series.t_s.size(); ++i)
+        series.t_s[i] = static_cast<double>(i) / rate_hz;
+      recording.notes.push_back(fmt::format("times are those of {:g} Hz", rate_hz));
+    }
+    for (const auto& channel : channels) {
+      auto& values = series.*channel.values;
+      if (values.empty() || place_of(channel) == names.size()) continue;
+      const bool made = channel.name == "t_s" && rate_hz > 0.0;
+      if (made) continue;
+      auto column = columns[place_of(channel)];
+      if (channel.name == "t_s" && calendar_times) column.unit = nullptr;
+      take_channel(values, {channel, column, place, recording.first_row});
+      if (std::ranges::all_of(values, is_nan)) values.clear();
+    }
+    if (series.gyro_dps.empty())
+      throw InputError(header_place,
+                       fmt::format("column '{}' is blank throughout; required: a gyro signal",
+                                   gyro_name(recording.axis)));
+    from_the_first(series.t_s);
+    return std::move(recording);
   }
-  if (recording.series.gyro_dps.empty()) {
-    throw InputError(header_place,
-                     fmt::format("column '{}' is blank throughout; required: a gyro signal",
-                                 gyro_name(recording.axis)));
+
+  /// Times since 1970 become those since the first sample, which a double holds to the nanosecond.
+  void from_the_first(std::vector<double>& t_s) {
+    constexpr double epoch = 3e8;
+    if (t_s.front() < epoch) return;
+    recording.notes.push_back(fmt::format("times from {:.6f} s since 1970", t_s.front()));
+    const double first = t_s.front();
+    for (double& t : t_s) t -= first;
   }
-  return recording;
+};
+
+Recording recording_of(ColumnTable table, const std::string& place, std::string_view axis,
+                       const RecordingLayout& layout, std::span<const std::string_view> wanted) {
+  const CsvHeader header{.names = table.names, .units = {}, .line = 0, .first_row = 0};
+  Assembly assembly(header, place, axis, over(layout, table.layout), wanted);
+  table.take(assembly.targets, place);
+  assembly.recording.notes = table.notes;
+  return std::move(assembly).finished();
+}
+
+/// Room for about as many rows as the file has.
+void reserve_rows(const Targets& targets, std::string_view block, std::uintmax_t bytes) {
+  constexpr std::size_t most = std::size_t{1} << 27;
+  const auto lines = static_cast<double>(std::count(block.begin(), block.end(), '\n') + 1);
+  const double rows =
+      block.empty() ? 0.0
+                    : 1.02 * lines * static_cast<double>(bytes) / static_cast<double>(block.size());
+  for (auto* target : targets)
+    if (target) target->reserve(std::min(most, static_cast<std::size_t>(rows) + 16));
+}
+
+/// More than that is no recording that fits: two columns of a day at 1 kHz are 170 million values.
+void require_room(const Targets& targets, const std::string& place) {
+  constexpr std::size_t most_values = std::size_t{1} << 29;
+  std::size_t values = 0;
+  for (const auto* target : targets) values += target ? target->size() : 0;
+  if (values > most_values)
+    throw InputError(place, fmt::format("holds more than {} million values; cut it into parts",
+                                        most_values / 1'000'000));
+}
+
+Recording recording_of_text(InputFile& file, FormatHead& head, const FormatType* format,
+                            std::string_view axis, const RecordingLayout& stated,
+                            std::span<const std::string_view> wanted) {
+  LineBlocks blocks(file);
+  auto lines = blocks.next();
+  if (lines.empty())
+    throw InputError(file.place(), "is empty; allowed: a header and at least one sample");
+  const auto all = lines.size();
+  const auto header = take_header(lines, file.place());
+  head.header = &header;
+  if (!format) format = format_of(head);
+  if (format && format->read) {
+    InputFile again(file.path());  // it reads the text itself
+    auto recording = recording_of(format->read({file.path(), file.place(), &again, stated.topic}),
+                                  file.place(), axis, stated, wanted);
+    recording.format = format->id;
+    return recording;
+  }
+  const auto layout = format ? over(stated, format->layout(head)) : stated;
+  Assembly assembly(header, file.place(), axis, layout, wanted);
+  if (format) assembly.recording.format = format->id;
+  reserve_rows(assembly.targets, lines.empty() ? lines : lines.substr(0, std::size_t{1} << 20),
+               std::max<std::uintmax_t>(file.size_hint(), all));
+  CsvRows rows(header, assembly.targets, file.place(), &assembly.recording.series.t_s);
+  for (; !lines.empty(); lines = blocks.next()) {
+    rows.feed(lines);
+    require_room(assembly.targets, file.place());
+  }
+  if (const auto& odd = rows.oddities(); odd.infinite > 0)
+    assembly.recording.notes.push_back(
+        fmt::format("{} infinite value{} taken as missing, the first in line {}", odd.infinite,
+                    odd.infinite == 1 ? "" : "s", odd.infinite_line));
+  return std::move(assembly).finished(rows.oddities().calendar_times);
+}
+
+/// The one file of a folder that rosbag2 wrote.
+fs::path in_folder(const fs::path& path) {
+  std::error_code unknown;
+  if (path == "-" || !fs::is_directory(path, unknown)) return path;
+  std::vector<fs::path> bags;
+  for (const auto& entry : fs::directory_iterator(path, unknown))
+    if (entry.path().extension() == ".mcap" || entry.path().extension() == ".db3")
+      bags.push_back(entry.path());
+  if (bags.size() > 1)
+    throw InputError(path.string(), fmt::format("holds {} bags; name one, as {}", bags.size(),
+                                                std::ranges::min(bags).string()));
+  return bags.empty() ? path : bags.front();
 }
 
 }  // namespace
 
-Recording read_recording(const std::filesystem::path& path, std::string_view axis,
-                         const RecordingLayout& layout) {
-  const std::string place = path.string();
-  if (is_mat_file(path)) {
-    MatColumns mat = read_mat(path);
-    const CsvHeader header{.names = mat.names, .units = {}, .line = 0, .first_row = 0};
-    return assemble(header, place, axis, layout,
-                    [&](const Targets& targets) { mat.take(targets, place); });
+Recording read_recording(const fs::path& named, std::string_view axis,
+                         const RecordingLayout& layout, std::span<const std::string_view> wanted) {
+  const auto path = in_folder(named);
+  const auto* format = layout.preset.empty() || layout.preset == "csv"
+                           ? nullptr
+                           : &format_types().named(layout.preset, layout.place);
+  FormatHead head{path, {}, nullptr};
+  std::error_code unknown;
+  if (path != "-" && fs::is_directory(path, unknown)) {
+    if (!format) format = format_of(head);
+    if (!format || !format->read || !format->recognises(head))
+      throw InputError(path.string(),
+                       "is a directory; allowed: a file, or a folder as KITTI's oxts "
+                       "or a bag of rosbag2");
+    auto recording = recording_of(format->read({path, path.string(), nullptr, layout.topic}),
+                                  path.string(), axis, layout, wanted);
+    recording.format = format->id;
+    return recording;
   }
-  const std::string text = read_text(path);
-  std::string_view rows = text;
-  const auto header = take_header(rows, place);
-  return assemble(header, place, axis, layout,
-                  [&](const Targets& targets) { read_columns(rows, header, targets, place); });
+  InputFile file(path);
+  head.bytes = file.head();
+  if (!format && layout.preset.empty()) format = format_of(head);
+  if (format && format->read && format->recognises(head)) {
+    auto recording = recording_of(format->read({path, file.place(), &file, layout.topic}),
+                                  file.place(), axis, layout, wanted);
+    recording.format = format->id;
+    return recording;
+  }
+  if (const auto unreadable = unreadable_format(head))
+    throw InputError(file.place(), fmt::format("is {}, which cannot be read; {}", unreadable->name,
+                                               unreadable->remedy));
+  return recording_of_text(file, head, format, axis, layout, wanted);
+}
+
+void make_even(Recording& recording, std::string_view place, const RecordingLayout& layout) {
+  auto even =
+      evenly_sampled(std::move(recording.series), place, recording.first_row, layout.resample_hz);
+  recording.series = std::move(even.series);
+  if (even.note.empty()) return;
+  recording.notes.push_back(std::move(even.note));
+  recording.first_row = 0;  // samples and lines no longer go together
 }
 
 void require_uniform(const Series& series, std::string_view place, std::size_t first_row) {
   const auto& t_s = series.t_s;
-  if (t_s.size() < 2) return;
-  std::vector<double> intervals(t_s.size() - 1);
-  std::transform(t_s.begin() + 1, t_s.end(), t_s.begin(), intervals.begin(), std::minus<>());
-  auto ordered = intervals;
-  const auto middle = ordered.begin() + std::ssize(ordered) / 2;
-  std::ranges::nth_element(ordered, middle);
-  const auto is_off = [median = *middle](double interval) {
-    return std::abs(interval - median) > largest_interval_error * median;
+  if (t_s.size() < 2 || is_even(t_s)) return;
+  const double median = median_interval(t_s);
+  const auto is_off = [&](std::size_t i) {
+    return std::abs(t_s[i] - t_s[i - 1] - median) > largest_interval_error * median;
   };
-  const auto first = std::ranges::find_if(intervals, is_off);
-  if (first == intervals.end()) return;
-  const auto sample = first - intervals.begin() + 1;
+  std::size_t first = 0, count = 0;
+  for (std::size_t i = 1; i < t_s.size(); ++i)
+    if (is_off(i) && count++ == 0) first = i;
   throw InputError(
-      sample_place(place, first_row, static_cast<std::size_t>(sample)),
+      sample_place(place, first_row, first),
       fmt::format("column 't_s': '{}' comes {:.6g} s after the sample before it; allowed: {:.6g} s,"
                   " the median interval, within {:g} % ({} of {} intervals are not)",
-                  t_s[static_cast<std::size_t>(sample)], *first, *middle,
-                  100 * largest_interval_error, std::ranges::count_if(intervals, is_off),
-                  intervals.size()));
+                  t_s[first], t_s[first] - t_s[first - 1], median, 100 * largest_interval_error,
+                  count, t_s.size() - 1));
 }
 
 void write_csv(const std::filesystem::path& path, std::span<const CsvColumn> columns) {

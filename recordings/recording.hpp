@@ -17,15 +17,20 @@ struct Recording {
   std::string axis;                          ///< "x", "y" or "z"; empty for a column `gyro_dps`
   std::vector<std::string> taken_as;  ///< "Time as t_s in ms": what a layout made of which column
   std::size_t first_row = 2;          ///< line of sample 0; 0 in a file without lines
+  std::string format;                 ///< id of the preset that it was read by; empty: its own CSV
+  std::vector<std::string> notes;     ///< what was chosen, repaired or taken as missing
 };
 
-/// Reads a recording: CSV or gzip CSV, a header and then one row a sample, or a .mat file whose
-/// variables, or a struct's fields, are the columns. Names and units are those of `channels` unless
-/// `layout` has others. The gyro is `gyro_dps`, or `gyro_x_dps`, `gyro_y_dps`, `gyro_z_dps` chosen
-/// by `axis` ("x", "y", "z"; "" takes `gyro_dps` or the only one there is); the others are then the
-/// rates about the other axes, unless the file has columns of theirs. A blank cell is NaN, a
-/// column of nothing but blanks is absent. Throws InputError naming file, line, column, value and
-/// what is allowed.
+/// Reads a recording: a file of any of the `format_types()`, known by its content unless `layout`
+/// says the preset; else CSV, a header and then one row a sample; both may be gzip, and "-" is
+/// standard input. Names and units are those of `channels` unless the format or `layout` has
+/// others. The gyro is `gyro_dps`, or `gyro_x_dps`, `gyro_y_dps`, `gyro_z_dps` chosen by `axis`
+/// ("x", "y", "z"; "" takes `gyro_dps` or the only one there is); the others are then the rates
+/// about the other axes, unless the file has columns of theirs. Without times, `layout` says the
+/// rate. A blank cell and NaN are missing values, an infinity becomes one, a column of nothing else
+/// is absent. `wanted` lists the channels that are read, all where it is empty: of a long recording
+/// that saves memory. Throws InputError naming file, line, column, value and what is allowed, or
+/// the converter where the format is one that cannot be read.
 ///
 /// Example: a file with names and units of its own.
 ///
@@ -37,7 +42,12 @@ struct Recording {
 ///
 /// Thread safety: may run in any number of threads at once, of MATLAB files in one at a time.
 Recording read_recording(const std::filesystem::path& path, std::string_view axis = "",
-                         const RecordingLayout& layout = {});
+                         const RecordingLayout& layout = {},
+                         std::span<const std::string_view> wanted = {});
+
+/// Puts a recording on an even clock, as `evenly_sampled` does and `layout.resample_hz` says, and
+/// notes what was done.
+void make_even(Recording& recording, std::string_view place, const RecordingLayout& layout = {});
 
 /// Throws InputError, naming line and time, when a sampling interval of a series read from `place`,
 /// sample 0 from line `first_row` (0: no lines), is more than 10 % off the median interval.

@@ -1,89 +1,24 @@
 #include <gyrostat/recordings/text.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <memory>
-#include <new>
 #include <optional>
-#include <system_error>
 
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/values.hpp>
+#include <gyrostat/recordings/calendar.hpp>
+#include <gyrostat/recordings/input_file.hpp>
 #include <gyrostat/recordings/units.hpp>
 
 namespace gyrostat {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
-constexpr std::size_t first_bytes = std::size_t{1} << 16;
-
-/// Makes room behind the `filled` bytes of a growing text.
-void grow(std::string& text, std::size_t filled, const std::string& place) {
-  if (filled > most_bytes) throw InputError(place, "is too long; allowed: up to 1 GiB of text");
-  if (filled == text.size()) text.resize(std::min(2 * filled, most_bytes + 1));
-}
-
-std::string read_bytes(const fs::path& path, const std::string& place) {
-  std::error_code unknown;
-  if (fs::is_directory(path, unknown)) {
-    throw InputError(place, "is a directory; allowed: a CSV or CSV.gz file");
-  }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
-      std::fopen(path.c_str(), "rb"), [](auto* f) { return std::fclose(f); });
-  const auto fail = [&] {
-    throw InputError(place, "cannot be read: " + std::generic_category().message(errno));
-  };
-  if (!file) fail();
-  const auto size = fs::file_size(path, unknown);
-  std::string bytes(unknown ? first_bytes : std::clamp(size + 1, first_bytes, most_bytes), '\0');
-  std::size_t filled = 0;
-  while (const auto got = std::fread(bytes.data() + filled, 1, bytes.size() - filled, file.get())) {
-    filled += got;
-    grow(bytes, filled, place);
-  }
-  if (std::ferror(file.get())) fail();
-  bytes.resize(filled);
-  return bytes;
-}
-
-std::string gunzipped(std::string& packed, const std::string& place) {
-  z_stream stream{};
-  if (inflateInit2(&stream, MAX_WBITS + 16) != Z_OK) throw std::bad_alloc();
-  const std::unique_ptr<z_stream, int (*)(z_stream*)> closed_on_return(&stream, inflateEnd);
-  stream.next_in = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_in = static_cast<uInt>(packed.size());
-
-  std::string text(std::max(first_bytes, std::min(5 * packed.size(), most_bytes)), '\0');
-  std::size_t filled = 0;
-  for (bool done = false; !done;) {
-    grow(text, filled, place);
-    stream.next_out = reinterpret_cast<Bytef*>(text.data() + filled);
-    stream.avail_out = static_cast<uInt>(text.size() - filled);
-    const int status = inflate(&stream, Z_NO_FLUSH);
-    filled = text.size() - stream.avail_out;
-    if (status == Z_STREAM_END) {
-      done = stream.avail_in == 0;
-      inflateReset(&stream);
-    } else if (status != Z_OK && status != Z_BUF_ERROR) {
-      throw InputError(place, fmt::format("the gzip data are corrupt after {} bytes of text: {}",
-                                          filled, stream.msg ? stream.msg : zError(status)));
-    } else if (stream.avail_in == 0 && stream.avail_out > 0) {
-      throw InputError(place,
-                       fmt::format("the gzip data are truncated after {} bytes of text", filled));
-    }
-  }
-  text.resize(filled);
-  return text;
-}
+constexpr std::size_t block_bytes = std::size_t{1} << 22, longest_line = std::size_t{1} << 24;
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\n\"";
@@ -99,9 +34,20 @@ std::string_view take(std::string_view& text, char separator) {
   return piece;
 }
 
+/// Blanks and tabs alike where blanks separate.
+bool separates(char c, char separator) { return c == separator || (separator == ' ' && c == '\t'); }
+
 const char* cell_end(const char* begin, const char* row_end, char separator) {
+  constexpr std::string_view blanks = " \t";
+  if (separator == ' ') return std::find_first_of(begin, row_end, blanks.begin(), blanks.end());
   const void* comma = std::memchr(begin, separator, static_cast<std::size_t>(row_end - begin));
   return comma ? static_cast<const char*>(comma) : row_end;
+}
+
+/// Any run of blanks is one separator where blanks separate.
+const char* cell_begin(const char* begin, const char* row_end, char separator) {
+  while (separator == ' ' && begin != row_end && (*begin == ' ' || *begin == '\t')) ++begin;
+  return begin;
 }
 
 std::string shown(std::string_view text) {
@@ -109,37 +55,36 @@ std::string shown(std::string_view text) {
 }
 
 std::vector<std::string> cells_of(std::string_view line, char separator) {
+  if (separator == ' ') line = trimmed(line);
   if (line.ends_with('\r')) line.remove_suffix(1);
-  std::vector<std::string> cells(
-      static_cast<std::size_t>(std::count(line.begin(), line.end(), separator)) + 1);
-  for (auto& cell : cells) cell = trimmed(take(line, separator));
-  return cells;
+  std::vector<std::string> cells;
+  const char* cell = line.data();
+  const char* const end = cell + line.size();
+  while (true) {
+    cell = cell_begin(cell, end, separator);
+    const char* stop = cell_end(cell, end, separator);
+    cells.emplace_back(trimmed({cell, static_cast<std::size_t>(stop - cell)}));
+    if (stop == end) return cells;
+    cell = stop + 1;
+  }
 }
 
-/// The commonest of comma, semicolon and tab.
+/// The commonest of comma, semicolon and tab; blanks where there is none of them.
 char separator_of(std::string_view line) {
   char commonest = ',';
   for (const char candidate : {';', '\t'})
     if (std::count(line.begin(), line.end(), candidate) >
         std::count(line.begin(), line.end(), commonest))
       commonest = candidate;
-  return commonest;
+  const bool blanks =
+      std::count(line.begin(), line.end(), commonest) == 0 && trimmed(line).find(' ') != line.npos;
+  return blanks ? ' ' : commonest;
 }
 
 /// How many characters make the line a comment: "#", "%" or "//"; 0 where it is none.
 std::size_t comment_mark(std::string_view line) {
   return line.starts_with('#') || line.starts_with('%') ? 1 : line.starts_with("//") ? 2 : 0;
 }
-
-struct Row {
-  std::string_view cells, place;
-  std::size_t line;
-  char separator;
-
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw InputError(fmt::format("{}:{}", place, line), problem);
-  }
-};
 
 /// The whole of `text` as a finite number, or nothing.
 std::optional<double> number_in(std::string_view text, char decimal_point = '.') {
@@ -150,6 +95,13 @@ std::optional<double> number_in(std::string_view text, char decimal_point = '.')
       fast_float::parse_options{fast_float::chars_format::general, decimal_point});
   return error == std::errc() && stop == end && std::isfinite(value) ? std::optional(value)
                                                                      : std::nullopt;
+}
+
+/// Whether cells are a row of values: the first that says anything is a number or a date.
+bool is_row(const std::vector<std::string>& cells) {
+  for (const auto& cell : cells)
+    if (!cell.empty()) return number_in(cell) || number_in(cell, ',') || seconds_of_calendar(cell);
+  return false;
 }
 
 /// The cells of a line that has a unit and no number, without brackets; nothing where it is
@@ -167,58 +119,29 @@ std::vector<std::string> units_in(std::string_view line, const CsvHeader& header
   return has_unit ? units : std::vector<std::string>{};
 }
 
-/// A cell that is not just a number: blank, padded, quoted, with a plus sign or a decimal comma, or
-/// wrong.
-double odd_cell(std::string_view cell, const std::string& name, const Row& row) {
-  std::string_view number = trimmed(cell);
-  if (number.empty()) return no_value;
-  if (number.starts_with('+') && !number.starts_with("+-")) number.remove_prefix(1);
-  if (const auto value = number_in(number)) return *value;
-  if (const auto value = number_in(number, ','); value && row.separator != ',') return *value;
-  row.fail(
-      fmt::format("column '{}': '{}' is not a number; allowed: finite numbers, or a blank cell"
-                  " for no value",
-                  printable(name), shown(cell)));
+bool is_infinite(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  return text == "inf" || text == "Inf" || text == "INF" || text == "Infinity" ||
+         text == "infinity";
 }
 
-void read_row(const Row& row, std::span<const std::string> names,
-              std::span<std::vector<double>* const> targets) {
-  const char* cell = row.cells.data();
-  const char* const row_end = cell + row.cells.size();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const char* end = nullptr;
-    if (targets[i]) {
-      double value = no_value;
-      const auto [stop, error] = fast_float::from_chars(cell, row_end, value);
-      end = stop;
-      if (error != std::errc() || (end != row_end && *end != row.separator) ||
-          !std::isfinite(value)) {
-        end = cell_end(cell, row_end, row.separator);
-        value = odd_cell({cell, static_cast<std::size_t>(end - cell)}, names[i], row);
-      }
-      targets[i]->push_back(value);
-    } else {
-      end = cell_end(cell, row_end, row.separator);
-    }
-    if ((end == row_end) != (i + 1 == names.size())) {
-      row.fail(fmt::format(
-          "'{}' has {} cells; allowed: {}, as many as the header", shown(row.cells),
-          std::count(row.cells.begin(), row.cells.end(), row.separator) + 1, names.size()));
-    }
-    cell = end + 1;
-  }
+/// What programs write for a number that is none.
+bool is_no_number(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  for (const std::string_view word : {"nan", "NaN", "NAN", "Nan", "NA", "N/A", "null", "None"})
+    if (text == word) return true;
+  return false;
 }
 
 }  // namespace
 
-std::string read_text(const fs::path& path) {
-  const std::string place = path.string();
-  std::string text = read_bytes(path, place);
-  if (text.starts_with("\x1f\x8b")) text = gunzipped(text, place);
-  if (text.empty()) throw InputError(place, "is empty; allowed: a header and at least one sample");
-  if (const auto zero = text.find('\0'); zero != std::string::npos) {
-    throw InputError(place, fmt::format("is not text: byte {} is zero", zero));
-  }
+std::string read_text(const std::filesystem::path& path) {
+  InputFile file(path);
+  std::string text = file.rest(most_bytes);
+  if (text.empty())
+    throw InputError(file.place(), "is empty; allowed: a header and at least one sample");
+  if (const auto zero = text.find('\0'); zero != std::string::npos)
+    throw InputError(file.place(), fmt::format("is not text: byte {} is zero", zero));
   return text;
 }
 
@@ -227,6 +150,92 @@ std::string printable(std::string_view text) {
   std::replace_if(
       ascii.begin(), ascii.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return ascii;
+}
+
+LineBlocks::LineBlocks(InputFile& file) : file_(file), block_(block_bytes, '\0') {
+  const auto head = file.head();
+  const auto zeros = [&](std::size_t from) {
+    std::size_t count = 0;
+    for (std::size_t i = from; i < std::min<std::size_t>(head.size(), 64); i += 2)
+      count += head[i] == '\0' ? 1 : 0;
+    return count;
+  };
+  const std::size_t most = std::min<std::size_t>(head.size(), 64) / 2;
+  if (head.starts_with("\xff\xfe") || (most >= 8 && zeros(1) == most && zeros(0) == 0))
+    encoding_ = Encoding::utf16_little;
+  else if (head.starts_with("\xfe\xff") || (most >= 8 && zeros(0) == most && zeros(1) == 0))
+    encoding_ = Encoding::utf16_big;
+}
+
+std::size_t LineBlocks::fill(char* to, std::size_t most) {
+  if (encoding_ == Encoding::bytes) {
+    const auto got = file_.read(to, most);
+    if (const void* zero = std::memchr(to, 0, got))
+      throw InputError(
+          file_.place(),
+          fmt::format("is not text: byte {} is zero",
+                      before_ + static_cast<std::size_t>(static_cast<const char*>(zero) - to)));
+    before_ += got;
+    return got;
+  }
+  // Two bytes become at most three.
+  const auto kept = raw_.size();
+  raw_.resize(kept + std::max<std::size_t>(2, most / 3));
+  raw_.resize(kept + file_.read(raw_.data() + kept, raw_.size() - kept));
+  char* end = to;
+  std::size_t i = 0;
+  for (; i + 1 < raw_.size(); i += 2) {
+    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(raw_[i + k]); };
+    unsigned unit =
+        encoding_ == Encoding::utf16_little ? byte(0) + 256u * byte(1) : byte(1) + 256u * byte(0);
+    if (unit >= 0xD800 && unit < 0xDC00) {
+      high_surrogate_ = unit;
+      continue;
+    }
+    if (unit >= 0xDC00 && unit < 0xE000)
+      unit = 0x10000 + ((high_surrogate_ & 0x3FF) << 10) + (unit & 0x3FF);
+    if (unit == 0) throw InputError(file_.place(), "is not text: it holds a zero character");
+    if (unit == 0xFEFF) continue;  // the byte order mark
+    const auto put = [&](unsigned value) { *end++ = static_cast<char>(value); };
+    if (unit < 0x80) {
+      put(unit);
+    } else if (unit < 0x800) {
+      put(0xC0 | unit >> 6);
+      put(0x80 | (unit & 0x3F));
+    } else if (unit < 0x10000) {
+      put(0xE0 | unit >> 12);
+      put(0x80 | (unit >> 6 & 0x3F));
+      put(0x80 | (unit & 0x3F));
+    } else {
+      put(0xF0 | unit >> 18);
+      put(0x80 | (unit >> 12 & 0x3F));
+      put(0x80 | (unit >> 6 & 0x3F));
+      put(0x80 | (unit & 0x3F));
+    }
+  }
+  const bool ended = raw_.size() == kept;
+  raw_.erase(0, i);
+  if (end == to && !ended) return fill(to, most);
+  return static_cast<std::size_t>(end - to);
+}
+
+std::string_view LineBlocks::next() {
+  constexpr std::size_t least_room = 64;
+  std::memmove(block_.data(), block_.data() + used_, filled_ - used_);
+  filled_ -= used_;
+  while (true) {
+    if (filled_ > longest_line)
+      throw InputError(file_.place(), "has a line of more than 16 MiB; allowed: a row a line");
+    if (block_.size() - filled_ < least_room) block_.resize(2 * block_.size());
+    std::size_t got = 1;
+    while (got > 0 && block_.size() - filled_ >= least_room) {
+      got = fill(block_.data() + filled_, block_.size() - filled_);
+      filled_ += got;
+    }
+    const auto end = std::string_view(block_.data(), filled_).rfind('\n');
+    used_ = got == 0 ? filled_ : end == std::string_view::npos ? 0 : end + 1;
+    if (got == 0 || used_ > 0) return {block_.data(), used_};
+  }
 }
 
 CsvHeader take_header(std::string_view& csv, std::string_view place) {
@@ -244,10 +253,20 @@ CsvHeader take_header(std::string_view& csv, std::string_view place) {
   auto names = csv;
   const auto first = take(names, '\n');
   header.separator = separator_of(first);
+  // "time (sec)" above single numbers is one name.
+  const auto second = trimmed(names.substr(0, names.find('\n')));
+  if (header.separator == ' ' && !second.empty() && second.find_first_of(" \t") == second.npos)
+    header.separator = separator_of(second);
   header.names = cells_of(first, header.separator);
-  if (!comment.empty() && number_in(header.names.front())) {
-    header.names = cells_of(comment, header.separator);
-    header.first_row = header.line--;
+  if (is_row(header.names)) {
+    auto commented = cells_of(comment, header.separator);
+    header.numbered = commented.size() != header.names.size() || is_row(commented);
+    header.first_row = header.line;
+    if (header.numbered)
+      for (std::size_t i = 0; i < header.names.size(); ++i) header.names[i] = std::to_string(i + 1);
+    else
+      header.names = std::move(commented);
+    if (!header.numbered) --header.line;
   } else {
     csv = names;
     header.first_row = header.line + 1;
@@ -258,27 +277,99 @@ CsvHeader take_header(std::string_view& csv, std::string_view place) {
   }
   auto sorted = header.names;
   std::sort(sorted.begin(), sorted.end());
-  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end()) {
+  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+      twice != sorted.end() && !twice->empty()) {
     throw InputError(fmt::format("{}:{}", place, header.line),
                      fmt::format("column '{}' appears twice; allowed: once", shown(*twice)));
   }
   return header;
 }
 
-void read_columns(std::string_view rows, const CsvHeader& header,
-                  std::span<std::vector<double>* const> targets, std::string_view place) {
-  const auto most_rows = static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')) + 1;
-  for (auto* target : targets) {
-    if (target) target->reserve(most_rows);
+struct CsvRows::Row {
+  std::string_view cells, place;
+  std::size_t line;
+
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw InputError(fmt::format("{}:{}", place, line), problem);
   }
-  for (std::size_t line = header.first_row; !rows.empty(); ++line) {
-    Row row{take(rows, '\n'), place, line, header.separator};
-    if (row.cells.ends_with('\r')) row.cells.remove_suffix(1);
-    if (trimmed(row.cells).empty()) {
-      if (trimmed(rows).empty()) return;
-      row.fail("is blank; allowed: blank lines at the end only");
+};
+
+CsvRows::CsvRows(const CsvHeader& header, std::span<std::vector<double>* const> targets,
+                 std::string_view place, const std::vector<double>* times)
+    : header_(header),
+      targets_(targets.begin(), targets.end()),
+      place_(place),
+      times_(times),
+      line_(header.first_row) {}
+
+/// A cell that is not just a number: blank, padded, quoted, with a plus sign or a decimal comma, no
+/// number by its own word, a date, or wrong.
+double CsvRows::odd_cell(std::string_view cell, std::size_t column, const Row& row) {
+  std::string_view number = trimmed(cell);
+  if (number.empty() || is_no_number(number)) return no_value;
+  if (is_infinite(number)) {
+    if (oddities_.infinite++ == 0) oddities_.infinite_line = row.line;
+    return no_value;
+  }
+  const bool is_time = times_ != nullptr && targets_[column] == times_;
+  if (const auto moment = is_time ? seconds_of_calendar(number) : std::nullopt) {
+    oddities_.calendar_times = true;
+    return *moment;
+  }
+  if (number.starts_with('+') && !number.starts_with("+-")) number.remove_prefix(1);
+  if (const auto value = number_in(number)) return *value;
+  if (const auto value = number_in(number, ','); value && header_.separator != ',') return *value;
+  row.fail(
+      fmt::format("column '{}': '{}' is not a number; allowed: finite numbers{}, or a blank "
+                  "cell or NaN for no value",
+                  printable(header_.names[column]), shown(cell),
+                  is_time ? ", dates as 2026-01-31T23:59:59.5" : ""));
+}
+
+void CsvRows::read_row(const Row& row) {
+  const char separator = header_.separator;
+  const char* cell = row.cells.data();
+  const char* const row_end = cell + row.cells.size();
+  const std::size_t count = header_.names.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    cell = cell_begin(cell, row_end, separator);
+    const char* end = nullptr;
+    if (targets_[i]) {
+      double value = no_value;
+      const auto [stop, error] = fast_float::from_chars(cell, row_end, value);
+      end = stop;
+      if (error != std::errc() || (end != row_end && !separates(*end, separator)) ||
+          !std::isfinite(value)) {
+        end = cell_end(cell, row_end, separator);
+        value = odd_cell({cell, static_cast<std::size_t>(end - cell)}, i, row);
+      }
+      targets_[i]->push_back(value);
+    } else {
+      end = cell_end(cell, row_end, separator);
     }
-    read_row(row, header.names, targets);
+    if ((end == row_end) != (i + 1 == count)) {
+      const auto cells = separator == ' '
+                             ? static_cast<std::ptrdiff_t>(cells_of(row.cells, ' ').size())
+                             : std::count(row.cells.begin(), row.cells.end(), separator) + 1;
+      row.fail(fmt::format("'{}' has {} cells; allowed: {}, as many as the header",
+                           shown(row.cells), cells, count));
+    }
+    cell = end + 1;
+  }
+}
+
+void CsvRows::feed(std::string_view lines) {
+  for (; !lines.empty(); ++line_) {
+    Row row{take(lines, '\n'), place_, line_};
+    if (row.cells.ends_with('\r')) row.cells.remove_suffix(1);
+    if (header_.separator == ' ')
+      while (row.cells.ends_with(' ') || row.cells.ends_with('\t')) row.cells.remove_suffix(1);
+    if (trimmed(row.cells).empty()) {
+      if (blank_ == 0) blank_ = line_;
+      continue;
+    }
+    if (blank_ > 0) Row{{}, place_, blank_}.fail("is blank; allowed: blank lines at the end only");
+    read_row(row);
   }
 }
 

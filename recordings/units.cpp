@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
 
 #include <gyrostat/core/error.hpp>
@@ -27,9 +31,13 @@ constexpr std::array units = {
     Unit{"deg/s", "dps"},
     Unit{"°/s", "dps"},
     Unit{"deg_s", "dps"},
+    Unit{"deg/sec", "dps"},
+    Unit{"deg s^-1", "dps"},
     Unit{"mdps", "dps", 0, 1, 1e3},
     Unit{"rad/s", "dps", 0, 180, pi},
     Unit{"rad_s", "dps", 0, 180, pi},
+    Unit{"rad/sec", "dps", 0, 180, pi},
+    Unit{"rad s^-1", "dps", 0, 180, pi},
     Unit{"rads", "dps", 0, 180, pi},
     Unit{"radps", "dps", 0, 180, pi},
     Unit{"mrad/s", "dps", 0, 0.180, pi},
@@ -52,11 +60,32 @@ constexpr std::array units = {
     Unit{"m/s²", "m/s²"},
     Unit{"m/s2", "m/s²"},
     Unit{"m/s^2", "m/s²"},
+    Unit{"m s^-2", "m/s²"},
     Unit{"mps2", "m/s²"},
     Unit{"g", "m/s²", 0, g_mps2},
     Unit{"mg", "m/s²", 0, g_mps2, 1e3},
     Unit{"1", "1"},
 };
+
+/// "lsb/131": counts, so many to the program's own unit. Its name lives as long as the program.
+const Unit* count_unit(std::string_view name, std::string_view quantity) {
+  constexpr std::string_view begin = "lsb/";
+  double counts = 0.0;
+  if (!name.starts_with(begin)) return nullptr;
+  const auto number = name.substr(begin.size());
+  const auto [stop, error] = std::from_chars(number.data(), number.data() + number.size(), counts);
+  if (error != std::errc() || stop != number.data() + number.size() || !(counts > 0.0) ||
+      !std::isfinite(counts))
+    return nullptr;
+  static std::mutex one_at_a_time;
+  static std::map<std::pair<std::string, std::string>, Unit> known;
+  const std::lock_guard lock(one_at_a_time);
+  const auto [entry, is_new] =
+      known.try_emplace({std::string(name), std::string(quantity)}, Unit{"", "", 0, 1, counts});
+  if (is_new) entry->second.name = entry->first.first;
+  if (is_new) entry->second.quantity = entry->first.second;
+  return &entry->second;
+}
 
 std::string_view without_blanks(std::string_view text) {
   while (text.starts_with(' ') || text.starts_with('\t')) text.remove_prefix(1);
@@ -69,7 +98,7 @@ std::string_view without_blanks(std::string_view text) {
 const Unit* find_unit(std::string_view name, std::string_view quantity) {
   const auto found = std::ranges::find_if(
       units, [&](const Unit& unit) { return unit.name == name && unit.quantity == quantity; });
-  return found == units.end() ? nullptr : &*found;
+  return found == units.end() ? count_unit(name, quantity) : &*found;
 }
 
 const Unit& unit_named(std::string_view name, std::string_view quantity, std::string_view place) {
@@ -81,7 +110,8 @@ const Unit& unit_named(std::string_view name, std::string_view quantity, std::st
       names.emplace_back(unit.name);
       all += (all.empty() ? "" : ", ") + names.back();
     }
-  throw InputError(place, unknown_name("unit", name, names) + "; allowed: " + all);
+  throw InputError(place, unknown_name("unit", name, names) + "; allowed: " + all +
+                              ", or lsb/N for N counts to the " + std::string(quantity));
 }
 
 bool is_unit(std::string_view name) {

@@ -20,8 +20,8 @@ struct Unit {
   bool is_own() const { return zero == 0.0 && times == over; }
 };
 
-/// The unit of `quantity` called `name`, of which there may be several spellings ("us", "µs"); none
-/// where there is no such unit.
+/// The unit of `quantity` called `name`, of which there may be several spellings ("us", "µs"), or
+/// "lsb/131" for 131 counts to the program's own unit; none where there is no such unit.
 const Unit* find_unit(std::string_view name, std::string_view quantity);
 
 /// The same; throws InputError at `place` with the nearest known name.

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <string>
 
 #include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/core/values.hpp>
 
 namespace gyrostat {
 namespace {
@@ -19,26 +21,60 @@ void require(bool holds, const std::string& place, const std::string& problem) {
   if (!holds) throw InputError(place, problem);
 }
 
-/// Running sum of the rate about its mean, from 0: the phase, in samples times the rate's unit.
-std::vector<double> phase_of(std::span<const double> rate, std::span<const std::size_t> clusters) {
-  const std::size_t n = rate.size();
+void require_clusters(std::size_t n, std::span<const std::size_t> clusters) {
   require(n >= 2, "rate", std::to_string(n) + " samples; at least 2 are needed");
   for (const std::size_t m : clusters)
     require(m >= 1 && m <= n / 2, "clusters",
             std::to_string(m) + " is outside [1, " + std::to_string(n / 2) + "]");
-  for (std::size_t i = 0; i < n; ++i)
-    require(std::isfinite(rate[i]), "rate[" + std::to_string(i) + "]",
-            "is missing or not finite; fill the gap or pass a stretch without one");
-  const double mean = std::accumulate(rate.begin(), rate.end(), 0.0) / static_cast<double>(n);
-  std::vector<double> phase(n + 1, 0.0);
-  for (std::size_t i = 0; i < n; ++i) phase[i + 1] = phase[i] + (rate[i] - mean);
-  return phase;
 }
 
-/// Difference of the sums over the two clusters of m samples that start at i.
-double haar(const std::vector<double>& phase, std::size_t i, std::size_t m) {
-  return phase[i + 2 * m] - 2.0 * phase[i + m] + phase[i];
-}
+/// A cluster stands for its mean where no more of it is missing: the variance of white noise is
+/// then at most a quarter too large, and by the missing share on average.
+constexpr double least_present = 0.8;
+
+/// Running sum of the rate about its mean, from 0: the phase, in samples times the rate's unit; and
+/// how many samples there were, where some are missing.
+class Phase {
+ public:
+  explicit Phase(std::span<const double> rate) : sum_(rate.size() + 1, 0.0) {
+    std::size_t present = 0;
+    double total = 0.0;
+    for (std::size_t i = 0; i < rate.size(); ++i) {
+      require(!std::isinf(rate[i]), "rate[" + std::to_string(i) + "]", "is not finite");
+      if (std::isnan(rate[i])) continue;
+      total += rate[i];
+      ++present;
+    }
+    require(present >= 2, "rate", std::to_string(present) + " samples; at least 2 are needed");
+    const double mean = total / static_cast<double>(present);
+    if (present < rate.size()) present_.resize(rate.size() + 1, 0);
+    for (std::size_t i = 0; i < rate.size(); ++i) {
+      const bool is_there = !std::isnan(rate[i]);
+      sum_[i + 1] = is_there ? sum_[i] + (rate[i] - mean) : sum_[i];
+      if (!present_.empty()) present_[i + 1] = present_[i] + (is_there ? 1u : 0u);
+    }
+  }
+
+  bool is_complete() const { return present_.empty(); }
+  std::size_t size() const { return sum_.size(); }
+  /// Of the m samples from i; NaN where too many are missing.
+  double cluster(std::size_t i, std::size_t m) const {
+    const double sum = sum_[i + m] - sum_[i];
+    if (is_complete()) return sum;
+    const auto there = static_cast<double>(present_[i + m] - present_[i]);
+    const auto all = static_cast<double>(m);
+    return there < least_present * all ? no_value : sum * (all / there);
+  }
+  /// Difference of the sums over the two clusters of m samples that start at i.
+  double haar(std::size_t i, std::size_t m) const {
+    if (is_complete()) return sum_[i + 2 * m] - 2.0 * sum_[i + m] + sum_[i];
+    return cluster(i + m, m) - cluster(i, m);
+  }
+
+ private:
+  std::vector<double> sum_;
+  std::vector<std::uint32_t> present_;
+};
 
 double lag1_autocorrelation(const std::vector<double>& z) {
   const double mean = std::accumulate(z.begin(), z.end(), 0.0) / static_cast<double>(z.size());
@@ -54,9 +90,12 @@ double lag1_autocorrelation(const std::vector<double>& z) {
 /// Exponent alpha in [-2, 0] of the rate's spectrum f^alpha about 1/(m samples). What looks bluer
 /// than white is taken for white: long clusters of a rate that returns to its mean are
 /// anticorrelated, yet do not decorrelate within a sample as blue noise would.
-int power_law_exponent(const std::vector<double>& phase, std::size_t m) {
+int power_law_exponent(const Phase& phase, std::size_t m) {
+  constexpr std::size_t enough = std::size_t{1} << 22;
   std::vector<double> z;
-  for (std::size_t i = m; i < phase.size(); i += m) z.push_back(phase[i] - phase[i - m]);
+  for (std::size_t i = m; i < phase.size() && z.size() < enough; i += m)
+    if (const double sum = phase.cluster(i - m, m); !std::isnan(sum)) z.push_back(sum);
+  if (z.size() < 3) return 0;
   int differences = 0;
   const auto half_exponent = [&] {
     const double r1 = lag1_autocorrelation(z);
@@ -106,12 +145,28 @@ double equivalent_degrees_of_freedom(int alpha, std::size_t n, std::size_t m) {
 /// and the variance of its mean square is that of a Gaussian one with its own autocovariance, which
 /// ends within two clusters for white noise and random walks, whatever their mixture. About eight
 /// lags a cluster add up to as much as all.
-double degrees_of_freedom_of(const std::vector<double>& differences, std::size_t m) {
-  const std::size_t count = differences.size(), step = std::max<std::size_t>(1, m / 8);
+/// Millions of products tell a covariance as well as all, so of long series every so-manieth is
+/// taken.
+double degrees_of_freedom_of(const Phase& phase, std::size_t count, std::size_t m) {
+  constexpr std::size_t enough = std::size_t{1} << 22;
+  const std::size_t step = std::max<std::size_t>(1, m / 8), stride = (count + enough - 1) / enough;
+  std::vector<double> differences(stride == 1 ? count : 0);
+  for (std::size_t i = 0; i < differences.size(); ++i) differences[i] = phase.haar(i, m);
+  const auto difference = [&](std::size_t i) {
+    return stride == 1 ? differences[i] : phase.haar(i, m);
+  };
   const auto covariance = [&](std::size_t lag) {
     double sum = 0.0;
-    for (std::size_t i = lag; i < count; ++i) sum += differences[i] * differences[i - lag];
-    return sum / static_cast<double>(count);
+    std::size_t products = 0, places = 0;
+    for (std::size_t i = lag; i < count; i += stride, ++places) {
+      const double product = difference(i) * difference(i - lag);
+      if (std::isnan(product)) continue;
+      sum += product;
+      ++products;
+    }
+    if (products == places && stride == 1) return sum / static_cast<double>(count);
+    const double share = static_cast<double>(count - lag) / static_cast<double>(count);
+    return products == 0 ? 0.0 : share * sum / static_cast<double>(products);
   };
   const double variance = covariance(0);
   double sum = 0.5 * variance * variance;
@@ -144,22 +199,31 @@ std::vector<AllanPoint> overlapping_allan_deviation(std::span<const double> rate
   const std::size_t n = rate.size();
   const auto by_default = clusters.empty() ? allan_clusters(n) : std::vector<std::size_t>{};
   if (clusters.empty()) clusters = by_default;
-  const auto phase = phase_of(rate, clusters);
+  require_clusters(n, clusters);
+  const Phase phase(rate);
 
   std::vector<AllanPoint> points;
   for (const std::size_t m : clusters) {
-    std::vector<double> differences(n - 2 * m + 1);
-    for (std::size_t i = 0; i < differences.size(); ++i) differences[i] = haar(phase, i, m);
     double sum = 0.0;
-    for (const double d : differences) sum += d * d;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 2 * m <= n; ++i) {
+      const double d = phase.haar(i, m);
+      if (std::isnan(d)) continue;
+      sum += d * d;
+      ++count;
+    }
+    if (count == 0) continue;  // gaps leave no pair of clusters
     const auto length = static_cast<double>(m);
-    const double deviation =
-        std::sqrt(sum / (2.0 * static_cast<double>(differences.size()))) / length;
+    const double deviation = std::sqrt(sum / (2.0 * static_cast<double>(count))) / length;
     const int alpha =
         power_law_exponent(phase, std::min(m, std::max<std::size_t>(1, n / enough_clusters)));
-    const double power_law_edf = equivalent_degrees_of_freedom(alpha, n, m);
+    // Gaps leave as many degrees of freedom as the pairs that are left have among all.
+    const double left = static_cast<double>(count) / static_cast<double>(n - 2 * m + 1);
+    const double power_law_edf = std::max(1.0, left * equivalent_degrees_of_freedom(alpha, n, m));
     const bool is_told = n >= enough_clusters * m && deviation > 0.0;
-    const double edf = is_told ? degrees_of_freedom_of(differences, m) : power_law_edf;
+    const double edf = is_told
+                           ? std::max(1.0, left * degrees_of_freedom_of(phase, n - 2 * m + 1, m))
+                           : power_law_edf;
     const auto bound = [&](double probability) {
       return deviation * std::sqrt(edf / chi_squared_quantile(probability, edf));
     };
@@ -200,12 +264,15 @@ std::vector<double> robust_allan_variances(std::span<const double> rate,
                                            std::span<const std::size_t> clusters) {
   constexpr double cut = 16.0;
   const double expected = chi_squared_cdf(cut, 3) + cut * chi_squared_upper_tail(cut, 1);
-  const auto phase = phase_of(rate, clusters);
+  require_clusters(rate.size(), clusters);
+  const Phase phase(rate);
+  require(phase.is_complete(), "rate",
+          "has missing samples; fill the gaps or pass a stretch without one");
   std::vector<double> variances;
   for (const std::size_t m : clusters) {
     std::vector<double> squares;
     for (std::size_t i = 0; i + 2 * m < phase.size(); i += std::max<std::size_t>(1, m / 8))
-      squares.push_back(0.5 * std::pow(haar(phase, i, m) / static_cast<double>(m), 2));
+      squares.push_back(0.5 * std::pow(phase.haar(i, m) / static_cast<double>(m), 2));
     const auto count = static_cast<double>(squares.size());
     double variance = std::accumulate(squares.begin(), squares.end(), 0.0) / count;
     for (double change = 1.0; change > 1e-9 && variance > 0.0;) {

@@ -27,8 +27,9 @@ std::vector<std::size_t> allan_clusters(std::size_t samples);
 /// random-walk rate noise, whichever the lag-1 autocorrelation identifies at that tau, or at n/32
 /// samples where it is longer (Riley & Greenhall, EFTF 2004).
 ///
-/// Throws InputError for a sample that is missing or not finite (how to bridge a gap is the
-/// caller's choice), for a cluster outside [1, n/2], a rate of sampling <= 0, and a confidence
+/// Missing samples (NaN) are left out: of all pairs of clusters those count in which at most a
+/// fifth of either is missing, and a tau without such a pair has no point. Throws InputError for an
+/// infinite sample, for a cluster outside [1, n/2], a rate of sampling <= 0, and a confidence
 /// outside (0, 1).
 ///
 /// Example: a curve with its 95 % intervals.

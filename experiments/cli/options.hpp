@@ -8,6 +8,8 @@
 #include <fmt/ranges.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/recordings/clock.hpp>
+#include <gyrostat/recordings/format_type.hpp>
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/results/render/render.hpp>
 
@@ -58,55 +60,86 @@ struct SpanOption {
   }
 };
 
-/// The recording that a verb works on, with the axis where it has several and the layout where it
-/// has other names or units than the program's.
+/// The recording that a verb works on, with the axis where it has several, and what the program
+/// cannot tell from the file: its format, names, units, rate.
 struct RecordingOption {
   std::string file;
   std::string axis;
-  std::string columns, units;
+  std::string columns, units, preset, topic;
+  double rate_hz = 0.0, resample_hz = 0.0;
 
   void add_to(CLI::App* verb) {
-    verb->add_option("recording", file, "CSV, CSV.gz or MATLAB file: t_s, gyro_dps, ...")
+    verb->add_option(
+            "recording", file,
+            "CSV, CSV.gz, or a log in any format of `gyrostat list formats`; - is standard "
+            "input")
         ->required();
     verb->add_option("--axis", axis,
                      "x, y or z where the recording has three axes; diagnose: or all");
     verb->add_option("--columns", columns,
-                     "columns of other names, as t=Time[ms],gyro=GyrZ,temp=Temp")
+                     "columns of other names, as t=Time[ms],gyro=GyrZ,temp=Temp, or by number, as "
+                     "1=t,4=gyro")
         ->type_name("CHANNEL=COLUMN,...");
-    verb->add_option("--units", units, "units, as t=ms,gyro=rad/s,temp=F")
+    verb->add_option("--units", units, "units, as t=ms,gyro=rad/s,temp=F or gyro=lsb/131")
         ->type_name("CHANNEL=UNIT,...");
+    verb->add_option("--preset", preset,
+                     "the format, of `gyrostat list formats`, where the content does not tell it")
+        ->type_name("NAME");
+    verb->add_option("--topic", topic, "of a log that has several gyros")->type_name("NAME");
+    verb->add_option("--rate", rate_hz, "samples a second, for a file without times")
+        ->type_name("HZ")
+        ->check(within(1e-6, 1e7));
+    verb->add_option("--resample", resample_hz,
+                     "put the samples on an even clock, where their rate changes")
+        ->type_name("HZ")
+        ->check(within(1e-6, 1e7));
   }
 
   RecordingLayout layout() const {
-    return {parse_assignments(columns, "--columns"), parse_assignments(units, "--units"),
-            layout_place()};
+    return {.columns = parse_assignments(columns, "--columns"),
+            .units = parse_assignments(units, "--units"),
+            .place = preset.empty() && columns.empty() ? "--units"
+                     : columns.empty()                 ? "--preset"
+                                                       : "--columns",
+            .preset = preset,
+            .topic = topic,
+            .rate_hz = rate_hz,
+            .resample_hz = resample_hz};
   }
 
-  /// All of it; says in `log` which columns were taken as what, and which mean nothing to gyrostat.
-  Recording read_all(std::ostream& log) const {
-    auto recording = read_recording(file, axis, layout());
+  enum class Bursts { refused, taken };
+
+  /// All of it, evenly sampled; says in `log` as what it was read and what was done to it. `wanted`
+  /// as `read_recording` has it.
+  Recording read_all(std::ostream& log, std::span<const std::string_view> wanted = {},
+                     Bursts bursts = Bursts::refused) const {
+    const auto how = layout();
+    auto recording = read_recording(file, axis, how, wanted);
+    make_even(recording, file, how);
+    if (!recording.format.empty())
+      log << fmt::format("{}: {} (--preset {})\n", file,
+                         format_types().named(recording.format, file).title, recording.format);
     if (!recording.taken_as.empty())
       log << fmt::format("{}: {}\n", file, fmt::join(recording.taken_as, ", "));
     if (!recording.ignored_columns.empty())
       log << fmt::format("{}: columns not used: {}\n", file,
                          fmt::join(recording.ignored_columns, ", "));
+    if (!recording.notes.empty())
+      log << fmt::format("{}: {}\n", file, fmt::join(recording.notes, "; "));
+    if (bursts == Bursts::refused) require_dense(recording.series, file);
     return recording;
   }
 
-  /// The span of it, checked to be evenly sampled.
-  Series read(std::ostream& log, const SpanOption& span = {}) const {
-    const auto recording = read_all(log);
-    Series series = cut(recording.series, span.from_s, span.to_s, file + ": --from, --to");
-    const auto& t_s = recording.series.t_s;
-    const auto before = std::lower_bound(t_s.begin(), t_s.end(), series.t_s.front()) - t_s.begin();
-    const auto first_row =
-        recording.first_row == 0 ? 0 : recording.first_row + static_cast<std::size_t>(before);
-    require_uniform(series, file, first_row);
+  /// The span of it.
+  Series read(std::ostream& log, const SpanOption& span = {},
+              std::span<const std::string_view> wanted = {},
+              Bursts bursts = Bursts::refused) const {
+    auto series = read_all(log, wanted, Bursts::taken).series;
+    if (span.from_s > 0.0 || span.to_s <= series.duration_s())
+      series = cut(series, span.from_s, span.to_s, file + ": --from, --to");
+    if (bursts == Bursts::refused) require_dense(series, file);
     return series;
   }
-
- private:
-  std::string layout_place() const { return columns.empty() ? "--units" : "--columns"; }
 };
 
 }  // namespace gyrostat::cli

@@ -14,9 +14,10 @@ struct RecordingSource {
   std::string path, axis;
   RecordingLayout layout;
 
-  /// From the keys "file", "axis", "columns" and "units" of `object`.
+  /// From the keys "file", "axis", "columns", "units", "preset", "topic", "rate_hz" and
+  /// "resample_hz" of `object`.
   RecordingSource(JsonObject& object, const std::string& folder);
-  /// Evenly sampled; InputError otherwise.
+  /// On an even clock; InputError where it has none.
   Recording read() const;
 };
 

@@ -93,10 +93,15 @@ Json plugin(const std::string& chooser, std::string_view meaning,
 
 Json recording(std::string_view meaning, const Json& more) {
   Json properties = {
-      {"file", text("CSV, CSV.gz or MATLAB file, relative to the study's folder")},
+      {"file", text("a recording in any format, relative to the study's folder")},
       {"axis", one_of({"", "x", "y", "z"}, "of a recording with three axes")},
       {"columns", texts("columns of other names: {\"t\": \"Time[ms]\", \"gyro\": \"GyrZ\"}")},
-      {"units", texts("units: {\"t\": \"ms\", \"gyro\": \"rad/s\"}")}};
+      {"units", texts("units: {\"t\": \"ms\", \"gyro\": \"rad/s\"}")},
+      {"preset",
+       text("the format, of `gyrostat list formats`, where the content does not tell it")},
+      {"topic", text("of a log that has several gyros")},
+      {"rate_hz", number(ranges::non_negative, 0, "samples a second, for a file without times")},
+      {"resample_hz", number(ranges::non_negative, 0, "put the samples on an even clock")}};
   properties.update(more);
   return object(properties, meaning, {"file"});
 }

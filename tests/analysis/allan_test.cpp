@@ -195,8 +195,38 @@ TEST(Allan, RefusesWhatItCannotUse) {
   EXPECT_THROW(overlapping_allan_deviation(rate, 0.0), InputError);
   EXPECT_THROW(overlapping_allan_deviation(rate, 1.0, {}, 1.0), InputError);
   EXPECT_THROW(overlapping_allan_deviation({}, 1.0), InputError);
-  rate[17] = std::numeric_limits<double>::quiet_NaN();
+  rate[17] = std::numeric_limits<double>::infinity();
   EXPECT_THAT(with_cluster(1), ThrowsMessage<InputError>(HasSubstr("rate[17]")));
+}
+
+TEST(Allan, MissingSamplesAreLeftOut) {
+  const auto whole = white(20'000);
+  auto rate = whole;
+  for (std::size_t i = 0; i < rate.size(); ++i)
+    if (i % 17 == 3 || (i >= 5000 && i < 7000)) rate[i] = std::numeric_limits<double>::quiet_NaN();
+  const auto expected = overlapping_allan_deviation(whole, 1.0);
+  const auto got = overlapping_allan_deviation(rate, 1.0);
+  std::size_t compared = 0;
+  for (const auto& point : got)
+    for (const auto& other : expected)
+      if (point.cluster == other.cluster) {
+        ++compared;
+        EXPECT_GT(point.upper, other.lower) << point.cluster;
+        EXPECT_LT(point.lower, other.upper) << point.cluster;
+        EXPECT_LT(point.edf, other.edf * 1.2);
+      }
+  EXPECT_GE(compared, 25u);
+}
+
+TEST(Allan, BurstsTellTheirOwnTausAlone) {
+  const auto noise = white(5'000);
+  std::vector<double> rate(100'000, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < noise.size(); ++i) rate[i / 250 * 5000 + i % 250] = noise[i];
+  const auto points = overlapping_allan_deviation(rate, 1.0);
+  ASSERT_FALSE(points.empty());
+  EXPECT_LE(points.back().cluster, 150u);  // two clusters, a fifth of each missing
+  EXPECT_LT(points.front().lower, 1.0);
+  EXPECT_GT(points.front().upper, 1.0);
 }
 
 TEST(WithoutSpikes, LeavesGaussianNoiseAlone) {

@@ -59,9 +59,9 @@ TEST(Layout, EveryUnitIsWhatItsDefinitionSays) {
                            const std::string& value) {
     const auto series =
         read("a,b,c\n" + std::string(channel == "t" ? value : "0") + ",1," + value + "\n",
-             layout(channel == "t"      ? "t=a,gyro=b"
+             layout(channel == "t"      ? "t=a,gyro=b[dps]"
                     : channel == "gyro" ? "t=a,gyro=c"
-                                        : "t=a,gyro=b," + channel + "=c",
+                                        : "t=a,gyro=b[dps]," + channel + "=c",
                     channel + "=" + unit));
     return channel == "t"       ? series.t_s[0]
            : channel == "gyro"  ? series.gyro_dps[0]
@@ -95,12 +95,11 @@ TEST(Layout, TheUnitThatIsGivenComesBeforeBracketsBeforeTheRowOfUnitsBeforeTheEn
   EXPECT_EQ(gyro("t_s,w\ns,mdps\n0,500\n", layout("gyro=w")), 0.5);
   EXPECT_EQ(gyro("t_s,w\n[s],[mdps]\n0,500\n", layout("gyro=w")), 0.5);
   EXPECT_EQ(gyro("t_s,w_z_mdps\n0,500\n", layout("gyro=w_z_mdps")), 0.5);
-  EXPECT_EQ(gyro("t_s,w\n0,500\n", layout("gyro=w")), 500);
   EXPECT_EQ(gyro("t_s,gyro_dps\n0,500\n", layout("", "gyro=mdps")), 0.5);
 }
 
 TEST(Layout, AxesAreMappedAndThenChosen) {
-  const auto how = layout("gyro_x=GX,gyro_z=GZ", "gyro_z=mdps");
+  const auto how = layout("gyro_x=GX[dps],gyro_z=GZ", "gyro_z=mdps");
   EXPECT_THAT(read("t_s,GX,GZ\n0,1,2000\n", how, "z").gyro_dps, ElementsAre(2));
   EXPECT_THAT(read("t_s,GX,GZ\n0,1,2000\n", how, "x").gyro_dps, ElementsAre(1));
 }
@@ -123,19 +122,20 @@ TEST(Layout, MistakesNameFileLineColumnValueAndTheNearest) {
   const std::string text = "# by a logger\nTime[ms],GyrZ,Temp[F]\n0,1,50\n10,x,50\n";
   EXPECT_THAT(refusal(text, layout("t=Time,gyro=GyrY")),
               AllOf(HasSubstr("rec.csv:2"), HasSubstr("'GyrY' is missing"), HasSubstr("'GyrZ'")));
-  EXPECT_THAT(refusal(text, layout("t=Time,gyro=GyrZ")),
+  EXPECT_THAT(refusal(text, layout("t=Time,gyro=GyrZ[dps]")),
               AllOf(HasSubstr("rec.csv:4"), HasSubstr("'GyrZ'"), HasSubstr("'x'")));
   EXPECT_THAT(refusal(text, layout("t=Time,giro=GyrZ")),
               AllOf(HasSubstr("--columns"), HasSubstr("'giro'"), HasSubstr("'gyro'")));
   EXPECT_THAT(refusal(text, layout("t=Time,gyro=GyrZ", "gyro=rads/s")),
               AllOf(HasSubstr("'rads/s'"), HasSubstr("'rad/s'"), HasSubstr("mdps")));
-  EXPECT_THAT(refusal(text, layout("t=Time,gyro=GyrZ", "heading=deg")), HasSubstr("'heading_deg'"));
-  EXPECT_THAT(refusal("Time[min.],w\n0,1\n", layout("t=Time,gyro=w")),
+  EXPECT_THAT(refusal(text, layout("t=Time,gyro=GyrZ[dps]", "heading=deg")),
+              HasSubstr("'heading_deg'"));
+  EXPECT_THAT(refusal("Time[min.],w\n0,1\n", layout("t=Time,gyro=w[dps]")),
               AllOf(HasSubstr("rec.csv:1"), HasSubstr("'min.'"), HasSubstr("'min'")));
   EXPECT_THAT(refusal("w [dps],w [rad/s],t_s\n0,1,2\n", layout("gyro=w")),
               AllOf(HasSubstr("w [dps]"), HasSubstr("w [rad/s]")));
   EXPECT_THAT(refusal("t_s,gyro_dps\n0,0,5\n"), HasSubstr("3 cells"));
-  EXPECT_THAT(refusal(text, layout("t=Time,gyro=GyrZ,temp=GyrZ[F]")), HasSubstr("missing"));
+  EXPECT_THAT(refusal(text, layout("t=Time,gyro=GyrZ[dps],temp=GyrZ[F]")), HasSubstr("missing"));
 }
 
 TEST(Layout, ValuesOutOfRangeAreToldInTheFilesOwnUnit) {
@@ -228,13 +228,13 @@ TEST(MatFile, MistakesAreOneLineWithTheRow) {
     return "no error";
   };
   const std::vector<double> up = {0, 1, 2}, back = {0, 2, 1}, two = {0, 1},
-                            infinite = {0, INFINITY, 0};
+                            infinite = {INFINITY, -INFINITY, INFINITY};
   EXPECT_THAT(refused({{"t_s", back, {}}, {"gyro_dps", up, {}}}),
               AllOf(HasSubstr("rec.mat: row 3"), HasSubstr("'t_s'")));
   EXPECT_THAT(refused({{"t_s", up, {}}, {"gyro_dps", two, {}}}),
               AllOf(HasSubstr("'gyro_dps' has 2 values"), HasSubstr("'t_s' has 3")));
   EXPECT_THAT(refused({{"t_s", up, {}}, {"gyro_dps", infinite, {}}}),
-              AllOf(HasSubstr("row 2"), HasSubstr("'gyro_dps'")));
+              AllOf(HasSubstr("blank throughout"), HasSubstr("'gyro_dps'")));
   EXPECT_THAT(refused({{"t_s", up, {}}, {"gyr_dps", up, {}}}),
               AllOf(HasSubstr("'gyro_dps' is missing"), HasSubstr("'gyr_dps'")));
   EXPECT_THAT(refused({{"t_s", up, {}}, {"stf_1.05", up, {}}, {"stf_1_05", up, {}}}),

@@ -211,8 +211,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"Word", head + "0,abc,,,\n", {":2:", "'gyro_dps'", "'abc'", "allowed: finite"}},
         BadText{"TwoPoints", head + "0,1.2.3,,,\n", {":2:", "'gyro_dps'", "'1.2.3'", "allowed"}},
         BadText{"TwoSigns", head + "0,+-1,,,\n", {":2:", "'gyro_dps'", "'+-1'", "allowed"}},
-        BadText{"Nan", head + "0,1,,,\n1,nan,,,\n", {":3:", "'gyro_dps'", "'nan'", "blank cell"}},
-        BadText{"Inf", head + "0,1,,-inf,\n", {":2:", "'temperature_C'", "'-inf'", "finite"}},
+        BadText{"NearlyNan", head + "0,1,,,\n1,nano,,,\n", {":3:", "'gyro_dps'", "'nano'", "NaN"}},
+        BadText{
+            "Infinite", head + "0,inf,,,\n1,-inf,,,\n", {":1:", "'gyro_dps'", "blank throughout"}},
         BadText{"Overflow", head + "0,1e999,,,\n", {":2:", "'gyro_dps'", "'1e999'", "finite"}},
         BadText{"BlankTime", head + "0,1,,,\n,2,,,\n", {":3:", "'t_s'", "''", "allowed: a time"}},
         BadText{"RepeatedTime",
@@ -408,6 +409,60 @@ INSTANTIATE_TEST_SUITE_P(Each, RealRecording,
                                          Real{"mpu6050_turning", "z", 2'393, 1, false},
                                          Real{"cubesat_cooldown", "x", 6'250, 0, false}),
                          [](const auto& instance) { return instance.param.name; });
+
+fs::path real_folder() {
+  const char* folder = std::getenv("GYROSTAT_RECORDINGS");
+  return folder ? folder : GYROSTAT_SOURCE_DIR "/../shared/recordings";
+}
+
+TEST(RealRecordings, AllAreEvenOrNameTheRemedy) {
+  if (!fs::exists(real_folder()))
+    GTEST_SKIP() << real_folder()
+                 << " is absent; GYROSTAT_RECORDINGS names the folder of recordings";
+  std::size_t even = 0;
+  for (const auto& entry : fs::directory_iterator(real_folder())) {
+    const auto name = entry.path().filename().string();
+    if (!entry.is_regular_file() || name.ends_with(".md")) continue;
+    const bool one_axis = name.starts_with("broad_01") || name.starts_with("broad_32");
+    auto recording = read_recording(entry.path(), one_axis                   ? ""
+                                                  : name.starts_with("mtig") ? "x"
+                                                                             : "z");
+    const auto message = error_of([&] { make_even(recording, name); });
+    if (message == "no error") {
+      ++even;
+      EXPECT_NO_THROW(require_uniform(recording.series, name)) << name;
+      continue;
+    }
+    EXPECT_THAT(message, HasSubstr("--resample ")) << name;
+    RecordingLayout layout;
+    layout.resample_hz = std::stod(message.substr(message.find("--resample ") + 11));
+    recording = read_recording(entry.path(), "z");
+    make_even(recording, name, layout);
+    EXPECT_NO_THROW(require_uniform(recording.series, name)) << name;
+  }
+  EXPECT_GE(even, 18u);
+}
+
+TEST(RealRecordings, AFlightLogHoldsWhatWasConvertedFromIt) {
+  if (!fs::exists(real_folder() / "px4_auav_x21.ulg"))
+    GTEST_SKIP()
+        << "px4_auav_x21.ulg is absent; GYROSTAT_RECORDINGS names the folder of recordings";
+  const auto log = read_recording(real_folder() / "px4_auav_x21.ulg", "z");
+  const auto part = read_recording(real_folder() / "px4_auav_x21_static.csv.gz", "z");
+  const auto& whole = log.series.gyro_dps;
+  const auto& some = part.series.gyro_dps;
+  const auto near = [](double a, double b) { return std::abs(a - b) < 1e-6; };
+  const auto found = std::search(whole.begin(), whole.end(), some.begin(), some.begin() + 20, near);
+  ASSERT_NE(found, whole.end());
+  ASSERT_GE(whole.end() - found, std::ssize(some));
+  const auto first = static_cast<std::size_t>(found - whole.begin());
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    ASSERT_NEAR(whole[first + i], some[i], 1e-6) << i;
+    ASSERT_NEAR(log.series.t_s[first + i] - log.series.t_s[first],
+                part.series.t_s[i] - part.series.t_s[0], 2e-6)
+        << i;
+  }
+}
 
 }  // namespace
 }  // namespace gyrostat::recording_test

@@ -1,3 +1,5 @@
+#include <array>
+
 #include <fmt/format.h>
 
 #include <gyrostat/analysis/spectra/allan.hpp>
@@ -20,7 +22,9 @@ struct AllanArguments {
 
 int run(const AllanArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
-  const Series series = arguments.recording.read(console.log);
+  constexpr std::array<std::string_view, 1> wanted = {"gyro_dps"};
+  const Series series =
+      arguments.recording.read(console.log, {}, wanted, RecordingOption::Bursts::taken);
   Table table{.title = arguments.recording.file + ": overlapping Allan deviation",
               .columns = {{"tau", "s"},
                           {"deviation", "dps"},

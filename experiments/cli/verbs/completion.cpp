@@ -8,6 +8,7 @@
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/generators/effect.hpp>
+#include <gyrostat/recordings/format_type.hpp>
 
 namespace gyrostat::cli {
 namespace {
@@ -27,11 +28,12 @@ Words choices(const std::string& verb, const std::string& option) {
       {"--fit", {"likelihood", "moments"}},
       {"--method", {"likelihood", "moments"}},
       {"--lanes", {"1", "2", "4", "8"}},
+      {"--preset", format_types().ids()},
       {"--without", effect_types().ids()}};
   static const std::map<std::string, Words> of_verb = {
       {"list",
        {"all", "filters", "effects", "temperatures", "motions", "accelerations", "metrics",
-        "lenses", "studies"}},
+        "lenses", "formats", "studies"}},
       {"completion", {"bash", "zsh", "fish"}}};
   const auto& known = option.empty() ? of_verb : of_option;
   const auto found = known.find(option.empty() ? verb : option);

@@ -17,7 +17,8 @@ namespace {
 
 constexpr const char* list_examples = R"(Examples:
   gyrostat list filters
-  gyrostat list effects --json)";
+  gyrostat list effects --json
+  gyrostat list formats                of recordings, as --preset has them)";
 
 constexpr const char* default_studies = "experiments/studies";
 
@@ -125,6 +126,7 @@ int run(const ListArguments& arguments, Console& console) {
       {"accelerations", plugins(acceleration_types())},
       {"metrics", plugins(metric_types())},
       {"lenses", plugins(gap::lens_types())},
+      {"formats", plugins(format_types())},
       {"studies", studies(arguments.studies, arguments.studies != default_studies)}};
   std::vector<std::string> names = {"all"};
   Json chosen;
@@ -146,7 +148,7 @@ int run(const ListArguments& arguments, Console& console) {
 void add_list(CLI::App& program, Console& console, int& exit_code) {
   auto* verb = program.add_subcommand("list",
                                       "what there is: filters, effects, temperatures, motions, "
-                                      "accelerations, metrics, lenses, studies");
+                                      "accelerations, metrics, lenses, formats, studies");
   auto arguments = std::make_shared<ListArguments>();
   verb->add_option("kind", arguments->kind, "one of these kinds, or all")->capture_default_str();
   verb->add_option("--studies", arguments->studies, "folder of studies")->capture_default_str();

@@ -1,0 +1,65 @@
+// Every recording at hand goes through the verbs, or is refused with what to do.
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+
+#include <gyrostat/tests/program.hpp>
+
+namespace gyrostat::verbs_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::AnyOf;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Row {
+  const char* name;
+  const char* axis;
+  const char* resample = "";  ///< where its rate changes: what the refusal names
+  const char* said = "";      ///< of what was done to it
+};
+
+const Row table[] = {
+    {"cubesat_cooldown.csv.gz", "x", "", "are missing"},
+    {"memsense_ms_imu3025_00_static.csv.gz", "y"},
+    {"mpu6050_cooling.csv.gz", "z", "12.7", "put on a clock of"},
+    {"mpu6050_turning.csv.gz", "z", "", "stamps are not"},
+    {"px4_auav_x21.ulg", "z", "", "topic sensor_combined"},
+    {"px4_auav_x21_static.csv.gz", "z", "", "of 14387 samples"},
+    {"xsens_dot_01_static.csv.gz", "z", "", "taken as missing"},
+};
+
+TEST(Verbs, AllRecordingsGoThroughTheVerbs) {
+  const char* named = std::getenv("GYROSTAT_RECORDINGS");
+  const fs::path folder = named ? named : GYROSTAT_SOURCE_DIR "/../shared/recordings";
+  if (!fs::exists(folder / table[0].name))
+    GTEST_SKIP() << folder << " is absent; GYROSTAT_RECORDINGS names the folder of recordings";
+  const TestFolder here;
+  for (const auto& row : table)
+    for (const char* verb : {"allan", "fit", "apply"}) {
+      if (std::string_view(verb) == "apply" && fs::file_size(folder / row.name) > 300'000) continue;
+      std::vector<std::string> words = {verb, (folder / row.name).string(), "--axis", row.axis};
+      if (std::string_view(verb) == "fit") words.insert(words.end(), {"--method", "moments"});
+      if (*row.resample != '\0') {
+        const auto refused = run_program(here, words);
+        EXPECT_EQ(refused.exit_code, 2) << row.name;
+        EXPECT_THAT(refused.err, HasSubstr(std::string("--resample ") + row.resample));
+        words.insert(words.end(), {"--resample", row.resample});
+      }
+      const auto ended = run_program(here, words);
+      if (std::string_view(row.name).starts_with("cubesat") && std::string_view(verb) != "allan") {
+        EXPECT_EQ(ended.exit_code, 2);
+        EXPECT_THAT(ended.err, AllOf(HasSubstr("is 25 bursts"), HasSubstr("--resample 0.0033")));
+        continue;
+      }
+      EXPECT_EQ(ended.exit_code, 0) << verb << ' ' << row.name << ": " << ended.err;
+      EXPECT_THAT(ended.err, HasSubstr(row.said)) << row.name;
+      EXPECT_THAT(ended.out, Not(HasSubstr("nan"))) << verb << ' ' << row.name;
+    }
+}
+
+}  // namespace
+}  // namespace gyrostat::verbs_test
