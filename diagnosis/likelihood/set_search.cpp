@@ -201,7 +201,7 @@ Standing Search::searched(Standing standing) {
     for (const auto& t : tried)
       if (t.score > -1e299)
         screening_.emplace_back(t.scenario.effects.back().id(), t.score - standing.score);
-    if (best == tried.end()) break;
+    if (best == tried.end() || best->score < -1e299) break;
     const bool pays = best->score > standing.score + least_gain(standing, band_of_last(*best));
     auto next = pays ? *best : two_further(standing, std::move(tried));
     if (next.score <= standing.score) break;
