@@ -40,7 +40,7 @@ struct DiagnoseArguments {
 /// Nothing where Ctrl-C ended it.
 std::optional<gap::Diagnosis> diagnosed(const DiagnoseArguments& arguments, Console& console) {
   const auto& file = arguments.recording.file;
-  const Interrupt interrupt(console.stop);
+  const Interrupt interrupt(console.stop.orderly());
   const auto read = arguments.recording.read_all(console.log);
   PhaseProgress progress(console.log, console.log_is_terminal, "diagnose");
   try {
@@ -75,7 +75,7 @@ int run(DiagnoseArguments& arguments, Console& console) {
     std::error_code not_empty;
     if (!arguments.figures_out.empty()) fs::remove(arguments.figures_out, not_empty);
     console.log << "stopped early: nothing was written\n";
-    return stopped;
+    return console.stop.exit_code();
   }
   auto name = fs::path(file).filename().string();
   if (!arguments.recording.axis.empty()) name += ", axis " + arguments.recording.axis;

@@ -97,7 +97,7 @@ int run(const RunArguments& arguments, Console& console) {
   std::optional<std::time_t> until;
   if (!arguments.until.empty()) until = next_time_of_day(arguments.until, std::time(nullptr));
   make_result_folder(folder);
-  Stopper stopper(console.stop, until);
+  Stopper stopper(console.stop.orderly(stopped), until);
   std::optional<Progress> bar;
   StudyRun run(std::move(study), folder,
                {.shard = shard,
