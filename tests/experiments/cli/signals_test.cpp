@@ -40,6 +40,7 @@ std::vector<Call> calls() {
           {{"rank", "runs/small", "--figures", "."}},
           {{"consistency", "runs/small"}},
           {{"merge", "merged", "runs/small"}},
+          {{"repair", "runs/small"}},
           {{"slurm", "long.json"}},
           {{"fit", "rec.csv"}},
           {{"apply", "rec.csv", "--out", "applied.csv"}},
