@@ -25,6 +25,10 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 constexpr std::size_t first_bytes = std::size_t{1} << 16;
+constexpr std::size_t most_columns = 10'000;
+/// A recording packs ten- to thirtyfold, one that stands still some hundredfold; what packs better
+/// has nothing in it but the wish to fill a memory.
+constexpr std::size_t most_packing = 300, always_allowed = std::size_t{1} << 26;
 
 /// Makes room behind the `filled` bytes of a growing text.
 void grow(std::string& text, std::size_t filled, const std::string& place) {
@@ -64,7 +68,12 @@ std::string gunzipped(std::string& packed, const std::string& place) {
 
   std::string text(std::max(first_bytes, std::min(5 * packed.size(), most_bytes)), '\0');
   std::size_t filled = 0;
+  const auto most = std::max(always_allowed, most_packing * packed.size());
   for (bool done = false; !done;) {
+    if (filled > most)
+      throw InputError(place, fmt::format("unpacks to more than {} bytes, {} times its size; "
+                                          "allowed: up to {} times",
+                                          most, filled / packed.size(), most_packing));
     grow(text, filled, place);
     stream.next_out = reinterpret_cast<Bytef*>(text.data() + filled);
     stream.avail_out = static_cast<uInt>(text.size() - filled);
@@ -213,8 +222,13 @@ void read_row(const Row& row, std::span<const std::string> names,
 
 std::string read_text(const fs::path& path) {
   const std::string place = path.string();
-  std::string text = read_bytes(path, place);
-  if (text.starts_with("\x1f\x8b")) text = gunzipped(text, place);
+  std::string text;
+  try {
+    text = read_bytes(path, place);
+    if (text.starts_with("\x1f\x8b")) text = gunzipped(text, place);
+  } catch (const std::bad_alloc&) {
+    throw InputError(place, "is too long for the memory that there is");
+  }
   if (text.empty()) throw InputError(place, "is empty; allowed: a header and at least one sample");
   if (const auto zero = text.find('\0'); zero != std::string::npos) {
     throw InputError(place, fmt::format("is not text: byte {} is zero", zero));
@@ -244,6 +258,11 @@ CsvHeader take_header(std::string_view& csv, std::string_view place) {
   auto names = csv;
   const auto first = take(names, '\n');
   header.separator = separator_of(first);
+  const auto columns =
+      static_cast<std::size_t>(std::count(first.begin(), first.end(), header.separator)) + 1;
+  if (columns > most_columns)
+    throw InputError(fmt::format("{}:{}", place, header.line),
+                     fmt::format("{} columns; allowed: up to {}", columns, most_columns));
   header.names = cells_of(first, header.separator);
   if (!comment.empty() && number_in(header.names.front())) {
     header.names = cells_of(comment, header.separator);

@@ -10,7 +10,8 @@ namespace gyrostat {
 
 /// The whole text of a file, a pipe, or a gzip of one or more members (known by its first bytes,
 /// not by its name). Throws InputError when the file is missing, unreadable, a directory, empty,
-/// not text (it holds a zero byte), a truncated or corrupt gzip, or more than 1 GiB once unpacked.
+/// not text (it holds a zero byte), a truncated or corrupt gzip, more than 1 GiB once unpacked or,
+/// above 64 MiB, more than 300 times its size.
 std::string read_text(const std::filesystem::path& path);
 
 /// `text` from a file as ASCII that can go to a terminal or into JSON: any other byte becomes '?'.
@@ -27,7 +28,7 @@ struct CsvHeader {
 
 /// Cuts the header off the front of a CSV, with a byte order mark and with lines of comment (#, %,
 /// //) or nothing above it. Where the first other line is a row of numbers, the names are in the
-/// last comment. Throws InputError when a name appears twice.
+/// last comment. Throws InputError when a name appears twice or there are more than 10,000.
 CsvHeader take_header(std::string_view& csv, std::string_view place);
 
 /// Appends column i of the rows below a header to `*targets[i]`, or skips it where that is null. A

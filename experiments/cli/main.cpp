@@ -34,6 +34,31 @@ void check_verb(const CLI::App& program, int argc, char** argv) {
     throw gyrostat::InputError("command line", gyrostat::unknown_name("verb", argv[1], verbs));
 }
 
+/// "; did you mean '--axis'?" for an option that the verb has not; empty for any other mistake.
+std::string meant_option(const CLI::App& verb, int argc, char** argv) {
+  std::vector<std::string> known;
+  for (const auto* option : verb.get_options())
+    for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    if (!word.starts_with("--") || std::find(known.begin(), known.end(), word) != known.end())
+      continue;
+    const auto nearest = gyrostat::nearest_name(word, known);
+    if (gyrostat::is_misspelling(word, nearest)) return "; did you mean '" + nearest + "'?";
+  }
+  return "";
+}
+
+/// A line each, but no more than anybody reads.
+void print_mistakes(const std::string& mistakes) {
+  constexpr std::size_t most = 50;
+  std::istringstream lines(mistakes);
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line); ++count)
+    if (count < most) std::cerr << "gyrostat: " << line << '\n';
+  if (count > most) std::cerr << "gyrostat: and " << count - most << " more\n";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -60,12 +85,14 @@ int main(int argc, char** argv) {
     flush_output();
   } catch (const CLI::ParseError& mistake) {
     const auto verbs = program.get_subcommands();
-    std::cerr << "gyrostat: " << mistake.what() << "; see gyrostat "
-              << (verbs.empty() ? "" : verbs.front()->get_name() + " ") << "--help\n";
+    const bool is_unknown = dynamic_cast<const CLI::ExtrasError*>(&mistake) != nullptr;
+    std::cerr << "gyrostat: " << mistake.what()
+              << (is_unknown && !verbs.empty() ? meant_option(*verbs.front(), argc, argv) : "")
+              << "; see gyrostat " << (verbs.empty() ? "" : verbs.front()->get_name() + " ")
+              << "--help\n";
     return cli::usage;
   } catch (const InputError& mistake) {
-    std::istringstream lines(mistake.what());
-    for (std::string line; std::getline(lines, line);) std::cerr << "gyrostat: " << line << '\n';
+    print_mistakes(mistake.what());
     return cli::usage;
   } catch (const std::exception& failure) {
     std::cerr << "gyrostat: " << failure.what() << '\n';

@@ -68,7 +68,14 @@ struct RecordingOption {
   void add_to(CLI::App* verb) {
     verb->add_option("recording", file, "CSV, CSV.gz or MATLAB file: t_s, gyro_dps, ...")
         ->required();
-    verb->add_option("--axis", axis, "x, y or z where the recording has three axes");
+    verb->add_option("--axis", axis, "x, y or z where the recording has three axes")
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+              return text == "x" || text == "y" || text == "z"
+                         ? std::string{}
+                         : "'" + text + "' is no axis; allowed: x, y or z";
+            },
+            "x|y|z"));
     verb->add_option("--columns", columns,
                      "columns of other names, as t=Time[ms],gyro=GyrZ,temp=Temp")
         ->type_name("CHANNEL=COLUMN,...");
