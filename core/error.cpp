@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace gyrostat {
@@ -39,9 +40,15 @@ std::string sample_place(std::string_view file, std::size_t first_row, std::size
 }
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
-  const auto nearest = std::min_element(
-      candidates.begin(), candidates.end(),
-      [&](const auto& a, const auto& b) { return distance(name, a) < distance(name, b); });
+  // Of two that are as near, the one that begins alike: 'alan' is 'allan' rather than 'plan'.
+  const auto alike = [&](std::string_view candidate) {
+    const auto end = std::mismatch(name.begin(), name.end(), candidate.begin(), candidate.end());
+    return end.first - name.begin();
+  };
+  const auto nearest =
+      std::min_element(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
+        return std::pair(distance(name, a), -alike(a)) < std::pair(distance(name, b), -alike(b));
+      });
   return nearest == candidates.end() ? std::string{} : *nearest;
 }
 

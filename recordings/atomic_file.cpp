@@ -4,18 +4,45 @@
 #include <cerrno>
 #include <new>
 #include <random>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
-
-#include <gyrostat/core/error.hpp>
 
 namespace gyrostat {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// The temporary beside `target`, to be written by this object alone; null where the system
+/// refuses. It has one name, so that a killed program leaves one and the next one takes it over;
+/// only where another program is writing it at this moment, it has a name of its own.
+std::FILE* open_temporary(const fs::path& target, TemporaryPath& temporary) {
+  const auto usual = target.string() + ".tmp";
+  const int file = ::open(usual.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  struct stat opened {
+  }, named{};
+  if (file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0 && ::fstat(file, &opened) == 0 &&
+      ::stat(usual.c_str(), &named) == 0 && opened.st_ino == named.st_ino) {
+    temporary = TemporaryPath(usual);
+    return ::ftruncate(file, 0) == 0 ? ::fdopen(file, "wb") : nullptr;
+  }
+  if (file < 0) return nullptr;
+  ::close(file);
+  const auto own = target.string() + fmt::format(".{:08x}.tmp", std::random_device{}());
+  auto* const stream = std::fopen(own.c_str(), "wbx");
+  if (stream != nullptr) temporary = TemporaryPath(own);
+  return stream;
+}
+
+}  // namespace
 
 AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   std::error_code unknown;
@@ -25,16 +52,13 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   } else {
     const auto resolved = fs::weakly_canonical(path, unknown);
     target_ = unknown ? path : resolved;
-    temporary_ = target_.string() + fmt::format(".{:08x}.tmp", std::random_device{}());
-    file_ = std::fopen(temporary_.c_str(), "wbx");
+    file_ = open_temporary(target_, temporary_);
   }
   require(file_ != nullptr);
 }
 
 AtomicFile::~AtomicFile() {
   if (file_) std::fclose(file_);
-  std::error_code absent;
-  if (!temporary_.empty()) fs::remove(temporary_, absent);
 }
 
 void AtomicFile::write(std::string_view piece) {
@@ -43,14 +67,16 @@ void AtomicFile::write(std::string_view piece) {
 
 void AtomicFile::commit() {
   require(std::fflush(file_) == 0 && (temporary_.empty() || fsync(fileno(file_)) == 0));
+  // Renamed while it is still open, and so still locked.
+  require(temporary_.empty() || std::rename(temporary_.path().c_str(), target_.c_str()) == 0);
+  temporary_.keep();
   require(std::fclose(std::exchange(file_, nullptr)) == 0);
-  require(temporary_.empty() || std::rename(temporary_.c_str(), target_.c_str()) == 0);
 }
 
 void AtomicFile::require(bool done) const {
   if (!done)
-    throw InputError(path_.string(),
-                     "cannot be written: " + std::generic_category().message(errno));
+    throw std::runtime_error(path_.string() +
+                             ": cannot be written: " + std::generic_category().message(errno));
 }
 
 void write_atomically(const fs::path& path, std::string_view contents) {

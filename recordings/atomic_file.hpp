@@ -7,12 +7,15 @@
 #include <string>
 #include <string_view>
 
+#include <gyrostat/recordings/temporary_path.hpp>
+
 namespace gyrostat {
 
 /// A file that is written piece by piece and comes into being whole or not at all: the pieces go to
 /// a temporary beside it, which is renamed once it is on disk and removed when anything fails, so a
-/// previous file stays until then. A symbolic link is followed; a pipe or a device is written to
-/// directly. Every member throws InputError with the system's reason.
+/// previous file stays until then. What a killed program left of it is taken over by the next. A
+/// symbolic link is followed; a pipe or a device is written to directly. Every member throws
+/// std::runtime_error with the system's reason.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& path);
@@ -26,7 +29,8 @@ class AtomicFile {
  private:
   void require(bool done) const;
 
-  std::filesystem::path path_, target_, temporary_;  ///< no temporary for a pipe or a device
+  std::filesystem::path path_, target_;
+  TemporaryPath temporary_;  ///< none for a pipe or a device
   std::FILE* file_ = nullptr;
 };
 

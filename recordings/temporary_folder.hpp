@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <gyrostat/recordings/temporary_path.hpp>
+
 namespace gyrostat {
 
 /// A folder of its own among the temporary ones, gone at the end. Throws std::runtime_error where
@@ -14,18 +16,12 @@ class TemporaryFolder {
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "gyrostat_XXXXXX").string();
     if (!mkdtemp(name.data())) throw std::runtime_error(name + ": cannot be created");
-    path_ = name;
+    path_ = TemporaryPath(name);
   }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return path_.path(); }
 
  private:
-  std::filesystem::path path_;
+  TemporaryPath path_;
 };
 
 }  // namespace gyrostat

@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 constexpr std::size_t block_bytes = std::size_t{1} << 22, longest_line = std::size_t{1} << 24;
+constexpr std::size_t most_columns = 10'000;
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\n\"";
@@ -257,6 +258,11 @@ CsvHeader take_header(std::string_view& csv, std::string_view place) {
   const auto second = trimmed(names.substr(0, names.find('\n')));
   if (header.separator == ' ' && !second.empty() && second.find_first_of(" \t") == second.npos)
     header.separator = separator_of(second);
+  const auto columns =
+      static_cast<std::size_t>(std::count(first.begin(), first.end(), header.separator)) + 1;
+  if (columns > most_columns)
+    throw InputError(fmt::format("{}:{}", place, header.line),
+                     fmt::format("{} columns; allowed: up to {}", columns, most_columns));
   header.names = cells_of(first, header.separator);
   if (is_row(header.names)) {
     auto commented = cells_of(comment, header.separator);

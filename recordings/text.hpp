@@ -52,7 +52,7 @@ struct CsvHeader {
 /// Cuts the header off the front of a CSV, with a byte order mark and with lines of comment (#, %,
 /// //) or nothing above it. Where the first other line is a row of numbers, the names are in the
 /// last comment that has as many cells, and without one the columns are numbered from 1. Throws
-/// InputError when a name appears twice.
+/// InputError when a name appears twice or there are more than 10,000.
 CsvHeader take_header(std::string_view& csv, std::string_view place);
 
 /// What is in the rows of a CSV and is no plain number.

@@ -6,7 +6,8 @@ CREATE TABLE study (               -- one row: whose outcomes these are
   seed       INTEGER NOT NULL,
   source     TEXT    NOT NULL,     -- the study file's JSON
   folder     TEXT    NOT NULL,     -- where recordings that it names are looked for
-  columns    TEXT    NOT NULL      -- JSON list: the numbers of one outcome
+  columns    TEXT    NOT NULL,     -- JSON list: the numbers of one outcome
+  checksum   INTEGER NOT NULL      -- of all the above, and of id, name, methods and trials of every cell
 );
 
 CREATE TABLE cell (
@@ -14,7 +15,8 @@ CREATE TABLE cell (
   name       TEXT    NOT NULL UNIQUE,
   methods    TEXT    NOT NULL,     -- JSON list, in the order of the outcomes
   trials     INTEGER NOT NULL,     -- asked for last
-  finished   INTEGER NOT NULL DEFAULT 0
+  finished   INTEGER NOT NULL DEFAULT 0,   -- rows of trials
+  failures   INTEGER NOT NULL DEFAULT 0    -- rows of failures
 );
 
 CREATE TABLE session (             -- one row a run: which build on which machine made the outcomes
@@ -27,7 +29,8 @@ CREATE TABLE session (             -- one row a run: which build on which machin
   process    INTEGER NOT NULL,
   started    TEXT    NOT NULL,     -- UTC
   trials     INTEGER NOT NULL DEFAULT 0,    -- that it finished
-  progress   TEXT    NOT NULL DEFAULT '{}'  -- JSON, as of the last batch
+  progress   TEXT    NOT NULL DEFAULT '{}', -- JSON, as of the last batch
+  checksum   INTEGER NOT NULL      -- of digest to started
 );
 
 CREATE TABLE trial (
@@ -35,7 +38,7 @@ CREATE TABLE trial (
   session    INTEGER NOT NULL,
   calibrated INTEGER NOT NULL,     -- 0: the trial's own calibration did not converge
   outcomes   BLOB    NOT NULL,     -- little-endian doubles, columns within methods; NaN: no value
-  checksum   INTEGER NOT NULL      -- of all the above but the session
+  checksum   INTEGER NOT NULL      -- of all the above but the session, and of its failures
 );
 
 CREATE TABLE failure (             -- trials in quarantine: a method threw or broke down
@@ -48,4 +51,8 @@ CREATE TABLE failure (             -- trials in quarantine: a method threw or br
 CREATE TRIGGER trial_finished AFTER INSERT ON trial BEGIN
   UPDATE cell SET finished = finished + 1 WHERE id = NEW.id >> 32;
   UPDATE session SET trials = trials + 1 WHERE id = NEW.session;
+END;
+
+CREATE TRIGGER failure_kept AFTER INSERT ON failure BEGIN
+  UPDATE cell SET failures = failures + 1 WHERE id = NEW.id >> 32;
 END;

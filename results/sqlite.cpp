@@ -122,8 +122,7 @@ std::string Database::text(std::string_view sql) {
 }
 
 void Database::fail(int code) const {
-  throw Error(code,
-              path_.string() + ": " + (connection_ ? sqlite3_errmsg(get()) : sqlite3_errstr(code)));
+  throw Error(code, path_, connection_ ? sqlite3_errmsg(get()) : sqlite3_errstr(code));
 }
 
 Transaction::~Transaction() {

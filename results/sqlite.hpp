@@ -14,16 +14,19 @@ struct sqlite3_stmt;
 
 namespace gyrostat::sqlite {
 
-/// What SQLite could not do: its result code, and one line with the file and the reason.
+/// What SQLite could not do: its result code, the file and, on one line, the reason.
 class Error : public std::runtime_error {
  public:
-  Error(int code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  Error(int code, std::filesystem::path path, const std::string& reason)
+      : std::runtime_error(reason), code_(code), path_(std::move(path)) {}
   int code() const { return code_; }
+  const std::filesystem::path& path() const { return path_; }
   /// Whether the file's contents, not its surroundings, are at fault.
   bool is_damage() const;
 
  private:
   int code_;
+  std::filesystem::path path_;
 };
 
 class Database;

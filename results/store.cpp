@@ -1,21 +1,21 @@
 #include <gyrostat/results/store.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cerrno>
-#include <cstring>
-#include <limits>
+#include <map>
 #include <system_error>
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <sqlite3.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/results/schema.hpp>
+#include <gyrostat/results/store_log.hpp>
+#include <gyrostat/results/store_rows.hpp>
 
 namespace gyrostat {
 namespace {
@@ -24,44 +24,26 @@ namespace fs = std::filesystem;
 using sqlite::Access;
 using sqlite::Database;
 using sqlite::Statement;
-using Texts = std::vector<std::string>;
+using sqlite::Transaction;
+using namespace store_rows;
 
-constexpr std::int64_t schema_version = 1;
-static_assert(std::endian::native == std::endian::little,
-              "outcomes are kept as they lie in memory");
-
-constexpr std::int64_t id_of(std::uint32_t cell, std::uint32_t trial) {
-  return static_cast<std::int64_t>(cell) << 32 | trial;
-}
-constexpr std::uint32_t cell_of(std::int64_t id) { return static_cast<std::uint32_t>(id >> 32); }
-constexpr std::uint32_t trial_of(std::int64_t id) { return static_cast<std::uint32_t>(id); }
-
-/// Multiply-xor over 64-bit words, four at a time: finds what a disk or a stray write does, not
-/// what a forger does.
-std::int64_t checksum_of(std::int64_t id, bool calibrated, std::span<const double> outcomes) {
-  std::uint64_t lanes[4] = {0x9e3779b97f4a7c15, 0xbf58476d1ce4e5b9, 0x94d049bb133111eb,
-                            0x2545f4914f6cdd1d};
-  const auto mix = [](std::uint64_t hash, std::uint64_t word) {
-    hash = (hash ^ word) * 0xff51afd7ed558ccd;
-    return hash ^ hash >> 32;
-  };
-  for (std::size_t i = 0; i < outcomes.size(); ++i)
-    lanes[i % 4] = mix(lanes[i % 4], std::bit_cast<std::uint64_t>(outcomes[i]));
-  std::uint64_t hash = mix(static_cast<std::uint64_t>(id), calibrated);
-  for (const auto lane : lanes) hash = mix(hash, lane);
-  return static_cast<std::int64_t>(hash);
-}
+constexpr std::int64_t schema_version = 2;
 
 /// One line for what SQLite says: what happened, and what to do.
-StoreError explained(const fs::path& path, const sqlite::Error& error) {
-  auto reason = std::string(error.what()).substr(path.string().size() + 2);
+StoreError explained(const sqlite::Error& error) {
+  const auto& path = error.path();
+  std::string reason = error.what();
   std::replace(reason.begin(), reason.end(), '\n', ' ');
   const auto said = [&](const char* what, const char* advice) {
     return StoreError(fmt::format("{}: {} ({}); {}", path.string(), what, reason, advice));
   };
   constexpr const char* again = "finished trials are kept, and the same command goes on from them";
   if (error.is_damage())
-    return said("is damaged", "--set-aside keeps it under another name and begins anew");
+    return StoreError(
+        fmt::format("{}: is damaged ({}); gyrostat repair {} keeps what is sound, gyrostat run "
+                    "--set-aside keeps "
+                    "it under another name and begins anew",
+                    path.string(), reason, path.parent_path().string()));
   switch (error.code() & 0xff) {
     case SQLITE_FULL:
       return said("the disk is full", again);
@@ -80,82 +62,111 @@ StoreError explained(const fs::path& path, const sqlite::Error& error) {
   }
 }
 
-sqlite::Error damage(const Database& database, const std::string& what) {
-  return {SQLITE_CORRUPT, database.path().string() + ": " + what};
+/// A store is made whole, so one without tables has lost them.
+StoreError emptied(const fs::path& path) {
+  return StoreError(path.string() +
+                    ": is empty, and a store never is: what it held is lost; gyrostat run "
+                    "--set-aside keeps it under another name and begins anew");
 }
 
-Texts texts(const Database& database, const std::string& json) {
-  const auto parsed = nlohmann::json::parse(json, nullptr, false);
-  if (!parsed.is_array()) throw damage(database, "a list of names cannot be read");
-  return parsed.get<Texts>();
+StoreError of_other_version(const fs::path& path) {
+  return StoreError(path.string() +
+                    ": is not a store of this version of gyrostat; gyrostat run --set-aside keeps "
+                    "it under another name and begins anew");
 }
 
-/// Made, and ended before anything was in it.
-bool is_empty(Database& database) {
-  return database.number("SELECT count(*) FROM sqlite_master") == 0;
+fs::path log_of(const fs::path& path) { return path.string() + "-wal"; }
+
+/// Gives a store and its log a name that is free.
+fs::path renamed(const fs::path& path) {
+  int number = 1;
+  fs::path aside;
+  do aside = path.parent_path() / fmt::format("store-{}.db", number++);
+  while (fs::exists(aside));
+  // The log goes first: without its database it is nothing, the database without it is older.
+  if (fs::exists(log_of(path))) fs::rename(log_of(path), log_of(aside));
+  fs::remove(path.string() + "-shm");
+  fs::rename(path, aside);
+  return aside;
 }
 
-std::vector<Session> sessions_of(Database& database) {
-  std::vector<Session> sessions;
-  Statement rows(database,
-                 "SELECT digest, version, compiler, flags, machine, process, started, "
-                 "progress, trials FROM session ORDER BY id");
-  while (rows.step())
-    sessions.push_back({rows.text(0),
-                        {rows.text(1), rows.text(2), rows.text(3)},
-                        rows.text(4),
-                        rows.integer(5),
-                        rows.text(6),
-                        rows.text(7),
-                        rows.integer(8)});
-  return sessions;
+void require_version(Database& database) {
+  const auto version = database.number("PRAGMA user_version");
+  if (version == 0 && database.number("SELECT count(*) FROM sqlite_master") == 0)
+    throw emptied(database.path());
+  if (version != schema_version) throw of_other_version(database.path());
 }
 
-std::int64_t add_session(Database& database, const Session& s) {
-  Statement row(database,
-                "INSERT INTO session (digest, version, compiler, flags, machine, process, "
-                "started, progress) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
-  row.with(s.digest, s.build.version, s.build.compiler, s.build.flags, s.machine, s.process,
-           s.started, s.progress.empty() ? std::string("{}") : s.progress)
-      .run();
-  return sqlite3_last_insert_rowid(database.get());
+/// What would be lost without a word.
+void require_sound_log(const fs::path& path) {
+  if (const auto at = damage_of_log(path))
+    throw StoreError(
+        fmt::format("{}-wal: is damaged at byte {}, and the trials written after it are lost; "
+                    "gyrostat repair {} "
+                    "keeps those before, and gyrostat run makes the others again",
+                    path.string(), *at, path.parent_path().string()));
 }
 
-/// The same session in `database`, added where it is not there.
-std::int64_t same_session(Database& database, const Session& s) {
-  Statement row(database,
-                "SELECT id FROM session WHERE digest = ? AND version = ? AND compiler = ? AND "
-                "flags = ? AND machine = ? AND process = ? AND started = ?");
-  row.with(s.digest, s.build.version, s.build.compiler, s.build.flags, s.machine, s.process,
-           s.started);
-  return row.step() ? row.integer(0) : add_session(database, s);
-}
-
-struct RawTrial {
-  std::int64_t id, session;
-  Store::TrialView view;
-};
-
-/// Every trial with an id in [from, to), its checksum verified.
-void for_each_row(Database& database, std::int64_t from, std::int64_t to,
-                  const std::function<void(const RawTrial&)>& visit) {
-  Statement rows(database,
-                 "SELECT id, session, calibrated, outcomes, checksum FROM trial "
-                 "WHERE id >= ? AND id < ? ORDER BY id");
-  rows.with(from, to);
-  std::vector<double> outcomes;
-  while (rows.step()) {
-    const auto id = rows.integer(0);
-    const bool calibrated = rows.integer(2) != 0;
-    const auto bytes = rows.blob(3);
-    outcomes.resize(bytes.size() / sizeof(double));
-    if (!bytes.empty())
-      std::memcpy(outcomes.data(), bytes.data(), outcomes.size() * sizeof(double));
-    if (checksum_of(id, calibrated, outcomes) != rows.integer(4))
-      throw damage(database, fmt::format("trial {} of cell {} fails its checksum", trial_of(id),
-                                         cell_of(id) + 1));
-    visit({id, rows.integer(1), {trial_of(id), calibrated, outcomes}});
+/// Puts a whole store where there is none.
+void create(const fs::path& path, const Manifest& manifest) {
+  std::error_code absent;
+  if (fs::exists(log_of(path)) && fs::file_size(log_of(path), absent) > 0)
+    throw StoreError(fmt::format(
+        "{}: is gone, and its log {} is still there; put it back, or remove the log to begin anew",
+        path.string(), log_of(path).filename().string()));
+  const auto part = fs::path(path.string() + ".tmp");
+  fs::remove(part);
+  {
+    Database database(part, Access::write);
+    // Rows of some KiB fill large pages better.
+    database.run("PRAGMA page_size = 16384");
+    Transaction transaction(database);
+    database.run(schema_sql);
+    add_study(database, manifest);
+    database.run(fmt::format("PRAGMA user_version = {}", schema_version));
+    transaction.commit();
   }
+  fs::rename(part, path);
+}
+
+constexpr std::uint64_t all_trials = std::uint64_t{1} << 32;
+
+/// The sessions of a store that may be damaged, each with its place in the other one.
+std::map<std::int64_t, std::int64_t> salvaged_sessions(Database& damaged, Database& sound) {
+  std::map<std::int64_t, std::int64_t> ids;
+  constexpr std::int64_t most = 1'000'000;  // a number may be what is damaged
+  const auto last = std::min(most, damaged.number("SELECT max(id) FROM session"));
+  for (std::int64_t id = 1; id <= last; ++id) try {
+      if (const auto session = session_of(damaged, id)) ids[id] = same_session(sound, *session);
+    } catch (const sqlite::Error& error) {
+      if (!error.is_damage()) throw;
+    }
+  return ids;
+}
+
+/// Takes over every trial that can be found by its number and holds what it was written with.
+/// Asking for each leaves a damaged page as soon as it is met, where a scan would end.
+void salvage(Database& damaged, Database& sound, const Manifest& manifest,
+             Store::Repaired& result) {
+  const auto sessions = salvaged_sessions(damaged, sound);
+  RowInserter inserter(sound);
+  std::int64_t finished = 0;
+  for (std::uint32_t c = 0; c < manifest.cells.size(); ++c) {
+    for (std::uint32_t t = 0; t < manifest.cells[c].trials; ++t) try {
+        const auto row = salvaged_row(damaged, id_of(c, t));
+        if (!row) continue;
+        if (!sessions.contains(row->session)) throw damage(damaged, "a trial has no session");
+        inserter.insert(row->id, sessions.at(row->session), row->calibrated, row->outcomes,
+                        row->failures);
+        ++result.kept;
+      } catch (const sqlite::Error& error) {
+        if (!error.is_damage() || error.path() != damaged.path()) throw;
+        ++result.dropped;
+      }
+    finished += std::min(manifest.cells[c].finished, manifest.cells[c].trials);
+  }
+  // Rows that are on no page that can be reached are missing, too.
+  result.dropped = std::max<std::int64_t>(result.dropped, finished - result.kept);
 }
 
 }  // namespace
@@ -183,9 +194,10 @@ Store::Lock::~Lock() {
 template <class Work>
 auto Store::guarded(const Work& work) const {
   try {
+    require_still_there();
     return work();
   } catch (const sqlite::Error& error) {
-    throw explained(path_, error);
+    throw explained(error);
   }
 }
 
@@ -195,88 +207,66 @@ Store::Store(const fs::path& folder, Access access) : path_(folder / file_name) 
                      fmt::format("holds no outcomes: there is no {}; allowed: the folder "
                                  "of a run, as runs/STUDY",
                                  file_name));
-  if (access == Access::write) lock_.emplace(folder);
-  guarded([&] { database_ = std::make_unique<Database>(path_, access); });
+  require_sound_log(path_);
+  try {
+    database_ = std::make_unique<Database>(path_, access);
+  } catch (const sqlite::Error& error) {
+    throw explained(error);
+  }
+  struct stat at {};
+  if (::stat(path_.c_str(), &at) == 0) device_ = at.st_dev, file_ = at.st_ino;
+}
+
+void Store::require_still_there() const {
+  struct stat at {};
+  if (::stat(path_.c_str(), &at) != 0 || at.st_dev != device_ || at.st_ino != file_)
+    throw StoreError(path_.string() +
+                     ": was removed or replaced while it was in use; what it held is lost, and the "
+                     "same command begins anew");
 }
 
 Store Store::open(const fs::path& folder) {
   Store store(folder, Access::read);
   store.guarded([&] {
-    const auto version = store.database_->number("PRAGMA user_version");
-    if (version == 0 && is_empty(*store.database_))
-      throw StoreError(store.path_.string() + ": holds no outcomes yet");
-    if (version != schema_version)
-      throw StoreError(store.path_.string() + ": is not a store of this version of gyrostat");
+    require_version(*store.database_);
+    (void)manifest_of(*store.database_);
+    (void)sessions_of(*store.database_);
   });
   return store;
 }
 
 Store Store::open_or_create(const fs::path& folder, const Manifest& manifest) {
+  Lock lock(folder);
+  const auto path = folder / file_name;
+  try {
+    if (!fs::exists(path)) create(path, manifest);
+  } catch (const sqlite::Error& error) {
+    throw explained(error);
+  }
   Store store(folder, Access::write);
+  store.lock_.emplace(std::move(lock));
   store.guarded([&] {
     auto& database = *store.database_;
-    // Rows of some KiB fill large pages better. NORMAL: a power cut may take the last batches,
-    // whose trials are then simply missing.
+    // NORMAL: a power cut may take the last batches, whose trials are then simply missing.
     database.run(
-        "PRAGMA page_size = 16384; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; "
-        "PRAGMA wal_autocheckpoint = 256");
-    const auto version = database.number("PRAGMA user_version");
-    if (version == 0 && is_empty(database))
-      store.create(manifest);
-    else if (version != schema_version)
-      throw StoreError(store.path_.string() +
-                       ": is not a store of this version of gyrostat; "
-                       "--set-aside keeps it under another name");
+        "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 256");
+    require_version(database);
     const auto checked = database.text("PRAGMA quick_check(1)");
     if (checked != "ok") throw damage(database, checked);
+    (void)manifest_of(database);
+    (void)sessions_of(database);
   });
   return store;
 }
 
-void Store::create(const Manifest& m) {
-  sqlite::Transaction transaction(*database_);
-  database_->run(schema_sql);
-  Statement(*database_,
-            "INSERT INTO study (digest, name, seed, source, folder, columns) "
-            "VALUES (?, ?, ?, ?, ?, ?)")
-      .with(m.digest, m.name, static_cast<std::int64_t>(m.seed), m.source, m.folder,
-            nlohmann::json(m.columns).dump())
-      .run();
-  database_->run(fmt::format("PRAGMA user_version = {}", schema_version));
-  transaction.commit();
-}
-
 std::optional<fs::path> Store::set_aside(const fs::path& folder) {
-  const auto path = folder / file_name;
-  if (!fs::exists(path)) return std::nullopt;
+  if (!fs::exists(folder / file_name)) return std::nullopt;
   const Lock lock(folder);
-  int number = 1;
-  fs::path aside;
-  do aside = folder / fmt::format("store-{}.db", number++);
-  while (fs::exists(aside));
-  // The log goes first: without its database it is nothing, the database without it is older.
-  const auto log = fs::path(path.string() + "-wal");
-  if (fs::exists(log)) fs::rename(log, aside.string() + "-wal");
-  fs::remove(path.string() + "-shm");
-  fs::rename(path, aside);
-  return aside;
+  return renamed(folder / file_name);
 }
 
 Manifest Store::manifest() const {
-  return guarded([&] {
-    Manifest m;
-    Statement row(*database_, "SELECT digest, name, seed, source, folder, columns FROM study");
-    if (!row.step()) throw damage(*database_, "the study is not named");
-    m = {row.text(0), row.text(1), static_cast<std::uint64_t>(row.integer(2)),
-         row.text(3), row.text(4), texts(*database_, row.text(5)),
-         {}};
-    Statement cells(*database_, "SELECT name, methods, trials, finished FROM cell ORDER BY id");
-    while (cells.step())
-      m.cells.push_back({cells.text(0), texts(*database_, cells.text(1)),
-                         static_cast<std::uint32_t>(cells.integer(2)),
-                         static_cast<std::uint32_t>(cells.integer(3))});
-    return m;
-  });
+  return guarded([&] { return manifest_of(*database_); });
 }
 
 std::vector<Session> Store::sessions() const {
@@ -284,19 +274,18 @@ std::vector<Session> Store::sessions() const {
 }
 
 void Store::set_source(std::string_view json) {
-  guarded([&] { Statement(*database_, "UPDATE study SET source = ?").with(json).run(); });
+  guarded([&] {
+    Transaction transaction(*database_);
+    Statement(*database_, "UPDATE study SET source = ?").with(json).run();
+    seal_manifest(*database_);
+    transaction.commit();
+  });
 }
 
 void Store::set_cells(std::span<const StoredCell> cells) {
   guarded([&] {
-    sqlite::Transaction transaction(*database_);
-    Statement row(*database_,
-                  "INSERT INTO cell (id, name, methods, trials) VALUES (?, ?, ?, ?) "
-                  "ON CONFLICT (id) DO UPDATE SET trials = excluded.trials");
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      row.with(static_cast<std::int64_t>(c), cells[c].name, nlohmann::json(cells[c].methods).dump(),
-               static_cast<std::int64_t>(cells[c].trials))
-          .run();
+    Transaction transaction(*database_);
+    store_rows::set_cells(*database_, cells);
     transaction.commit();
   });
 }
@@ -313,66 +302,35 @@ void Store::note_progress(std::string_view json) {
   });
 }
 
-void Store::insert(Statement& statement, std::int64_t id, std::int64_t session, bool calibrated,
-                   std::span<const double> outcomes) {
-  const auto checksum = checksum_of(id, calibrated, outcomes);
-  statement.with(id, session, std::int64_t{calibrated}, std::as_bytes(outcomes), checksum).run();
-  if (sqlite3_changes(database_->get()) > 0) return;
-  Statement known(*database_, "SELECT checksum, outcomes FROM trial WHERE id = ?");
-  known.with(id);
-  const auto bytes = std::as_bytes(outcomes);
-  if (!known.step() || known.integer(0) != checksum || known.blob(1).size() != bytes.size() ||
-      std::memcmp(known.blob(1).data(), bytes.data(), bytes.size()) != 0)
-    throw StoreError(
-        fmt::format("{}: trial {} of cell {} is there with another outcome; were the two "
-                    "made by the same build?",
-                    path_.string(), trial_of(id), cell_of(id) + 1));
-}
-
-void Store::insert(Statement& statement, const Failure& failure) {
-  statement.with(id_of(failure.cell, failure.trial), std::int64_t{failure.method}, failure.reason)
-      .run();
-}
-
-constexpr std::string_view insert_trial =
-    "INSERT INTO trial (id, session, calibrated, outcomes, checksum) VALUES (?, ?, ?, ?, ?) "
-    "ON CONFLICT (id) DO NOTHING";
-constexpr std::string_view insert_failure =
-    "INSERT INTO failure (id, method, reason) VALUES (?, ?, ?) ON CONFLICT DO NOTHING";
-
 void Store::write(std::span<const TrialRow> rows) {
   guarded([&] {
-    sqlite::Transaction transaction(*database_);
-    Statement trial(*database_, insert_trial), failed(*database_, insert_failure);
-    for (const auto& row : rows) {
-      insert(trial, id_of(row.cell, row.trial), session_, row.calibrated, row.outcomes);
-      for (const auto& failure : row.failures) insert(failed, failure);
-    }
+    Transaction transaction(*database_);
+    RowInserter inserter(*database_);
+    for (const auto& row : rows)
+      inserter.insert(id_of(row.cell, row.trial), session_, row.calibrated, row.outcomes,
+                      row.failures);
     transaction.commit();
   });
 }
 
 std::size_t Store::merge(const fs::path& folder) {
   const Store other = open(folder);
-  const auto count = [&] { return database_->number("SELECT sum(finished) FROM cell"); };
-  const auto theirs = other.guarded([&] {
-    other.database_->run("BEGIN");  // one state of it, should it still grow
-    return sessions_of(*other.database_);
-  });
   return guarded([&] {
-    sqlite::Transaction transaction(*database_);
+    const auto count = [&] { return database_->number("SELECT sum(finished) FROM cell"); };
+    other.database_->run("BEGIN");  // one state of it, should it still grow
+    Transaction transaction(*database_);
     const auto before = count();
     std::vector<std::int64_t> session_ids;
-    for (const auto& session : theirs) session_ids.push_back(same_session(*database_, session));
-    Statement trial(*database_, insert_trial), failed(*database_, insert_failure);
-    for_each_row(*other.database_, 0, std::numeric_limits<std::int64_t>::max(),
-                 [&](const RawTrial& row) {
-                   const auto at = static_cast<std::size_t>(row.session - 1);
-                   if (at >= session_ids.size())
-                     throw damage(*other.database_, "a trial has no session");
-                   insert(trial, row.id, session_ids[at], row.view.calibrated, row.view.outcomes);
-                 });
-    other.for_each_failure([&](const Failure& failure) { insert(failed, failure); });
+    for (const auto& session : sessions_of(*other.database_))
+      session_ids.push_back(same_session(*database_, session));
+    RowInserter inserter(*database_);
+    const auto cells = static_cast<std::uint32_t>(manifest_of(*other.database_).cells.size());
+    for (std::uint32_t c = 0; c < cells; ++c)
+      for_each_row_of(*other.database_, c, all_trials, [&](const Row& row) {
+        const auto at = static_cast<std::size_t>(row.session - 1);
+        if (at >= session_ids.size()) throw damage(*other.database_, "a trial has no session");
+        inserter.insert(row.id, session_ids[at], row.calibrated, row.outcomes, row.failures);
+      });
     transaction.commit();
     return static_cast<std::size_t>(count() - before);
   });
@@ -381,26 +339,68 @@ std::size_t Store::merge(const fs::path& folder) {
 void Store::for_each_trial(std::uint32_t cell, std::uint32_t limit,
                            const std::function<void(const TrialView&)>& visit) const {
   guarded([&] {
-    for_each_row(*database_, id_of(cell, 0), id_of(cell, 0) + limit,
-                 [&](const RawTrial& row) { visit(row.view); });
+    for_each_row_of(*database_, cell, limit, [&](const Row& row) {
+      visit({trial_of(row.id), row.calibrated, row.outcomes});
+    });
   });
 }
 
 void Store::for_each_failure(const std::function<void(const Failure&)>& visit) const {
   guarded([&] {
-    Statement rows(*database_, "SELECT id, method, reason FROM failure ORDER BY id, method");
-    while (rows.step())
-      visit({cell_of(rows.integer(0)), trial_of(rows.integer(0)),
-             static_cast<std::uint32_t>(rows.integer(1)), rows.text(2)});
+    database_->run("SAVEPOINT failures");
+    std::int64_t count = 0;
+    {
+      Statement trials(*database_, "SELECT DISTINCT id FROM failure ORDER BY id");
+      while (trials.step())
+        for_each_row(*database_, trials.integer(0), trials.integer(0) + 1, [&](const Row& row) {
+          for (const auto& failure : row.failures) ++count, visit(failure);
+        });
+    }
+    const auto kept = database_->number("SELECT sum(failures) FROM cell");
+    database_->run("RELEASE failures");
+    if (count != kept)
+      throw damage(*database_, fmt::format("{} failures are there, and {} were kept", count, kept));
   });
 }
 
 std::uint32_t Store::failed_trials(std::uint32_t cell, std::uint32_t limit) const {
   return guarded([&] {
     Statement row(*database_, "SELECT count(DISTINCT id) FROM failure WHERE id >= ? AND id < ?");
-    row.with(id_of(cell, 0), id_of(cell, 0) + limit);
+    row.with(id_of(cell, 0), id_of(cell, limit));
     return row.step() ? static_cast<std::uint32_t>(row.integer(0)) : 0U;
   });
+}
+
+Store::Repaired Store::repair(const fs::path& folder, const std::optional<Manifest>& named) {
+  const auto path = folder / file_name;
+  if (!fs::exists(path))
+    throw InputError(folder.string(), fmt::format("there is no {} to be repaired", file_name));
+  const Lock lock(folder);
+  Repaired result;
+  const auto part = fs::path(path.string() + ".tmp");
+  try {
+    result.log_was_damaged = damage_of_log(path).has_value();
+    Database damaged(path, Access::read);
+    require_version(damaged);
+    const auto manifest = named ? *named : manifest_of(damaged);
+    create(part, manifest);
+    Database sound(part, Access::write);
+    sound.run("PRAGMA journal_mode = OFF; PRAGMA synchronous = FULL");
+    Transaction transaction(sound);
+    store_rows::set_cells(sound, manifest.cells);
+    salvage(damaged, sound, manifest, result);
+    transaction.commit();
+  } catch (const sqlite::Error& error) {
+    fs::remove(part);
+    throw explained(error);
+  }
+  if (result.is_sound()) {
+    fs::remove(part);
+    return result;
+  }
+  result.aside = renamed(path);
+  fs::rename(part, path);
+  return result;
 }
 
 }  // namespace gyrostat

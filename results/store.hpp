@@ -73,6 +73,7 @@ struct TrialRow {
 
 /// The outcomes of a study's finished trials, in one SQLite file with a write-ahead log. A trial is
 /// there whole or not at all, whatever ends the program. One connection writes; any number read.
+/// What is read is verified: names when the store is opened, trials and their number in passing.
 /// Every member throws StoreError.
 ///
 /// Example: a number of every finished trial of a run's first cell.
@@ -98,6 +99,19 @@ class Store {
   /// Renames the store in `folder`, so that nothing is destroyed; its new name, or nothing where
   /// there is no store.
   static std::optional<std::filesystem::path> set_aside(const std::filesystem::path& folder);
+
+  /// What `repair` found.
+  struct Repaired {
+    std::int64_t kept = 0, dropped = 0;          ///< trials
+    bool log_was_damaged = false;                ///< how many trials it held nobody knows
+    std::optional<std::filesystem::path> aside;  ///< the damaged store's new name
+    bool is_sound() const { return dropped == 0 && !log_was_damaged; }
+  };
+  /// Makes a store of all trials in `folder` that hold what they were written with, and renames the
+  /// damaged one; nothing where it is sound. `named` is whose outcomes they are, where the store
+  /// itself no longer knows. Trials beyond those last asked for are left behind.
+  static Repaired repair(const std::filesystem::path& folder,
+                         const std::optional<Manifest>& named = {});
 
   Manifest manifest() const;
   std::vector<Session> sessions() const;
@@ -139,15 +153,13 @@ class Store {
   Store(const std::filesystem::path& folder, sqlite::Access access);
   template <class Work>
   auto guarded(const Work& work) const;
-  void create(const Manifest& manifest);
-  void insert(sqlite::Statement& statement, std::int64_t id, std::int64_t session, bool calibrated,
-              std::span<const double> outcomes);
-  void insert(sqlite::Statement& statement, const Failure& failure);
+  void require_still_there() const;
 
   std::filesystem::path path_;
   std::optional<Lock> lock_;
   std::unique_ptr<sqlite::Database> database_;
   std::int64_t session_ = 0;
+  std::uint64_t device_ = 0, file_ = 0;  ///< which file it was when it was opened
 };
 
 }  // namespace gyrostat

@@ -14,6 +14,7 @@
 #include <gyrostat/experiments/blind/seal.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
+#include <gyrostat/recordings/temporary_path.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -57,21 +58,28 @@ std::string read_bytes(const fs::path& path) {
 std::string export_recordings(const BlindCheck& check, const fs::path& folder) {
   if (fs::exists(folder) && !fs::is_empty(folder))
     throw InputError(folder.string(), "is not empty; allowed: a new folder");
-  const auto labels = write_recordings(check, drawn_cases(check), folder);
+  // Whole or not at all: who has a part of it cannot tell what is missing.
+  const auto target = fs::absolute(folder).lexically_normal();
+  const auto name = (target.has_filename() ? target : target.parent_path()).string();
+  TemporaryPath part(name + ".tmp");
+  fs::remove_all(part.path());
+  const auto labels = write_recordings(check, drawn_cases(check), part.path());
   std::vector<std::string> names;
   for (const auto& effect : catalogue()) names.push_back(fmt::format("`{}`", effect.id()));
-  write_atomically(folder / "README.md", fmt::format(how_to_answer, check.title, labels.size(),
-                                                     seal_name, fmt::join(names, ", ")));
+  write_atomically(part.path() / "README.md", fmt::format(how_to_answer, check.title, labels.size(),
+                                                          seal_name, fmt::join(names, ", ")));
   Json without = Json::object();
   for (const auto& label : labels)
     if (!label.without.empty()) without[fmt::format("{:05}", label.number)] = label.without;
-  if (!without.empty()) write_atomically(folder / "without.json", without.dump(1) + '\n');
+  if (!without.empty()) write_atomically(part.path() / "without.json", without.dump(1) + '\n');
   Json secret = check.file;
   secret["seed"] = check.seed;
   secret["recordings"] = check.recordings;
   const Json all = {{"title", check.title}, {"check", secret}, {"labels", labels_json(labels)}};
   const auto key = new_key();
-  write_atomically(folder / seal_name, sealed(all.dump(), key));
+  write_atomically(part.path() / seal_name, sealed(all.dump(), key));
+  fs::rename(part.path(), name);
+  part.keep();
   return key;
 }
 

@@ -86,7 +86,7 @@ gap::Json members_json(const std::vector<gap::Member>& members, const std::strin
 std::optional<gap::Diagnosis> diagnosed(const RecordingOption& recording, const SpanOption& span,
                                         const gap::DiagnosisOptions& options, Console& console) {
   const auto& file = recording.file;
-  const Interrupt interrupt(console.stop);
+  const Interrupt interrupt(console.stop.orderly());
   const auto read = recording.read_all(console.log);
   PhaseProgress progress(console.log, console.log_is_terminal, "diagnose");
   try {

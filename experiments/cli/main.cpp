@@ -2,6 +2,7 @@
 #include <iostream>
 #include <sstream>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
@@ -11,23 +12,17 @@
 
 namespace {
 
-std::atomic<bool> stop_requested{false};
-
-/// The first Ctrl-C asks for an end in good order; a second one ends at once.
-void on_interrupt(int /*signal*/) {
-  stop_requested = true;
-  struct sigaction at_once {};
-  at_once.sa_handler = SIG_DFL;
-  sigaction(SIGINT, &at_once, nullptr);
-  sigaction(SIGTERM, &at_once, nullptr);
+/// A file that is opened must not take the place of a closed standard stream, or what is printed
+/// goes into it. What stands there instead can neither be read nor written to.
+void fill_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0)
+      (void)!open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-void catch_interrupts() {
-  struct sigaction orderly {};
-  orderly.sa_handler = on_interrupt;
-  sigaction(SIGINT, &orderly, nullptr);
-  sigaction(SIGTERM, &orderly, nullptr);
-  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
+/// What was printed is out. Throws std::runtime_error where it cannot be.
+void flush_output() {
+  if (!std::cout.flush()) throw std::runtime_error("the output cannot be written");
 }
 
 /// A misspelt verb would otherwise be told that an argument was not expected.
@@ -39,12 +34,39 @@ void check_verb(const CLI::App& program, int argc, char** argv) {
     throw gyrostat::InputError("command line", gyrostat::unknown_name("verb", argv[1], verbs));
 }
 
+/// "; did you mean '--axis'?" for an option that the verb has not; empty for any other mistake.
+std::string meant_option(const CLI::App& verb, int argc, char** argv) {
+  std::vector<std::string> known;
+  for (const auto* option : verb.get_options())
+    for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    if (!word.starts_with("--") || std::find(known.begin(), known.end(), word) != known.end())
+      continue;
+    const auto nearest = gyrostat::nearest_name(word, known);
+    if (gyrostat::is_misspelling(word, nearest)) return "; did you mean '" + nearest + "'?";
+  }
+  return "";
+}
+
+/// A line each, but no more than anybody reads.
+void print_mistakes(const std::string& mistakes) {
+  constexpr std::size_t most = 50;
+  std::istringstream lines(mistakes);
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line); ++count)
+    if (count < most) std::cerr << "gyrostat: " << line << '\n';
+  if (count > most) std::cerr << "gyrostat: and " << count - most << " more\n";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace gyrostat;
-  catch_interrupts();
-  cli::Console console{std::cout, std::cerr, isatty(STDERR_FILENO) != 0, stop_requested};
+  fill_standard_streams();
+  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
+  cli::StopSignal stop;
+  cli::Console console{std::cout, std::cerr, isatty(STDERR_FILENO) != 0, stop};
   int exit_code = cli::complete;
 
   CLI::App program{"Monte Carlo robustness studies of MEMS gyroscope error compensation",
@@ -55,18 +77,22 @@ int main(int argc, char** argv) {
 
   try {
     check_verb(program, argc, argv);
-    program.parse(argc, argv);
-    if (!std::cout.flush()) throw std::runtime_error("the output cannot be written");
-  } catch (const CLI::Success& help) {
-    return program.exit(help);
+    try {
+      program.parse(argc, argv);
+    } catch (const CLI::Success& help) {
+      program.exit(help);
+    }
+    flush_output();
   } catch (const CLI::ParseError& mistake) {
     const auto verbs = program.get_subcommands();
-    std::cerr << "gyrostat: " << mistake.what() << "; see gyrostat "
-              << (verbs.empty() ? "" : verbs.front()->get_name() + " ") << "--help\n";
+    const bool is_unknown = dynamic_cast<const CLI::ExtrasError*>(&mistake) != nullptr;
+    std::cerr << "gyrostat: " << mistake.what()
+              << (is_unknown && !verbs.empty() ? meant_option(*verbs.front(), argc, argv) : "")
+              << "; see gyrostat " << (verbs.empty() ? "" : verbs.front()->get_name() + " ")
+              << "--help\n";
     return cli::usage;
   } catch (const InputError& mistake) {
-    std::istringstream lines(mistake.what());
-    for (std::string line; std::getline(lines, line);) std::cerr << "gyrostat: " << line << '\n';
+    print_mistakes(mistake.what());
     return cli::usage;
   } catch (const std::exception& failure) {
     std::cerr << "gyrostat: " << failure.what() << '\n';

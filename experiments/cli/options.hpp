@@ -74,8 +74,14 @@ struct RecordingOption {
             "CSV, CSV.gz, or a log in any format of `gyrostat list formats`; - is standard "
             "input")
         ->required();
-    verb->add_option("--axis", axis,
-                     "x, y or z where the recording has three axes; diagnose: or all");
+    verb->add_option("--axis", axis, "x, y or z where the recording has three axes; diagnose: or all")
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+              return text == "x" || text == "y" || text == "z" || text == "all"
+                         ? std::string{}
+                         : "'" + text + "' is no axis; allowed: x, y, z, and all for diagnose";
+            },
+            "x|y|z|all"));
     verb->add_option("--columns", columns,
                      "columns of other names, as t=Time[ms],gyro=GyrZ,temp=Temp, or by number, as "
                      "1=t,4=gyro")

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <atomic>
 #include <ostream>
 
 #include <CLI/CLI.hpp>
+
+#include <gyrostat/experiments/cli/stop_signal.hpp>
 
 namespace gyrostat::cli {
 
@@ -12,9 +13,10 @@ struct Console {
   std::ostream& out;  ///< results
   std::ostream& log;  ///< progress and warnings
   bool log_is_terminal = false;
-  const std::atomic<bool>& stop;  ///< set by Ctrl-C
+  StopSignal& stop;  ///< Ctrl-C and SIGTERM
 };
 
+/// Beside these, 128 + its number where a signal ended what cannot be resumed.
 enum ExitCode { complete = 0, error = 1, usage = 2, over_failure_budget = 3, stopped = 4 };
 
 /// Adds the verb of every file in verbs/ to the program: those of verbs/order.txt in that order,

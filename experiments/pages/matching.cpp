@@ -123,7 +123,7 @@ Match read_match(const std::string& path) {
   return match;
 }
 
-MatchResult run_match(const Match& match, std::ostream& log, const std::atomic<bool>& stop) {
+MatchResult run_match(const Match& match, std::ostream& log) {
   std::vector<SearchRange> ranges;
   MatchResult result;
   for (const auto& [path, range] : match.free) {
@@ -131,12 +131,10 @@ MatchResult run_match(const Match& match, std::ostream& log, const std::atomic<b
     result.values.push_back(range.at(0.5));
   }
   Json fixed = match.study;
-  for (int round = 0; round < match.rounds && !stop; ++round) {
+  for (int round = 0; round < match.rounds; ++round) {
     fixed = with_tuning(match, match.study, result.values);
     const auto found = box_search(ranges, match.evaluations, [&](const auto& values) {
-      return stop
-                 ? no_value
-                 : distance(match, reached_by(match, study_at(match, fixed, values), match.trials));
+      return distance(match, reached_by(match, study_at(match, fixed, values), match.trials));
     });
     result.values = found.values;
     log << fmt::format("round {}: distance {:.4g} after {} evaluations\n", round + 1,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -45,7 +44,7 @@ struct MatchResult {
 Match read_match(const std::string& path);
 
 /// Runs the search. Trials of the final judgement are fresh. Progress goes to `log`.
-MatchResult run_match(const Match& match, std::ostream& log, const std::atomic<bool>& stop);
+MatchResult run_match(const Match& match, std::ostream& log);
 
 std::vector<Table> match_tables(const Match& match, const MatchResult& result);
 

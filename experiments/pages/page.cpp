@@ -107,6 +107,16 @@ class Filler {
   std::map<std::string, std::vector<NamedTable>> others_;
 };
 
+/// The name of a table is that of a file in the page's folder.
+void require_file_name(const std::string& name, const std::string& place) {
+  const bool is_plain =
+      !name.empty() && name.front() != '.' &&
+      std::ranges::all_of(name, [](unsigned char c) { return c > ' ' && c != '/' && c != 127; });
+  if (!is_plain)
+    throw InputError(place, Json(name).dump() +
+                                " is no name of a table: no '/', no blanks, no '.' at its front");
+}
+
 void append(std::vector<NamedTable>& all, std::vector<NamedTable> more) {
   for (auto& named : more) all.push_back(std::move(named));
 }
@@ -165,6 +175,7 @@ std::vector<NamedTable> page_tables(const Page& page, const RunCell& run, const 
   std::vector<NamedTable> tables;
   for (std::size_t i = 0; i < page.sources.size(); ++i)
     append(tables, source_tables(page, page.sources[i], page.places[i], run, match));
+  for (const auto& named : tables) require_file_name(named.name, page.folder);
   for (std::size_t i = 0; i < tables.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (tables[i].name == tables[j].name)
@@ -205,12 +216,16 @@ std::vector<std::pair<std::string, std::string>> page_files(const std::vector<Na
 std::vector<NamedTable> read_page_tables(const std::string& folder) {
   const auto file = (fs::path(folder) / "tables.json").string();
   const Json json = read_json(file);
-  if (!json.contains("names") || !json.contains("tables"))
+  if (!json.is_object() || !json.contains("names") || !json.contains("tables"))
     throw InputError(file, "\"names\" or \"tables\" is missing");
   auto tables = parse_tables(json.at("tables").dump(), file);
   if (!json.at("names").is_array() || json.at("names").size() != tables.size())
     throw InputError(file, "there are not as many names as tables");
   std::vector<NamedTable> named;
+  for (const auto& name : json.at("names")) {
+    if (!name.is_string()) throw InputError(file, name.dump() + " in \"names\" is not a text");
+    require_file_name(name.get<std::string>(), file);
+  }
   for (std::size_t i = 0; i < tables.size(); ++i)
     named.push_back({json.at("names")[i].get<std::string>(), std::move(tables[i])});
   return named;

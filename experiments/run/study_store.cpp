@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* ways_out =
     "--mix goes on in it, --set-aside keeps it under another name and begins anew, --out names "
-    "another "
-    "folder";
+    "another folder";
 
 void require_same_cells(const std::string& place, const std::vector<StoredCell>& there,
                         const std::vector<StoredCell>& wanted) {
@@ -59,6 +58,12 @@ void require_match(const Store& store, const Manifest& wanted, const std::string
                        fmt::format("holds outcomes of another study, or of '{}' before it was "
                                    "changed (digest {}, now {}); {}",
                                    there.name, there.digest, wanted.digest, ways_out));
+    for (const auto& session : store.sessions())
+      if (session.trials > 0 && session.digest != wanted.digest)
+        throw InputError(place,
+                         fmt::format("holds outcomes of another study among its own, mixed or "
+                                     "merged in (digest {}, not {}); {}",
+                                     session.digest, wanted.digest, ways_out));
     require_build(place, store.sessions(), this_build());
   }
   require_same_columns(place, there, wanted);

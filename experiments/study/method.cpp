@@ -98,6 +98,10 @@ std::string plain_name(std::string name, const std::string& place) {
   if (name.empty()) throw InputError(place, "the name is empty");
   if (std::any_of(name.begin(), name.end(), unfit))
     throw InputError(place, Json(name).dump() + " is no name: no quotes or line breaks");
+  if (std::string_view("=+-@").find(name.front()) != std::string_view::npos)
+    throw InputError(place, Json(name).dump() +
+                                " is no name: a spreadsheet takes what begins with "
+                                "=, +, - or @ for a formula");
   return name;
 }
 

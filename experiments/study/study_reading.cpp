@@ -1,5 +1,6 @@
 #include <cmath>
 #include <filesystem>
+#include <unordered_set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -140,29 +141,36 @@ Cell read_cell(JsonObject object, const std::string& folder, FittedRecordings& f
   return cell;
 }
 
-void add_cell(Study& study, Cell cell, const std::string& place) {
-  for (const auto& other : study.cells)
-    if (other.name == cell.name)
+/// A study that grows, with the names that are taken.
+struct GrowingStudy {
+  Study study;
+  std::unordered_set<std::string> names;
+
+  void add(Cell cell, const std::string& place) {
+    if (!names.insert(cell.name).second)
       throw InputError(place, "the name '" + cell.name + "' stands twice");
-  study.cells.push_back(std::move(cell));
-}
+    study.cells.push_back(std::move(cell));
+  }
+};
 
 /// Reads a cell and adds it. Its mistakes are told with the place of the cell that stands in the
 /// file, so that one which all cells of a grid share is told once.
-void add_read_cell(Study& study, const Json& cell, const std::string& place,
+void add_read_cell(GrowingStudy& growing, const Json& cell, const std::string& place,
                    const std::string& written_place, const std::string& folder,
                    FittedRecordings& fits, Mistakes& mistakes) {
   Mistakes own;
   own.attempt([&] {
-    add_cell(study, read_cell({cell, place, &own}, folder, fits, study.cells.size()), place);
+    const auto index = growing.study.cells.size();
+    growing.add(read_cell({cell, place, &own}, folder, fits, index), place);
   });
   for (const auto& line : own.lines())
     mistakes.note(line.starts_with(place) ? written_place + line.substr(place.size()) : line);
 }
 
 /// Adds the cells that a "grid" or a "design" makes of one.
-void add_design(Study& study, const Json& cell, const std::string& place, const std::string& folder,
-                FittedRecordings& fits, Mistakes& mistakes) {
+void add_design(GrowingStudy& growing, const Json& cell, const std::string& place,
+                const std::string& folder, FittedRecordings& fits, Mistakes& mistakes) {
+  auto& study = growing.study;
   if (cell.contains("grid") && cell.contains("design"))
     throw InputError(place,
                      "has a \"grid\" and a \"design\"; a design of kind \"grid\" is the same");
@@ -187,7 +195,7 @@ void add_design(Study& study, const Json& cell, const std::string& place, const 
                      "all points of a design of this kind run as many trials; leave it out");
   design.first_cell = study.cells.size();
   for (const auto& [point, point_place] : cells_of(design, cell, place))
-    add_read_cell(study, point, point_place, place, folder, fits, mistakes);
+    add_read_cell(growing, point, point_place, place, folder, fits, mistakes);
   if (study.cells.size() == design.first_cell) return;
   const auto known = cell_parameters(study.cells[design.first_cell]);
   for (auto& parameter : design.parameters)
@@ -211,7 +219,8 @@ Study parse_study(const Json& json, const std::string& path) {
 Study parse_study(const Json& json, const std::string& path, Mistakes mistakes) {
   JsonObject object(json, path + ":", &mistakes);
   const auto folder = std::filesystem::path(path).parent_path().string();
-  Study study;
+  GrowingStudy growing;
+  auto& study = growing.study;
   FittedRecordings fits;
   object.has("$schema");  // for editors
   study.title = object.text("title", std::filesystem::path(path).stem().string());
@@ -221,9 +230,9 @@ Study parse_study(const Json& json, const std::string& path, Mistakes mistakes) 
     for (const auto& [cell, place] : object.list("cells"))
       object.attempt([&] {
         if (cell->is_object() && (cell->contains("grid") || cell->contains("design")))
-          add_design(study, *cell, place, folder, fits, mistakes);
+          add_design(growing, *cell, place, folder, fits, mistakes);
         else
-          add_read_cell(study, *cell, place, place, folder, fits, mistakes);
+          add_read_cell(growing, *cell, place, place, folder, fits, mistakes);
       });
   });
   if (cells_read && study.cells.empty()) mistakes.note(path + ": \"cells\" is missing or empty");
@@ -232,7 +241,7 @@ Study parse_study(const Json& json, const std::string& path, Mistakes mistakes) 
   study.path = path;
   study.source = json.dump(2);
   study.digest = study_digest(json, path);
-  return study;
+  return std::move(study);
 }
 
 }  // namespace gyrostat

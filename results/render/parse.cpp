@@ -25,6 +25,8 @@ std::vector<Table> parse_tables(const std::string& json, const std::string& plac
     for (const auto& column : in.at("columns"))
       out.columns.push_back({column.at("name"), column.at("unit")});
     for (const auto& row : in.at("rows")) {
+      if (row.size() != out.columns.size())
+        throw InputError(place, "a row of '" + out.title + "' has not as many cells as columns");
       auto& cells = out.rows.emplace_back();
       for (const auto& cell : row) cells.push_back(parsed(cell));
     }

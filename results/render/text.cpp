@@ -1,9 +1,14 @@
 #include <algorithm>
+#include <set>
 
 #include <gyrostat/results/render/render.hpp>
 
 namespace gyrostat::render_detail {
 namespace {
+
+constexpr std::size_t screen = 80, indent = 2, gap = 3;
+/// A text is not broken into lines shorter than this.
+constexpr std::size_t least_text = 24;
 
 /// Characters that a terminal shows: UTF-8 continuation bytes are not.
 std::size_t width(const std::string& s) {
@@ -11,37 +16,134 @@ std::size_t width(const std::string& s) {
       std::count_if(s.begin(), s.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-bool is_text(const TableCell& cell) { return std::holds_alternative<std::string>(cell); }
+/// The text in lines of at most `most` characters, broken at blanks; a longer word stays whole.
+std::vector<std::string> broken(const std::string& text, std::size_t most) {
+  std::vector<std::string> lines = {""};
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const auto end = std::min(text.find(' ', begin), text.size());
+    const auto word = text.substr(begin, end - begin);
+    if (!lines.back().empty() && width(lines.back()) + 1 + width(word) > most)
+      lines.push_back(word);
+    else
+      lines.back() += (begin == 0 ? "" : " ") + word;
+    begin = end + 1;
+  }
+  return lines;
+}
 
-}  // namespace
+/// A paragraph, its lines behind the first further in.
+std::string paragraph(const std::string& text, std::size_t before) {
+  std::string out;
+  for (const auto& line : broken(text, screen - before - indent)) {
+    out += std::string(before + (out.empty() ? 0 : indent), ' ') + line + '\n';
+  }
+  return out;
+}
 
-std::string text(const Table& table) {
+/// A table as texts, its heads in line 0.
+struct Grid {
   std::vector<std::vector<std::string>> lines;
-  std::vector<bool> left(table.columns.size(), true);
-  auto& heads = lines.emplace_back();
-  for (const auto& column : table.columns) heads.push_back(head(column));
+  std::vector<bool> left;
+  std::vector<std::size_t> widths;
+};
+
+Grid grid_of(const Table& table) {
+  Grid grid{.lines = {{}},
+            .left = std::vector<bool>(table.columns.size(), true),
+            .widths = std::vector<std::size_t>(table.columns.size(), 0)};
+  for (const auto& column : table.columns) grid.lines[0].push_back(head(column));
   for (const auto& row : table.rows) {
-    auto& line = lines.emplace_back();
+    auto& line = grid.lines.emplace_back();
     for (std::size_t c = 0; c < row.size(); ++c) {
       line.push_back(readable(row[c]));
-      left[c] = left[c] && is_text(row[c]);
+      grid.left[c] = grid.left[c] && std::holds_alternative<std::string>(row[c]);
     }
   }
-  std::vector<std::size_t> widths(table.columns.size(), 0);
-  for (const auto& line : lines)
-    for (std::size_t c = 0; c < line.size(); ++c) widths[c] = std::max(widths[c], width(line[c]));
+  for (const auto& line : grid.lines)
+    for (std::size_t c = 0; c < line.size(); ++c)
+      grid.widths[c] = std::max(grid.widths[c], width(line[c]));
+  return grid;
+}
 
-  std::string out = one_line(table.title) + '\n';
-  for (const auto& line : lines) {
+/// How many of the first columns say what a row is about.
+std::size_t key_columns(const Grid& grid) {
+  std::set<std::string> names;
+  for (const auto& line : grid.lines)
+    if (!line.empty()) names.insert(line[0]);
+  const bool names_all = names.size() == grid.lines.size();
+  return names_all || grid.widths.size() < 2 || !grid.left[1] ? 1 : 2;
+}
+
+using Columns = std::vector<std::size_t>;
+
+/// Sets of columns that fit side by side, each with the key; texts are given the room that is left.
+std::vector<Columns> parts_of(Grid& grid) {
+  const auto room_for = [&](std::size_t used, std::size_t c) {
+    return used == 0 ? indent + grid.widths[c] : used + gap + grid.widths[c];
+  };
+  Columns key;
+  std::size_t key_width = 0, all = 0;
+  for (std::size_t c = 0; c < grid.widths.size(); ++c) all = room_for(all, c);
+  for (std::size_t c = 0; c < grid.widths.size() && all > screen && c < key_columns(grid); ++c) {
+    key.push_back(c);
+    key_width = room_for(key_width, c);
+  }
+  std::vector<Columns> parts = {key};
+  std::size_t used = key_width;
+  for (std::size_t c = key.size(); c < grid.widths.size(); ++c) {
+    if (all > screen && room_for(used, c) > screen) {
+      const auto left = screen - std::min(screen, used + gap);
+      if (!grid.left[c] || left < least_text) {
+        if (parts.back().size() > key.size()) parts.push_back(key);
+        used = key_width;
+      }
+      if (grid.left[c] && room_for(used, c) > screen)
+        grid.widths[c] = std::max(least_text, screen - std::min(screen, used + gap));
+    }
+    parts.back().push_back(c);
+    used = room_for(used, c);
+  }
+  return parts;
+}
+
+std::string line_of(const Grid& grid, const std::vector<std::string>& cells,
+                    const Columns& columns) {
+  std::vector<std::vector<std::string>> broken_cells;
+  std::size_t height = 1;
+  for (const auto c : columns) {
+    const auto cell = c < cells.size() ? cells[c] : std::string();
+    broken_cells.push_back(width(cell) > grid.widths[c] ? broken(cell, grid.widths[c])
+                                                        : std::vector<std::string>{cell});
+    height = std::max(height, broken_cells.back().size());
+  }
+  std::string out;
+  for (std::size_t l = 0; l < height; ++l) {
     std::string row;
-    for (std::size_t c = 0; c < line.size(); ++c) {
-      const std::string padding(widths[c] - width(line[c]), ' ');
-      row += c == 0 ? "  " : "   ";
-      row += left[c] ? line[c] + padding : padding + line[c];
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const auto text = l < broken_cells[i].size() ? broken_cells[i][l] : std::string();
+      const auto room = grid.widths[columns[i]];
+      const std::string padding(room - std::min(room, width(text)), ' ');
+      row += std::string(i == 0 ? indent : gap, ' ');
+      row += grid.left[columns[i]] ? text + padding : padding + text;
     }
     out += row.substr(0, row.find_last_not_of(' ') + 1) + '\n';
   }
-  for (const auto& note : table.notes) out += "  " + one_line(note) + '\n';
+  return out;
+}
+
+}  // namespace
+
+/// A table that is wider than a screen stands in parts, one below the other, each with its first
+/// columns; a long text is broken within its column.
+std::string text(const Table& table) {
+  auto grid = grid_of(table);
+  std::string out = paragraph(one_line(table.title), 0);
+  const auto parts = parts_of(grid);
+  for (const auto& columns : parts) {
+    if (&columns != &parts.front()) out += '\n';
+    for (const auto& line : grid.lines) out += line_of(grid, line, columns);
+  }
+  for (const auto& note : table.notes) out += paragraph(one_line(note), indent);
   return out;
 }
 

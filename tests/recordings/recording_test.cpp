@@ -78,7 +78,7 @@ template <class Action>
 std::string error_of(Action&& action) {
   try {
     action();
-  } catch (const InputError& error) {
+  } catch (const std::exception& error) {
     return error.what();
   }
   return "no error";

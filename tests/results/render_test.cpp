@@ -63,6 +63,29 @@ TEST(Render, FormatsHaveTheirNames) {
   }
 }
 
+TEST(Render, TextFitsAScreenAndLosesNothing) {
+  Table table{
+      .title = std::string(70, 't') + " of more than a line",
+      .columns = {{"name", ""}},
+      .notes = {"a note of so many words that it goes on and on and on until it is longer than "
+                "any line of a screen may be"}};
+  for (int c = 0; c < 12; ++c) table.columns.push_back({"column " + std::to_string(c), "dps"});
+  table.columns.push_back({"meaning", ""});
+  for (int r = 0; r < 3; ++r) {
+    auto& row = table.rows.emplace_back();
+    row.push_back("row " + std::to_string(r));
+    for (int c = 0; c < 12; ++c) row.push_back(std::int64_t{1000 * r + c});
+    row.push_back(
+        std::string("words that say what it is about, and more of them than fit beside it, "
+                    "up to the last-one"));
+  }
+  const auto text = rendered(table, Format::text);
+  for (const auto& line : lines_of(text)) EXPECT_LE(characters(line), 80U) << line;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 12; ++c) EXPECT_THAT(text, HasSubstr(" " + std::to_string(1000 * r + c)));
+  EXPECT_THAT(text, HasSubstr("last-one"));
+}
+
 TEST(Render, CsvQuotesWhatWouldBreakARow) {
   const auto lines = rendered(texts({"plain", "a,b", "say \"no\"", "two\nlines"}), Format::csv);
   EXPECT_EQ(lines, "# title\ntext\nplain\n\"a,b\"\n\"say \"\"no\"\"\"\n\"two\nlines\"\n");

@@ -36,14 +36,17 @@ struct BlindCheckArguments {
   FormatOption format;
 };
 
-/// False where Ctrl-C ended it.
-bool check_blindly(const gap::BlindCheck& check, const std::filesystem::path& folder,
-                   Console& console) {
+enum class Reached { recordings, some_diagnoses, all };
+
+/// How far it came, should Ctrl-C have ended it.
+Reached check_blindly(const gap::BlindCheck& check, const std::filesystem::path& folder,
+                      Console& console) {
   using Clock = std::chrono::steady_clock;
+  const auto& stop = console.stop.orderly(stopped);
   try {
-    gap::make_recordings(check, folder, Interrupt(console.stop));
+    gap::make_recordings(check, folder, Interrupt(stop));
   } catch (const Interrupted&) {
-    return false;
+    return Reached::recordings;
   }
   const auto program = std::filesystem::read_symlink("/proc/self/exe").string();
   std::optional<Progress> bar;
@@ -58,7 +61,8 @@ bool check_blindly(const gap::BlindCheck& check, const std::filesystem::path& fo
             bar->set(done, fmt::format("{} of {} diagnoses, {:.0f} s left", done, of, left_s));
           },
       .say = [&](const std::string& line) { console.log << line << '\n'; }};
-  return gap::diagnose_recordings(folder, program, watcher, console.stop);
+  return gap::diagnose_recordings(folder, program, watcher, stop) ? Reached::all
+                                                                  : Reached::some_diagnoses;
 }
 
 /// The check of the file, as the options change it.
@@ -102,12 +106,16 @@ int run(const BlindCheckArguments& arguments, Console& console) {
       arguments.folder.empty()
           ? std::filesystem::path("runs") / std::filesystem::path(arguments.file).stem()
           : std::filesystem::path(arguments.folder);
-  const bool whole = check_blindly(check, folder, console);
-  if (!whole)
+  const auto reached = check_blindly(check, folder, console);
+  if (reached == Reached::recordings) {
+    console.log << "stopped early: not all recordings are made, and the same command goes on\n";
+    return stopped;
+  }
+  if (reached == Reached::some_diagnoses)
     console.log << "stopped early: the tables are of the diagnoses that were done, and the same "
                    "command goes on from them\n";
   print(gap::score_recordings(check.title, folder), arguments, console);
-  return whole ? complete : stopped;
+  return reached == Reached::all ? complete : stopped;
 }
 
 }  // namespace

@@ -20,12 +20,8 @@ int run(const CoverageArguments& arguments, Console& console) {
   const auto study = read_coverage(arguments.study);
   const auto coverages = measure_coverage(study, [&](const Study& cells, const Cell& cell) {
     Progress progress(console.log, console.log_is_terminal, cell.name, cell.trials);
-    return run_cell(cell, cells.seed,
-                    {.threads = 0, .stop = &console.stop, .progress = [&](std::size_t done) {
-                       progress.set(done);
-                     }});
+    return run_cell(cell, cells.seed, {.progress = [&](std::size_t done) { progress.set(done); }});
   });
-  if (console.stop) return stopped;
   const auto table = coverage_table(study, coverages);
   console.out << render({&table, 1}, format);
   return complete;

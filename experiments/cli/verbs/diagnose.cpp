@@ -75,7 +75,7 @@ int run(DiagnoseArguments& arguments, Console& console) {
     std::error_code not_empty;
     if (!arguments.figures_out.empty()) fs::remove(arguments.figures_out, not_empty);
     console.log << "stopped early: nothing was written\n";
-    return stopped;
+    return console.stop.exit_code();
   }
   auto name = fs::path(file).filename().string();
   if (!arguments.recording.axis.empty()) name += ", axis " + arguments.recording.axis;

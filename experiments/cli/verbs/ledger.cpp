@@ -25,12 +25,8 @@ int run(const LedgerArguments& arguments, Console& console) {
     Cell shown = cell;
     if (arguments.trials > 0 && !cell.recording) shown.trials = arguments.trials;
     Progress progress(console.log, console.log_is_terminal, cell.name, shown.trials);
-    return run_cell(shown, study.seed,
-                    {.threads = 0, .stop = &console.stop, .progress = [&](std::size_t done) {
-                       progress.set(done);
-                     }});
+    return run_cell(shown, study.seed, {.progress = [&](std::size_t done) { progress.set(done); }});
   });
-  if (console.stop) return stopped;
   console.out << render(ledger_tables(ledger, findings), format);
   return complete;
 }

@@ -19,11 +19,11 @@ struct MatchArguments {
 int run(const MatchArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const Match match = read_match(arguments.match);
-  const auto result = run_match(match, console.log, console.stop);
+  const auto result = run_match(match, console.log);
   if (!arguments.study_out.empty())
     write_atomically(arguments.study_out, result.study.dump(2) + '\n');
   console.out << render(match_tables(match, result), format);
-  return console.stop ? stopped : complete;
+  return complete;
 }
 
 }  // namespace

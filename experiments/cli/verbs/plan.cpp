@@ -48,9 +48,9 @@ struct PlannedPart {
 };
 
 std::vector<PlannedPart> plan_parts(const Study& study, const fs::path& scratch,
-                                    const PilotOptions& pilot, const std::atomic<bool>& stop) {
+                                    const PilotOptions& pilot) {
   std::vector<PlannedPart> parts;
-  for (std::size_t c = 0; c < study.cells.size() && !stop; c += parts.back().plan.cells) {
+  for (std::size_t c = 0; c < study.cells.size(); c += parts.back().plan.cells) {
     const auto* design = design_of(study, c);
     if (design != nullptr && design->is_sampled())
       parts.push_back({fmt::format("{} ({})", design->name, name_of(design->kind)), &study.cells[c],
@@ -113,10 +113,10 @@ int run(const PlanArguments& arguments, Console& console) {
   Study study = read_study(arguments.study);
   if (arguments.trials > 0) set_trials(study, arguments.trials);
   const TemporaryFolder scratch;
-  const auto parts = plan_parts(study, scratch.path(), arguments.pilot, console.stop);
+  const auto parts = plan_parts(study, scratch.path(), arguments.pilot);
   const auto table = plan_table(study, parts, arguments);
   console.out << render({&table, 1}, format);
-  return console.stop ? stopped : complete;
+  return complete;
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ std::vector<NamedTable> made(const PublishArguments& arguments, const Page& page
       shown.tuning.trials = 2;
       shown.tuning.evaluations = std::min(shown.tuning.evaluations, 10);
     }
-    RunOptions options{.threads = arguments.threads, .stop = &console.stop, .progress = {}};
+    RunOptions options{.threads = arguments.threads, .progress = {}};
     const auto* design = design_of(study, static_cast<std::size_t>(&cell - study.cells.data()));
     if (design != nullptr && design->is_sampled()) return run_cell(shown, study.seed, options);
     Progress progress(console.log, console.log_is_terminal, cell.name, shown.trials);
@@ -51,7 +51,7 @@ std::vector<NamedTable> made(const PublishArguments& arguments, const Page& page
       wanted.evaluations = 5;
       for (auto& cell : wanted.study["cells"]) cell["tuning"] = {{"trials", 2}, {"evaluations", 5}};
     }
-    return run_match(wanted, console.log, console.stop);
+    return run_match(wanted, console.log);
   };
   return page_tables(page, run, match);
 }
@@ -88,7 +88,6 @@ int run(const PublishArguments& arguments, Console& console) {
     throw InputError("--trials", "nothing is run with --text or --check");
   const auto tables =
       from_data ? read_page_tables(arguments.folder) : made(arguments, page, console);
-  if (console.stop) return stopped;
   const fs::path folder = arguments.out.empty() ? arguments.folder : arguments.out;
   const auto files = files_of(page, folder, tables);
   if (arguments.check) return check(files, console);

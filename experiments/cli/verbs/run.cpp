@@ -97,7 +97,7 @@ int run(const RunArguments& arguments, Console& console) {
   std::optional<std::time_t> until;
   if (!arguments.until.empty()) until = next_time_of_day(arguments.until, std::time(nullptr));
   make_result_folder(folder);
-  Stopper stopper(console.stop, until);
+  Stopper stopper(console.stop.orderly(stopped), until);
   std::optional<Progress> bar;
   StudyRun run(std::move(study), folder,
                {.shard = shard,
@@ -109,11 +109,12 @@ int run(const RunArguments& arguments, Console& console) {
                stopper, watcher_of(console, bar));
   try {
     const auto tables = run_tables(run.study(), run.store(), run.run());
-    console.out << render(tables.with_points(most_shown), format) << std::flush;
+    write_results(folder, run.store(), tables);  // first, for who reads what is printed may leave
+    const int code = ended(run, folder, stopper, console);
+    console.out << render(tables.with_points(most_shown), format);
     if (format == Format::text && !tables.timings.empty())
       console.out << '\n' << render(tables.timings, format);
-    write_results(folder, run.store(), tables);
-    return ended(run, folder, stopper, console);
+    return code;
   } catch (const std::exception& failure) {
     run.log().write("error", {{"what", failure.what()}});
     throw;

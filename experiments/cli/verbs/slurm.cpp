@@ -1,5 +1,6 @@
 #include <gyrostat/experiments/run/slurm.hpp>
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
+#include <gyrostat/recordings/text.hpp>
 
 namespace gyrostat::cli {
 namespace {
@@ -36,6 +38,9 @@ int run(SlurmArguments arguments, Console& console) {
                    .lexically_normal()
                    .string();
   job.program = fs::read_symlink("/proc/self/exe").string();
+  for (const auto& path : {job.study, job.folder, job.program})
+    if (std::ranges::any_of(path, [](unsigned char c) { return c < ' ' || c == 127; }))
+      throw InputError(printable(path), "has a line break or the like, which a script cannot hold");
   if (arguments.trials > 0) job.options = fmt::format("--trials {}", arguments.trials);
   if (job.name.find_first_not_of(
           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-") != std::string::npos)

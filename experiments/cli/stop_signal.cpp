@@ -1,0 +1,91 @@
+#include <gyrostat/experiments/cli/stop_signal.hpp>
+
+#include <cerrno>
+#include <ctime>
+#include <string_view>
+#include <thread>
+
+#include <semaphore.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/recordings/temporary_path.hpp>
+
+namespace gyrostat::cli {
+namespace {
+
+sem_t arrived;  // the one thing that a handler may do and a thread can wait for
+std::atomic<int> first_signal{0};
+std::atomic<bool> is_orderly{false}, stop_requested{false};
+std::atomic<int> orderly_exit_code{0};
+
+void on_signal(int signal) {
+  const int before = errno;
+  int none = 0;
+  first_signal.compare_exchange_strong(none, signal);
+  sem_post(&arrived);
+  errno = before;
+}
+
+void wait_for_signal() {
+  while (sem_wait(&arrived) != 0) {
+  }
+}
+
+/// Until `grace_s` are over or another signal comes.
+void give_grace() {
+  timespec end{};
+  clock_gettime(CLOCK_REALTIME, &end);
+  constexpr long second_ns = 1'000'000'000;
+  end.tv_nsec += static_cast<long>(StopSignal::grace_s * 1e9);
+  end.tv_sec += end.tv_nsec / second_ns;
+  end.tv_nsec %= second_ns;
+  while (sem_timedwait(&arrived, &end) != 0 && errno == EINTR) {
+  }
+}
+
+void say(std::string_view text) {
+  if (::write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody is left to be told
+}
+
+[[noreturn]] void end_program() {
+  remove_temporary_paths();
+  if (::isatty(STDERR_FILENO) != 0) say("\r\x1b[K");
+  const int code = orderly_exit_code;
+  if (code == stopped)
+    say("gyrostat: stopped early: what is finished is kept, and the same command goes on from "
+        "it\n");
+  _exit(code != 0 ? code : 128 + first_signal);
+}
+
+void serve() {
+  wait_for_signal();
+  if (is_orderly) {
+    stop_requested = true;
+    give_grace();
+  }
+  end_program();
+}
+
+}  // namespace
+
+StopSignal::StopSignal() {
+  sem_init(&arrived, 0, 0);
+  std::thread(serve).detach();
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+const std::atomic<bool>& StopSignal::orderly(int exit_code) {
+  orderly_exit_code = exit_code;
+  is_orderly = true;
+  return stop_requested;
+}
+
+int StopSignal::exit_code() const { return 128 + first_signal; }
+
+}  // namespace gyrostat::cli
