@@ -36,6 +36,26 @@ Json departures_json(const std::vector<Where>& departures) {
   return list;
 }
 
+/// The scenario with the effects, as a study has it.
+Json enriched_json(const Diagnosis& d) {
+  Json s;
+  s["duration_s"] = d.duration_s;
+  s["rate_hz"] = d.rate_hz;
+  const auto put = [](Json& into, const auto& p) {
+    for (const auto& field : p.fields()) into[std::string(field.name)] = p.*(field.member);
+  };
+  put(s["random_error"], d.enriched.random_error);
+  put(s["thermal_drift"], d.enriched.thermal_drift);
+  put(s["compass"], d.enriched.compass);
+  s["effects"] = Json::array();
+  for (const auto& any : d.enriched.effects) {
+    Json effect = {{"effect", any.id()}};
+    effect.update(parameters_json(any));
+    s["effects"].push_back(effect);
+  }
+  return s;
+}
+
 }  // namespace
 
 Json to_json(const Diagnosis& d) {
@@ -101,32 +121,20 @@ Json to_json(const Diagnosis& d) {
   json["next_experiment"] = {{"what", d.next.what},
                              {"separates", Json::array({d.next.first, d.next.second})},
                              {"expected_power", d.next.expected_power}};
+  json["enriched"] = enriched_json(d);
   return json;
 }
 
 Json scenario_json(const Diagnosis& d, const std::string& name) {
-  Json s;
-  s["duration_s"] = d.duration_s;
-  s["rate_hz"] = d.rate_hz;
-  const auto put = [](Json& into, const auto& p) {
-    for (const auto& field : p.fields()) into[std::string(field.name)] = p.*(field.member);
-  };
-  put(s["random_error"], d.enriched.random_error);
-  put(s["thermal_drift"], d.enriched.thermal_drift);
-  put(s["compass"], d.enriched.compass);
-  s["effects"] = Json::array();
-  for (const auto& any : d.enriched.effects) {
-    Json effect = {{"effect", any.id()}};
-    effect.update(parameters_json(any));
-    s["effects"].push_back(effect);
-  }
   const auto title =
       d.enriched.effects.empty()
           ? fmt::format("{}: the simulator as it stands", name)
           : fmt::format("{}: a simulator that comes {:.0f} % closer to it (95 %: {:.0f} to {:.0f})",
                         name, 100.0 * d.closed, 100.0 * d.closed_low, 100.0 * d.closed_high);
-  return {{"title", title},
-          {"cells", Json::array({{{"name", "enriched"}, {"trials", 1000}, {"scenario", s}}})}};
+  return {
+      {"title", title},
+      {"cells",
+       Json::array({{{"name", "enriched"}, {"trials", 1000}, {"scenario", enriched_json(d)}}})}};
 }
 
 }  // namespace gyrostat::gap
