@@ -9,6 +9,7 @@
 #include <gyrostat/diagnosis/gap/conditions.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/phase_progress.hpp>
+#include <gyrostat/experiments/cli/simulated.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/findings/diagnosis_page.hpp>
 #include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
@@ -26,7 +27,8 @@ constexpr const char* diagnose_examples = R"(Examples:
   gyrostat diagnose REC.csv --html GAP.html --json GAP.json
   gyrostat diagnose REC.csv --out-figures FIGURES    every picture as SVG
   gyrostat diagnose REC.csv --scenario STUDY.json    a study whose simulator has the effect
-  gyrostat diagnose OTHER.csv --claim STUDY.json     does it close the gap of another recording?)";
+  gyrostat diagnose OTHER.csv --claim STUDY.json     does it close the gap of another recording?
+  gyrostat diagnose REC.csv --simulated SIM.csv --out-simulated MENDED)";
 
 struct DiagnoseArguments {
   RecordingOption recording;
@@ -35,7 +37,21 @@ struct DiagnoseArguments {
   std::string json_out, html_out, scenario_out, figures_out, claim;
   bool timing = false;
   gap::DiagnosisOptions options;
+  SimulatedArguments simulated;
 };
+
+/// What a diagnosis of the user's simulator cannot write.
+void refuse_beside_simulated(const DiagnoseArguments& arguments) {
+  const std::pair<const char*, bool> given[] = {{"--html", !arguments.html_out.empty()},
+                                                {"--scenario", !arguments.scenario_out.empty()},
+                                                {"--out-figures", !arguments.figures_out.empty()},
+                                                {"--claim", !arguments.claim.empty()}};
+  for (const auto& [option, is_given] : given)
+    if (is_given)
+      throw InputError(option,
+                       "is of gyrostat's own simulator; beside --simulated there are --json "
+                       "and --out-simulated");
+}
 
 /// Nothing where Ctrl-C ended it.
 std::optional<gap::Diagnosis> diagnosed(const DiagnoseArguments& arguments, Console& console) {
@@ -61,6 +77,18 @@ int run(DiagnoseArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const auto& file = arguments.recording.file;
   for (const auto& name : arguments.options.without) (void)effect_types().named(name, "--without");
+  const auto& traces = arguments.simulated;
+  if (!traces.simulated.empty()) {
+    refuse_beside_simulated(arguments);
+    return diagnose_simulated(
+        traces, arguments.recording, arguments.span,
+        {.seed = arguments.options.seed, .without = arguments.options.without}, format,
+        arguments.json_out, console);
+  }
+  if (!traces.further.empty())
+    throw InputError(traces.further.front(),
+                     "one recording is diagnosed at a time, but for --simulated");
+  if (!traces.out.empty()) throw InputError("--out-simulated", "needs --simulated");
   if (!arguments.claim.empty()) {
     const auto study = read_study(arguments.claim);
     if (study.cells.front().scenario.effects.empty())
@@ -106,7 +134,13 @@ void add_diagnose(CLI::App& program, Console& console, int& exit_code) {
       "the gap closes once it is added");
   auto arguments = std::make_shared<DiagnoseArguments>();
   arguments->recording.add_to(verb);
+  verb->add_option("further", arguments->simulated.further,
+                   "further recordings of the same sensor, beside --simulated");
   arguments->span.add_to(verb);
+  verb->add_option("--simulated", arguments->simulated.simulated,
+                   "traces of your own simulator: how it differs from the recording");
+  verb->add_option("--out-simulated", arguments->simulated.out,
+                   "folder to write these traces to, with what they lack added");
   verb->add_option("--json", arguments->json_out, "write the diagnosis as JSON");
   verb->add_option("--html", arguments->html_out, "write the diagnosis as a page with pictures");
   verb->add_option("--scenario", arguments->scenario_out,
