@@ -36,6 +36,26 @@ Json departures_json(const std::vector<Where>& departures) {
   return list;
 }
 
+/// The scenario with the effects, as a study has it.
+Json study_json(const Diagnosis& d, const Scenario& scenario) {
+  Json s;
+  s["duration_s"] = d.duration_s;
+  s["rate_hz"] = d.rate_hz;
+  const auto put = [](Json& into, const auto& p) {
+    for (const auto& field : p.fields()) into[std::string(field.name)] = p.*(field.member);
+  };
+  put(s["random_error"], scenario.random_error);
+  put(s["thermal_drift"], scenario.thermal_drift);
+  put(s["compass"], scenario.compass);
+  s["effects"] = Json::array();
+  for (const auto& any : scenario.effects) {
+    Json effect = {{"effect", any.id()}};
+    effect.update(parameters_json(any));
+    s["effects"].push_back(effect);
+  }
+  return s;
+}
+
 }  // namespace
 
 Json to_json(const Diagnosis& d) {
@@ -112,27 +132,13 @@ Json to_json(const Diagnosis& d) {
   json["next_experiment"] = {{"what", d.next.what},
                              {"separates", Json::array({d.next.first, d.next.second})},
                              {"expected_power", d.next.expected_power}};
+  json["enriched"] = study_json(d, d.enriched);
   return json;
 }
 
 Json scenario_json(const Diagnosis& d, const std::string& name) {
-  Json s;
-  s["duration_s"] = d.duration_s;
-  s["rate_hz"] = d.rate_hz;
-  const auto put = [](Json& into, const auto& p) {
-    for (const auto& field : p.fields()) into[std::string(field.name)] = p.*(field.member);
-  };
   const bool completed = !d.remainder.parts.empty();
   const auto& best = completed ? d.remainder.scenario : d.enriched;
-  put(s["random_error"], best.random_error);
-  put(s["thermal_drift"], best.thermal_drift);
-  put(s["compass"], best.compass);
-  s["effects"] = Json::array();
-  for (const auto& any : best.effects) {
-    Json effect = {{"effect", any.id()}};
-    effect.update(parameters_json(any));
-    s["effects"].push_back(effect);
-  }
   const auto title =
       completed ? fmt::format(
                       "{}: a simulator that comes {:.0f} % closer to it, {:.0f} % by effects that "
@@ -142,8 +148,10 @@ Json scenario_json(const Diagnosis& d, const std::string& name) {
           ? fmt::format("{}: the simulator as it stands", name)
           : fmt::format("{}: a simulator that comes {:.0f} % closer to it (95 %: {:.0f} to {:.0f})",
                         name, 100.0 * d.closed, 100.0 * d.closed_low, 100.0 * d.closed_high);
-  return {{"title", title},
-          {"cells", Json::array({{{"name", "enriched"}, {"trials", 1000}, {"scenario", s}}})}};
+  return {
+      {"title", title},
+      {"cells",
+       Json::array({{{"name", "enriched"}, {"trials", 1000}, {"scenario", study_json(d, best)}}})}};
 }
 
 }  // namespace gyrostat::gap

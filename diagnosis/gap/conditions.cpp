@@ -57,7 +57,7 @@ void interpolate_missing(std::vector<double>& values) {
 
 }  // namespace
 
-Conditions::Conditions(const Series& recording) : series_(recording) {
+Conditions::Conditions(const Series& recording, Split split) : series_(recording), split_(split) {
   for (auto* channel : {&series_.temperature_C, &series_.rate_ref_dps, &series_.acc_x_mps2,
                         &series_.acc_y_mps2, &series_.acc_z_mps2})
     interpolate_missing(*channel);
@@ -94,6 +94,7 @@ Conditions::Conditions(const Series& recording) : series_(recording) {
 }
 
 Part Conditions::part_of(std::size_t sample) const {
+  if (split_ == Split::none) return Part::train;
   const std::size_t clusters = std::max<std::size_t>(1, size() / cluster_);
   const std::size_t at = std::min(sample / cluster_, clusters - 1);
   return at * blocks / clusters % 4 == 2 ? Part::held_out : Part::train;

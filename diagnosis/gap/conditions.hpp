@@ -16,6 +16,9 @@ inline constexpr std::array parts = {Part::train, Part::held_out};
 inline constexpr std::array train_alone = {Part::train};
 constexpr std::size_t index_of(Part part) { return static_cast<std::size_t>(part); }
 
+/// Whether some of it is held out.
+enum class Split { in_parts, none };
+
 /// Samples [first, last) of an evenly sampled stretch.
 struct Span {
   std::size_t first, last;
@@ -32,8 +35,8 @@ struct Span {
 class Conditions {
  public:
   /// Of an evenly sampled series; NaN marks a missing sample. Gaps of up to `bridged` samples are
-  /// interpolated, longer ones end a span.
-  explicit Conditions(const Series& recording);
+  /// interpolated, longer ones end a span. Without a split all of it is the train part.
+  explicit Conditions(const Series& recording, Split split = Split::in_parts);
 
   static constexpr std::size_t blocks = 8;
   static constexpr std::size_t bridged = 5;
@@ -89,6 +92,7 @@ class Conditions {
   void find_drift();
 
   Series series_;
+  Split split_;
   double interval_s_ = 0.0;
   std::size_t cluster_ = 1;
   std::array<std::vector<Span>, 2> fast_, slow_;

@@ -114,7 +114,7 @@ int diagnose_members(const RecordingOption& recording, const std::vector<std::st
     auto diagnosis = diagnosed(one.recording, span, options, console);
     if (!diagnosis) {
       console.log << "stopped early: nothing was written\n";
-      return stopped;
+      return console.stop.exit_code();
     }
     members.push_back({one.name, std::move(*diagnosis)});
   }

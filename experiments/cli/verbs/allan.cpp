@@ -6,6 +6,7 @@
 
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/findings/allan_table.hpp>
 
 namespace gyrostat::cli {
 namespace {
@@ -39,14 +40,20 @@ int run(const AllanArguments& arguments, Console& console) {
   });
   for (const auto& point : points)
     table.rows.push_back({point.tau_s, point.deviation, point.lower, point.upper, point.edf});
-  console.out << render(std::span(&table, 1), format);
+  std::vector<Table> tables = {std::move(table)};
+  constexpr std::size_t fewest_for_coefficients = 128;
+  if (series.size() >= fewest_for_coefficients)
+    tables.push_back(allan_coefficients_table(
+        fit_allan_coefficients(series.gyro_dps, series.rate_hz()), arguments.recording.file));
+  console.out << render(tables, format);
   return complete;
 }
 
 }  // namespace
 
 void add_allan(CLI::App& program, Console& console, int& exit_code) {
-  auto* verb = program.add_subcommand("allan", "overlapping Allan deviation of a recording");
+  auto* verb = program.add_subcommand(
+      "allan", "overlapping Allan deviation of a recording, and its N, B and K");
   auto arguments = std::make_shared<AllanArguments>();
   arguments->recording.add_to(verb);
   arguments->format.add_to(verb);

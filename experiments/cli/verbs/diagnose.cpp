@@ -8,6 +8,7 @@
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
 #include <gyrostat/experiments/cli/diagnosed.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/simulated.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/findings/diagnosis_page.hpp>
 #include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
@@ -27,39 +28,50 @@ constexpr const char* diagnose_examples = R"(Examples:
   gyrostat diagnose REC.csv --scenario STUDY.json    a study whose simulator has the effect
   gyrostat diagnose REC.csv --axis all               every axis, and what they share
   gyrostat diagnose A.csv B.csv C.csv                every sensor of a fleet, likewise
-  gyrostat diagnose OTHER.csv --claim STUDY.json     does it close the gap of another recording?)";
+  gyrostat diagnose OTHER.csv --claim STUDY.json     does it close the gap of another recording?
+  gyrostat diagnose REC.csv --simulated SIM.csv --out-simulated MENDED)";
 
 struct DiagnoseArguments {
   RecordingOption recording;
-  std::vector<std::string> further;
   SpanOption span;
   FormatOption format;
   std::string json_out, html_out, scenario_out, figures_out, claim;
   bool timing = false;
   gap::DiagnosisOptions options;
+  SimulatedArguments simulated;
 };
 
-/// What a diagnosis of several at once does not write.
-void refuse_beside_members(const DiagnoseArguments& arguments) {
+/// What a diagnosis of several at once, or of the user's simulator, does not write.
+void refuse_beside(const DiagnoseArguments& arguments, const std::string& why) {
   const std::pair<const char*, bool> given[] = {{"--html", !arguments.html_out.empty()},
                                                 {"--scenario", !arguments.scenario_out.empty()},
                                                 {"--out-figures", !arguments.figures_out.empty()},
                                                 {"--claim", !arguments.claim.empty()}};
   for (const auto& [option, is_given] : given)
-    if (is_given)
-      throw InputError(option,
-                       "is of one recording and axis; of several there are tables and --json");
+    if (is_given) throw InputError(option, why);
 }
 
 int run(DiagnoseArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const auto& file = arguments.recording.file;
   for (const auto& name : arguments.options.without) (void)effect_types().named(name, "--without");
-  if (!arguments.further.empty() || arguments.recording.axis == "all") {
-    refuse_beside_members(arguments);
+  const auto& traces = arguments.simulated;
+  if (!traces.simulated.empty()) {
+    refuse_beside(arguments,
+                  "is of gyrostat's own simulator; beside --simulated there are --json and "
+                  "--out-simulated");
+    return diagnose_simulated(
+        traces, arguments.recording, arguments.span,
+        {.seed = arguments.options.seed, .without = arguments.options.without}, format,
+        arguments.json_out, console);
+  }
+  if (!traces.out.empty()) throw InputError("--out-simulated", "needs --simulated");
+  if (!traces.further.empty() || arguments.recording.axis == "all") {
+    refuse_beside(arguments,
+                  "is of one recording and axis; of several there are tables and --json");
     if (!arguments.json_out.empty()) require_writable(arguments.json_out, file);
-    return diagnose_members(arguments.recording, arguments.further, arguments.span,
-                            arguments.options, format, arguments.json_out, console);
+    return diagnose_members(arguments.recording, traces.further, arguments.span, arguments.options,
+                            format, arguments.json_out, console);
   }
   if (!arguments.claim.empty()) {
     const auto study = read_study(arguments.claim);
@@ -106,9 +118,14 @@ void add_diagnose(CLI::App& program, Console& console, int& exit_code) {
       "the gap closes once it is added");
   auto arguments = std::make_shared<DiagnoseArguments>();
   arguments->recording.add_to(verb);
-  verb->add_option("further", arguments->further,
-                   "further sensors of its kind: each is diagnosed, then what they share");
+  verb->add_option("further", arguments->simulated.further,
+                   "further sensors of its kind: each is diagnosed, then what they share; beside "
+                   "--simulated, further recordings of the same sensor");
   arguments->span.add_to(verb);
+  verb->add_option("--simulated", arguments->simulated.simulated,
+                   "traces of your own simulator: how it differs from the recording");
+  verb->add_option("--out-simulated", arguments->simulated.out,
+                   "folder to write these traces to, with what they lack added");
   verb->add_option("--json", arguments->json_out, "write the diagnosis as JSON");
   verb->add_option("--html", arguments->html_out, "write the diagnosis as a page with pictures");
   verb->add_option("--scenario", arguments->scenario_out,

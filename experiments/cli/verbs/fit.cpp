@@ -6,8 +6,10 @@
 
 #include <gyrostat/analysis/calibration.hpp>
 #include <gyrostat/analysis/fits/arima_intervals.hpp>
+#include <gyrostat/core/step.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/findings/allan_table.hpp>
 
 namespace gyrostat::cli {
 namespace {
@@ -61,6 +63,18 @@ Intervals normal_intervals(const P& fitted, const P& errors) {
   return intervals;
 }
 
+/// Of the rate without its drift; nothing where samples are missing or too few.
+std::vector<Table> coefficient_tables(const Series& series,
+                                      const std::optional<ThermalFit>& thermal,
+                                      const std::string& title) {
+  constexpr std::size_t fewest = 128;
+  const auto rate = without_drift(series, thermal);
+  if (rate.size() < fewest ||
+      std::any_of(rate.begin(), rate.end(), [](double v) { return is_missing(v); }))
+    return {};
+  return {allan_coefficients_table(fit_allan_coefficients(rate, series.rate_hz()), title)};
+}
+
 int run(const FitArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   std::vector<FitMethod> methods;
@@ -80,6 +94,7 @@ int run(const FitArguments& arguments, Console& console) {
                           {"standard error", ""},
                           {"meaning", ""}}};
   bool converged = true;
+  std::vector<Table> tables;
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const auto fit = about(arguments.recording.file, [&] { return calibrate(series, methods[m]); });
     const bool by_likelihood = methods[m] == FitMethod::likelihood;
@@ -91,6 +106,7 @@ int run(const FitArguments& arguments, Console& console) {
                              : Intervals{});
     table.notes.push_back(arguments.methods[m] + ": " + fit.random_error.message);
     converged = converged && fit.random_error.converged;
+    if (m == 0) tables = coefficient_tables(series, fit.thermal, arguments.recording.file);
     if (!fit.thermal || m > 0) continue;
     add_rows(table, "least squares", fit.thermal->parameters, fit.thermal->standard_errors,
              normal_intervals(fit.thermal->parameters, fit.thermal->standard_errors));
@@ -101,7 +117,8 @@ int run(const FitArguments& arguments, Console& console) {
   table.notes.push_back(
       "from, to: 95 % interval, by profile likelihood of all four parameters or, of the drift and "
       "beside coloured noise, by the standard error");
-  console.out << render(std::span(&table, 1), format);
+  tables.insert(tables.begin(), std::move(table));
+  console.out << render(tables, format);
   return converged ? complete : error;
 }
 

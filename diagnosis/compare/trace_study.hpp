@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gyrostat/diagnosis/compare/added.hpp>
+#include <gyrostat/diagnosis/likelihood/set_bench.hpp>
+#include <gyrostat/diagnosis/likelihood/set_search.hpp>
+#include <gyrostat/diagnosis/simulator.hpp>
+
+namespace gyrostat::gap {
+
+/// One trace with the set of effects that it shows.
+class TraceStudy {
+ public:
+  /// Effects in `without` are not looked for.
+  TraceStudy(const Series& trace, std::uint64_t seed, std::vector<std::string> without,
+             const Interrupt& interrupt, const SetSearchProgress& progress);
+
+  const Series& series() const { return series_; }
+  const Conditions& conditions() const { return simulator_->conditions(); }
+  double resolution_dps() const { return simulator_->resolution_dps(); }
+  const FoundSet& found() const { return found_; }
+  /// The fitted effects of that name.
+  std::vector<Effect> effects(std::string_view name) const;
+  /// Log odds of the set against it without that effect; 0 where it is not in the set.
+  double log_odds(std::string_view name) const;
+  /// The rate error of a gyro under the trace's conditions, without a drift fitted to it; its
+  /// values are rounded to `resolution_dps` before (0: not).
+  std::vector<double> error_dps(std::vector<double> gyro_dps, double resolution_dps) const;
+  /// The trace with that added (with_added), its own grid, limit, decimals and repeated samples as
+  /// they were.
+  Series mended(const Addition& addition, const Noise& noise) const;
+
+  /// The log-likelihood that the trace loses where the effects of that name have the parameters of
+  /// `others`, white noise and walk fitted anew; 0 where the effect has no law.
+  double loss_with(std::string_view name, const std::vector<Effect>& others) const;
+  /// The same with another white noise or another walk, the walk or the white noise fitted anew.
+  double loss_with_white(double std_dps) const;
+  double loss_with_walk(double dps_per_sqrt_s) const;
+  double white_std_dps() const;
+  double walk_dps_per_sqrt_s() const;
+
+ private:
+  enum class Free { white, walk, both };
+  void prepare() const;
+  double best_likelihood(Scenario scenario, Free free) const;
+
+  Series series_;
+  std::vector<std::string> without_;
+  std::unique_ptr<Simulator> simulator_;
+  FoundSet found_;
+  mutable std::unique_ptr<SetBench> bench_;
+  mutable Standing standing_;
+};
+
+}  // namespace gyrostat::gap
