@@ -5,6 +5,7 @@ the program.
 """
 import copy
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -68,7 +69,10 @@ require(VALIDATOR.is_valid(WITH_SCHEMA) and complaints(WITH_SCHEMA)[0] == 0, "$s
 def both_refuse(study, what, lines=1):
     code, said = complaints(study)
     require(not VALIDATOR.is_valid(study), f"the schema takes {what}")
-    require(code == 2 and len(said) == lines, f"the program on {what}: {code}, {len(said)} lines, not {lines}: {said[:3]}")
+    # Of very many, the last line says how many more there are.
+    more = re.search(r"(\d+) more", said[-1]) if said else None
+    told = len(said) - 1 + int(more[1]) if more else len(said)
+    require(code == 2 and told == lines, f"the program on {what}: {code}, {told} lines, not {lines}: {said[:3]}")
 
 
 def mutated(path, value):
