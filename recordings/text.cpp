@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 constexpr std::size_t first_bytes = std::size_t{1} << 16;
 constexpr std::size_t most_columns = 10'000;
-/// A recording packs ten- to thirtyfold, one that stands still some hundredfold; what packs better
+/// A recording packs ten- to thirtyfold, one that stands still fiftyfold; what packs better
 /// has nothing in it but the wish to fill a memory.
-constexpr std::size_t most_packing = 300, always_allowed = std::size_t{1} << 26;
+constexpr std::size_t most_packing = 100, always_allowed = std::size_t{1} << 26;
 
 /// Makes room behind the `filled` bytes of a growing text.
 void grow(std::string& text, std::size_t filled, const std::string& place) {
@@ -70,15 +70,15 @@ std::string gunzipped(std::string& packed, const std::string& place) {
   std::size_t filled = 0;
   const auto most = std::max(always_allowed, most_packing * packed.size());
   for (bool done = false; !done;) {
-    if (filled > most)
-      throw InputError(place, fmt::format("unpacks to more than {} bytes, {} times its size; "
-                                          "allowed: up to {} times",
-                                          most, filled / packed.size(), most_packing));
     grow(text, filled, place);
     stream.next_out = reinterpret_cast<Bytef*>(text.data() + filled);
     stream.avail_out = static_cast<uInt>(text.size() - filled);
     const int status = inflate(&stream, Z_NO_FLUSH);
     filled = text.size() - stream.avail_out;
+    if (filled > most)
+      throw InputError(place, fmt::format("unpacks to more than {} bytes, {} times its size; "
+                                          "allowed: up to {} times",
+                                          most, filled / packed.size(), most_packing));
     if (status == Z_STREAM_END) {
       done = stream.avail_in == 0;
       inflateReset(&stream);

@@ -11,7 +11,7 @@ namespace gyrostat {
 /// The whole text of a file, a pipe, or a gzip of one or more members (known by its first bytes,
 /// not by its name). Throws InputError when the file is missing, unreadable, a directory, empty,
 /// not text (it holds a zero byte), a truncated or corrupt gzip, more than 1 GiB once unpacked or,
-/// above 64 MiB, more than 300 times its size.
+/// above 64 MiB, more than 100 times its size.
 std::string read_text(const std::filesystem::path& path);
 
 /// `text` from a file as ASCII that can go to a terminal or into JSON: any other byte becomes '?'.
