@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t head_bytes = std::size_t{1} << 16;
 /// Numbers as text shrink to a fifth, the same row again and again to a thousandth.
-constexpr std::uint64_t largest_ratio = 300, free_bytes = std::uint64_t{1} << 26;
+constexpr std::uint64_t largest_ratio = 100, free_bytes = std::uint64_t{1} << 26;
 
 }  // namespace
 
