@@ -181,6 +181,9 @@ void Comparing::match() {
         }
       }
     }
+  constexpr std::size_t held_out_blocks = 2;
+  piece_ = held_out_blocks * segment_ / pieces_of_a_part;
+  result_.segment_s = static_cast<double>(segment_) / result_.rate_hz;
   compared_ = std::max(
       1.0, static_cast<double>(cause_types().size()) - static_cast<double>(without_.size()) + 2.0);
 }
@@ -414,7 +417,8 @@ void Comparing::judge() {
     result_.gap_after = gap(last);
     result_.closed = closed(result_.gap_after);
     const auto interval = gap.closed(last, options_.seed);
-    result_.closed_low = interval[0], result_.closed_high = interval[1];
+    result_.closed_low = std::min(interval[0], result_.closed);
+    result_.closed_high = std::max(interval[1], result_.closed);
     const auto mended_segments =
         readings_of(*whole_, segments(sim_, Part::train, segment_, &result_.addition));
     result_.p_after =
