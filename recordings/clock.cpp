@@ -175,11 +175,11 @@ double median_interval(const std::vector<double>& t_s) {
 }
 
 void require_dense(const Series& series, std::string_view place) {
-  constexpr std::size_t one_sample_in = 50;
-  std::size_t present = 0, bursts = 0, pause = one_sample_in;
+  constexpr std::size_t one_sample_in = 4, long_pause = 50;
+  std::size_t present = 0, bursts = 0, pause = long_pause;
   for (const double rate : series.gyro_dps) {
     const bool is_there = !std::isnan(rate);
-    if (is_there && pause >= one_sample_in) ++bursts;
+    if (is_there && pause >= long_pause) ++bursts;
     pause = is_there ? 0 : pause + 1;
     present += is_there ? 1 : 0;
   }
@@ -187,7 +187,7 @@ void require_dense(const Series& series, std::string_view place) {
   throw InputError(
       place,
       fmt::format("is {} bursts at {:.4g} Hz: {:.2g} % of that clock's samples are there, at "
-                  "least 2 % are needed. Take one burst (fit: --from, --to), or a mean of each: "
+                  "least 25 % are needed. Take one burst (fit: --from, --to), or a mean of each: "
                   "--resample {:.2g}",
                   bursts, series.rate_hz(), percent(present, series.size()),
                   static_cast<double>(std::max<std::size_t>(bursts, 2) - 1) / series.duration_s()));

@@ -39,7 +39,7 @@ struct EvenRecording {
 EvenRecording evenly_sampled(Series series, std::string_view place, std::size_t first_row = 2,
                              double resample_hz = 0.0);
 
-/// Throws InputError at `place` where fewer than one sample in fifty of an even clock is there, as
+/// Throws InputError at `place` where fewer than one sample in four of an even clock is there, as
 /// of short bursts with long pauses: no model of a series is told by that.
 void require_dense(const Series& series, std::string_view place);
 

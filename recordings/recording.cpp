@@ -313,6 +313,7 @@ Recording recording_of_text(InputFile& file, FormatHead& head, const FormatType*
   reserve_rows(assembly.targets, lines.empty() ? lines : lines.substr(0, std::size_t{1} << 20),
                std::max<std::uintmax_t>(file.size_hint(), all));
   CsvRows rows(header, assembly.targets, file.place(), &assembly.recording.series.t_s);
+  if (lines.empty()) lines = blocks.next();  // the header filled a block
   for (; !lines.empty(); lines = blocks.next()) {
     rows.feed(lines);
     require_room(assembly.targets, file.place());

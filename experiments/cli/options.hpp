@@ -74,12 +74,13 @@ struct RecordingOption {
             "CSV, CSV.gz, or a log in any format of `gyrostat list formats`; - is standard "
             "input")
         ->required();
-    verb->add_option("--axis", axis, "x, y or z where the recording has three axes; diagnose: or all")
+    verb->add_option("--axis", axis,
+                     "x, y or z where the recording has three axes; diagnose: or all")
         ->check(CLI::Validator(
             [](const std::string& text) {
               return text == "x" || text == "y" || text == "z" || text == "all"
                          ? std::string{}
-                         : "'" + text + "' is no axis; allowed: x, y, z, and all for diagnose";
+                         : "'" + text + "' is no axis; allowed: x, y or z; diagnose: or all";
             },
             "x|y|z|all"));
     verb->add_option("--columns", columns,
@@ -136,13 +137,26 @@ struct RecordingOption {
     return recording;
   }
 
+  /// From the first sample that is there to the last.
+  static Series between_samples(const Series& series, const std::string& file) {
+    const auto& z = series.gyro_dps;
+    const auto is_there = [](double value) { return value == value; };
+    const auto first = std::find_if(z.begin(), z.end(), is_there);
+    const auto last = std::find_if(z.rbegin(), z.rend(), is_there);
+    if (first == z.end()) return series;
+    const auto seconds = [&](std::ptrdiff_t sample) {
+      return series.t_s[static_cast<std::size_t>(sample)] - series.t_s.front();
+    };
+    return cut(series, seconds(first - z.begin()), seconds(z.rend() - last - 1), file);
+  }
+
   /// The span of it.
   Series read(std::ostream& log, const SpanOption& span = {},
               std::span<const std::string_view> wanted = {},
               Bursts bursts = Bursts::refused) const {
     auto series = read_all(log, wanted, Bursts::taken).series;
     if (span.from_s > 0.0 || span.to_s <= series.duration_s())
-      series = cut(series, span.from_s, span.to_s, file + ": --from, --to");
+      series = between_samples(cut(series, span.from_s, span.to_s, file + ": --from, --to"), file);
     if (bursts == Bursts::refused) require_dense(series, file);
     return series;
   }

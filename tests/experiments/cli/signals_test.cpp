@@ -46,6 +46,7 @@ std::vector<Call> calls() {
           {{"apply", "rec.csv", "--out", "applied.csv"}},
           {{"simulate", "long.json", "--out", "simulated.csv"}},
           {{"allan", "rec.csv"}},
+          {{"export-model", "rec.csv", "--for", "all", "--out", "models"}},
           {{"match", "match.json", "--study", "matched.json"}},
           {{"ledger", "ledger.json"}},
           {{"coverage", studies + "coverage.json"}},

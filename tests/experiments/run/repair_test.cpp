@@ -73,7 +73,7 @@ TEST(Output, ThatCannotGoAnywhereIsAnErrorAndNeverGoesIntoAFile) {
   EXPECT_EQ(shell(folder, "$G --version > /dev/full 2> err"), 1);
   EXPECT_EQ(shell(folder, "$G run s.json --out read 2> err | head -c 1 > out"), 0);
   EXPECT_TRUE(fs::exists(folder.path() / "read/outcomes.csv.gz"));
-  EXPECT_EQ(shell(folder, "(ulimit -f 66; $G export runs/s --out out.csv 2> err)"), 1);
+  EXPECT_EQ(shell(folder, "(ulimit -f 66; $G export quiet --out out.csv 2> err)"), 1);
   EXPECT_THAT(folder.read("err"), HasSubstr("out.csv: cannot be written"));
   EXPECT_FALSE(fs::exists(folder.path() / "out.csv"));
   EXPECT_FALSE(fs::exists(folder.path() / "out.csv.tmp"));
