@@ -55,7 +55,13 @@ void TemporaryPath::remove() {
 void remove_temporary_paths() {
   known().mutex.lock();  // for good: who would add one waits until the program has ended
   std::error_code absent;
-  for (const auto& path : known().paths) fs::remove_all(path, absent);
+  for (const auto& path : known().paths) {
+    // Out of the way first: nobody can write into a folder that is no longer there.
+    auto gone = path;
+    gone += ".removed";
+    fs::rename(path, gone, absent);
+    fs::remove_all(absent ? path : gone, absent);
+  }
 }
 
 }  // namespace gyrostat
