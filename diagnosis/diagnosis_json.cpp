@@ -16,11 +16,6 @@ Json parameters_json(const Effect& effect) {
   return json;
 }
 
-namespace {
-
-/// JSON has no NaN.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 Json departures_json(const std::vector<Where>& departures) {
   Json list = Json::array();
   for (const auto& w : departures)
@@ -35,6 +30,11 @@ Json departures_json(const std::vector<Where>& departures) {
                     {"p_adjusted", w.p_adjusted}});
   return list;
 }
+
+namespace {
+
+/// JSON has no NaN.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 /// The scenario with the effects, as a study has it.
 Json study_json(const Diagnosis& d, const Scenario& scenario) {

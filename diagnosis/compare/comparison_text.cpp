@@ -159,17 +159,7 @@ nlohmann::ordered_json to_json(const Comparison& c) {
                        {"power", J::array()}};
   for (const auto& p : c.power)
     json["simulator"]["power"].push_back({{"noise_larger_by", p.louder}, {"power", p.power}});
-  json["where"] = J::array();
-  for (const auto& w : c.where)
-    json["where"].push_back({{"lens", w.lens},
-                             {"channel", w.channel},
-                             {"coordinate", w.coordinate},
-                             {"from", w.from},
-                             {"to", w.to},
-                             {"observed", w.observed},
-                             {"simulated", w.simulated},
-                             {"unit", w.unit},
-                             {"p_adjusted", w.p_adjusted}});
+  json["where"] = departures_json(c.where);
   json["gap"] = {
       {"before", c.gap_before}, {"after", c.gap_after},
       {"closed", c.closed},     {"closed_interval", J::array({c.closed_low, c.closed_high})},
