@@ -80,16 +80,16 @@ void follow(const Chosen<Type>& profile, Series& series,
   profile.type().at(profile.plugin(), series.t_s, values);
 }
 
-/// `values` with each missing sample replaced by the one before it, or by the first that there is.
+/// `from` with each missing sample replaced by the one before it, or by the first that there is.
 /// Empty if there is none.
-std::vector<double> without_gaps(const std::vector<double>& values) {
+void copy_without_gaps(const std::vector<double>& from, std::vector<double>& to) {
   const auto is_there = [](double value) { return !std::isnan(value); };
-  const auto first = std::find_if(values.begin(), values.end(), is_there);
-  if (first == values.end()) return {};
-  auto held = values;
+  const auto first = std::find_if(from.begin(), from.end(), is_there);
+  to.resize(first == from.end() ? 0 : from.size());
+  if (to.empty()) return;
   double last = *first;
-  for (double& value : held) value = last = is_there(value) ? value : last;
-  return held;
+  for (std::size_t i = 0; i < to.size(); ++i)
+    to[i] = last = is_there(from[i]) ? from[i] : last;
 }
 
 void copy_gaps(const std::vector<double>& from, std::vector<double>& to) {
@@ -136,7 +136,7 @@ void synthesise_rate_under(const Scenario& scenario, const Series& conditions, c
   assert(&conditions != &series);
   series.clear();
   series.t_s = conditions.t_s;
-  for (const auto channel : influences) series.*channel = without_gaps(conditions.*channel);
+  for (const auto channel : influences) copy_without_gaps(conditions.*channel, series.*channel);
   series.rate_ref_dps.resize(series.size(), 0.0);
   measure_rate(scenario, noise, series);
   copy_gaps(conditions.gyro_dps, series.gyro_dps);
@@ -150,7 +150,7 @@ void synthesise_heading_under(const Scenario& scenario, const Series& conditions
   series.mag_valid = conditions.mag_valid;
   if (conditions.heading_deg.empty()) return;
   series.t_s = conditions.t_s;
-  series.rate_ref_dps = without_gaps(conditions.rate_ref_dps);
+  copy_without_gaps(conditions.rate_ref_dps, series.rate_ref_dps);
   series.rate_ref_dps.resize(series.size(), 0.0);
   auto undisturbed = scenario.compass;
   undisturbed.disturbances.clear();

@@ -41,6 +41,18 @@ bool is_taken_out(const Effect& effect) {
          effect.stage() != Stage::compass;
 }
 
+SetBench::SetBench(const Simulator& simulator, const Series& recording,
+                   std::vector<std::string> without)
+    : simulator_(simulator),
+      conditions_(simulator.conditions()),
+      recording_(recording),
+      without_(std::move(without)),
+      masked_(recording.size(), 0) {
+  Series bare;
+  synthesise_rate_under(plain(), conditions_.series(), {}, bare);
+  plain_gyro_dps_ = std::move(bare.gyro_dps);
+}
+
 bool SetBench::is_allowed(std::string_view effect) const {
   if (std::find(without_.begin(), without_.end(), effect) != without_.end()) return false;
   const auto* cause = cause_types().find(effect);
@@ -68,23 +80,20 @@ Scenario SetBench::plain() const {
   return s;
 }
 
-Series SetBench::left_by(const Scenario& scenario) const {
-  Series left = recording_;
+std::vector<double> SetBench::gyro_beside(const Scenario& scenario) const {
+  auto gyro = recording_.gyro_dps;
   Scenario quiet = plain();
   for (const auto& effect : scenario.effects)
     if (is_taken_out(effect)) quiet.effects.push_back(effect);
-  if (quiet.effects.empty()) return left;
-  Series with, bare;
+  if (quiet.effects.empty()) return gyro;
+  Series with;
   synthesise_rate_under(quiet, conditions_.series(), {}, with);
-  quiet.effects.clear();
-  synthesise_rate_under(quiet, conditions_.series(), {}, bare);
-  for (std::size_t i = 0; i < left.size(); ++i)
-    left.gyro_dps[i] -= with.gyro_dps[i] - bare.gyro_dps[i];
-  return left;
+  for (std::size_t i = 0; i < gyro.size(); ++i) gyro[i] -= with.gyro_dps[i] - plain_gyro_dps_[i];
+  return gyro;
 }
 
 std::vector<double> SetBench::rate_error_beside(const Scenario& scenario) const {
-  auto error = left_by(scenario).gyro_dps;
+  auto error = gyro_beside(scenario);
   const auto& reference = conditions_.series().rate_ref_dps;
   for (std::size_t i = 0; i < reference.size(); ++i) error[i] -= reference[i];
   conditions_.bridge(error);
@@ -132,7 +141,8 @@ Standing SetBench::fitted(const Scenario& scenario, std::shared_ptr<const SetFit
 }
 
 Evidence SetBench::evidence_of(const Standing& standing) const {
-  const Series left = left_by(standing.scenario);
+  Series left = recording_;
+  left.gyro_dps = gyro_beside(standing.scenario);
   Evidence evidence{simulator_, recording_, Scene(conditions_, left), standing.scenario};
   evidence.baseline.effects.clear();
   const auto& points = standing.fitter->reduced().slow(Part::train).points;

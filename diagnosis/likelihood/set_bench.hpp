@@ -30,12 +30,7 @@ bool is_taken_out(const Effect& effect);
 class SetBench {
  public:
   /// Effects in `without` are left out of the catalogue.
-  SetBench(const Simulator& simulator, const Series& recording, std::vector<std::string> without)
-      : simulator_(simulator),
-        conditions_(simulator.conditions()),
-        recording_(recording),
-        without_(std::move(without)),
-        masked_(recording.size(), 0) {}
+  SetBench(const Simulator& simulator, const Series& recording, std::vector<std::string> without);
 
   const Conditions& conditions() const { return conditions_; }
   bool is_allowed(std::string_view effect) const;
@@ -72,8 +67,8 @@ class SetBench {
  private:
   static constexpr int fitting_iterations = 15;
 
-  /// The recording without what is the same in every replica of the scenario.
-  Series left_by(const Scenario& scenario) const;
+  /// The recording's gyro without what is the same in every replica of the scenario.
+  std::vector<double> gyro_beside(const Scenario& scenario) const;
   std::vector<double> rate_error_beside(const Scenario& scenario) const;
   std::shared_ptr<const SetFitter> fitter_of(const Scenario& scenario) const;
   double cost(const Scenario& scenario) const;
@@ -87,6 +82,7 @@ class SetBench {
   const Conditions& conditions_;
   const Series& recording_;
   std::vector<std::string> without_;
+  std::vector<double> plain_gyro_dps_;  ///< of plain()
   std::vector<char> masked_;
   bool marked_saturation_ = false;
 };

@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -18,6 +19,15 @@ void fill_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0)
       (void)!open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+/// Series of a few megabytes come and go by the thousand; given back to the kernel each time, their
+/// pages cost as much as the work on them.
+void keep_freed_memory() {
+  constexpr int always = 1 << 30;
+  mallopt(M_MMAP_THRESHOLD, always);
+  mallopt(M_TRIM_THRESHOLD, always);
+  mallopt(M_TOP_PAD, 1 << 26);
 }
 
 /// What was printed is out. Throws std::runtime_error where it cannot be.
@@ -64,6 +74,7 @@ void print_mistakes(const std::string& mistakes) {
 int main(int argc, char** argv) {
   using namespace gyrostat;
   fill_standard_streams();
+  keep_freed_memory();
   signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
   cli::StopSignal stop;
   cli::Console console{std::cout, std::cerr, isatty(STDERR_FILENO) != 0, stop};
