@@ -35,6 +35,7 @@ struct Diagnosed<effects::Sinusoidal> {
       const auto& spans = slow ? conditions.slow_spans(Part::train) : conditions.spans(Part::train);
       const double interval_s = slow ? conditions.slow_interval_s() : conditions.interval_s();
       const double duration_s = interval_s * static_cast<double>(values.size());
+      const NearLine near(values, spans, peak.frequency_hz, interval_s);
       const double resolution =
           slow ? e.scene.slow_spectra[0].resolution_hz : e.scene.spectra[0].resolution_hz;
       double best = peak.frequency_hz, largest = 0.0;
@@ -42,7 +43,7 @@ struct Diagnosed<effects::Sinusoidal> {
       for (int pass = 0; pass < 2; ++pass) {
         const double centre = best;
         for (double f = std::max(centre - reach, step); f <= centre + reach; f += step)
-          if (const double a = std::abs(line_at(values, spans, f, interval_s)); a > largest) {
+          if (const double a = std::abs(near.at(f)); a > largest) {
             largest = a;
             best = f;
           }
@@ -86,24 +87,59 @@ struct Diagnosed<effects::Sinusoidal> {
     return {std::abs(line) / lost, frequency_hz, wrap_degrees(phase)};
   }
 
-  /// Power and phase of `values` at a frequency over the given stretches.
+  /// Values turned back by a frequency and summed up block by block, from which lines at
+  /// frequencies near by are told.
+  class NearLine {
+   public:
+    NearLine(const std::vector<double>& values, const std::vector<Span>& spans,
+             double frequency_hz, double interval_s)
+        : frequency_hz_(frequency_hz), interval_s_(interval_s) {
+      const double angle = -2.0 * std::numbers::pi * frequency_hz * interval_s;
+      const double c = std::cos(angle), s = std::sin(angle);
+      for (const auto& span : spans) {
+        double mean = 0.0;
+        for (std::size_t i = span.first; i < span.last; ++i) mean += values[i];
+        mean /= static_cast<double>(span.size());
+        count_ += static_cast<double>(span.size());
+        for (std::size_t first = span.first; first < span.last; first += block) {
+          const std::size_t last = std::min(first + block, span.last);
+          const double start = angle * static_cast<double>(first);
+          double re = std::cos(start), im = std::sin(start), sum_re = 0.0, sum_im = 0.0;
+          for (std::size_t i = first; i < last; ++i) {
+            const double value = values[i] - mean;
+            sum_re += value * re;
+            sum_im += value * im;
+            const double turned = re * c - im * s;
+            im = re * s + im * c;
+            re = turned;
+          }
+          blocks_.push_back({0.5 * static_cast<double>(first + last - 1), {sum_re, sum_im}});
+        }
+      }
+    }
+
+    /// Amplitude and phase, relative to the first value.
+    std::complex<double> at(double frequency_hz) const {
+      const double angle = -2.0 * std::numbers::pi * (frequency_hz - frequency_hz_) * interval_s_;
+      std::complex<double> sum = 0.0;
+      for (const auto& b : blocks_) sum += b.sum * std::polar(1.0, angle * b.middle);
+      return 2.0 * sum / count_;
+    }
+
+   private:
+    static constexpr std::size_t block = 32;  ///< short against a turn of any frequency near by
+    struct Block {
+      double middle;
+      std::complex<double> sum;
+    };
+    double frequency_hz_, interval_s_, count_ = 0.0;
+    std::vector<Block> blocks_;
+  };
+
   static std::complex<double> line_at(const std::vector<double>& values,
                                       const std::vector<Span>& spans, double frequency_hz,
                                       double interval_s) {
-    const double angle = -2.0 * std::numbers::pi * frequency_hz * interval_s;
-    std::complex<double> sum = 0.0;
-    double count = 0.0;
-    for (const auto& span : spans) {
-      double mean = 0.0;
-      for (std::size_t i = span.first; i < span.last; ++i) mean += values[i];
-      mean /= static_cast<double>(span.size());
-      std::complex<double> turn = std::polar(1.0, angle * static_cast<double>(span.first));
-      const auto step = std::polar(1.0, angle);
-      for (std::size_t i = span.first; i < span.last; ++i, turn *= step)
-        sum += (values[i] - mean) * turn;
-      count += static_cast<double>(span.size());
-    }
-    return 2.0 * sum / count;
+    return NearLine(values, spans, frequency_hz, interval_s).at(frequency_hz);
   }
 
   /// Whether the line is the motion's own, scaled, rectified or delayed.

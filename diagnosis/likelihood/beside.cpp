@@ -29,10 +29,10 @@ std::vector<Resonance> Beside::lines() const {
   const auto& reduced = fitter.reduced();
   const auto& seen = reduced.periodogram(Part::train);
   const double degrees = reduced.degrees(Part::train);
-  const auto density = reduced.shown(density_of(law_of(fit.scenario, conditions.interval_s()),
-                                                reduced.angles(), reduced.cosines()));
+  const auto density = reduced.grid().shown(
+      density_of(law_of(fit.scenario, conditions.interval_s()), reduced.grid().angles()));
   std::vector<Resonance> found;
-  const std::size_t first = reduced.first_fast_bin();
+  const std::size_t first = reduced.grid().first_fast_bin();
   for (std::size_t width = 1; first + 4 * width < seen.size(); width *= 3) {
     double best = 0.0, variance = 0.0;
     std::size_t at = 0;
@@ -41,7 +41,7 @@ std::vector<Resonance> Beside::lines() const {
       for (std::size_t i = k; i < k + width; ++i) {
         excess += seen[i] / density[i] - 1.0;
         expected += 1.0;
-        power += (seen[i] - density[i]) * reduced.resolution_hz();
+        power += (seen[i] - density[i]) * reduced.grid().resolution_hz();
       }
       const double clear = excess * std::sqrt(degrees / expected);
       if (clear > best) best = clear, variance = power, at = k;
@@ -49,8 +49,8 @@ std::vector<Resonance> Beside::lines() const {
     if (best < 4.0 || variance <= 0.0) continue;
     const auto bins = static_cast<double>(width);
     found.push_back({1.3 * variance,
-                     (static_cast<double>(at) + 0.5 * (bins - 1.0)) * reduced.resolution_hz(),
-                     0.6 * bins * reduced.resolution_hz()});
+                     (static_cast<double>(at) + 0.5 * (bins - 1.0)) * reduced.grid().resolution_hz(),
+                     0.6 * bins * reduced.grid().resolution_hz()});
   }
   return found;
 }

@@ -25,22 +25,17 @@ double of_filtered_white(const NoiseLaw& law, std::size_t cluster) {
   const auto m = static_cast<double>(cluster);
   constexpr std::size_t longest = 4096;
   if ((!law.filter && law.averaging.empty()) || cluster > longest) return 1.0 / m;
-  constexpr std::size_t angles = 65536;
+  static const Angles angles(65537);
+  const auto gain = gain_of_white(law, angles);
+  const std::size_t last = gain.size() - 1;
   double sum = 0.0;
-  for (std::size_t j = 0; j < angles; ++j) {
-    const double angle =
-        std::numbers::pi * (static_cast<double>(j) + 0.5) / static_cast<double>(angles);
-    double gain = law.filter ? law.filter->gain(angle, std::cos(angle), law.interval_s) : 1.0;
-    if (!law.averaging.empty()) {
-      double averaged = law.averaging[0];
-      for (std::size_t lag = 1; lag < law.averaging.size(); ++lag)
-        averaged += 2.0 * law.averaging[lag] * std::cos(static_cast<double>(lag) * angle);
-      gain *= std::max(0.0, averaged);
-    }
-    const double window = std::pow(std::sin(0.5 * m * angle), 2) / (m * std::sin(0.5 * angle));
-    sum += gain * 2.0 * window * window;
+  for (std::size_t k = 1; k <= last; ++k) {
+    const double angle = angles.values[k];
+    const double sine = std::sin(0.5 * m * angle);
+    const double window = sine * sine / (m * std::sin(0.5 * angle));
+    sum += (k == last ? 1.0 : 2.0) * gain[k] * window * window;
   }
-  return sum / static_cast<double>(angles);
+  return sum / static_cast<double>(last);
 }
 
 /// Of a walk whose steps have unit variance.

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <iterator>
 #include <numbers>
 #include <numeric>
+
+#include <boost/math/special_functions/bessel.hpp>
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
@@ -25,26 +26,34 @@ std::vector<std::vector<double>> squared_envelopes(const Conditions& conditions,
                                                    const std::vector<double>& left,
                                                    const Resonance& line, std::size_t block) {
   const double turn = -2.0 * std::numbers::pi * line.centre_hz * conditions.interval_s();
+  const double c = std::cos(turn), s = std::sin(turn);
   std::vector<std::vector<double>> all;
   for (const auto& span : conditions.spans(part)) {
     all.emplace_back();
     for (std::size_t at = span.first; at + block <= span.last; at += block) {
-      std::complex<double> sum = 0.0;
+      double re = 1.0, im = 0.0, sum_re = 0.0, sum_im = 0.0;
       std::size_t there = 0;
-      for (std::size_t i = at; i < at + block; ++i)
+      for (std::size_t i = at; i < at + block; ++i) {
         if (!is_missing(left[i])) {
-          sum += std::polar(left[i], turn * static_cast<double>(i - at));
+          sum_re += left[i] * re;
+          sum_im += left[i] * im;
           ++there;
         }
+        const double turned = re * c - im * s;
+        im = re * s + im * c;
+        re = turned;
+      }
       all.back().push_back(
-          2 * there < block ? no_value : 4.0 * std::norm(sum) / static_cast<double>(there * there));
+          2 * there < block
+              ? no_value
+              : 4.0 * (sum_re * sum_re + sum_im * sum_im) / static_cast<double>(there * there));
     }
   }
   return all;
 }
 
 double log_bessel_i0(double x) {
-  if (x < 30.0) return std::log(std::cyl_bessel_i(0.0, x));
+  if (x < 30.0) return std::log(boost::math::cyl_bessel_i(0, x));
   return x - 0.5 * std::log(2.0 * std::numbers::pi * x) + 0.125 / x;
 }
 

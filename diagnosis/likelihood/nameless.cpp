@@ -64,11 +64,11 @@ std::optional<Nameless> colour_of_the_noise(const Conditions& conditions, const 
   white.filter = law.filter;
   white.averaging = law.averaging;
   const auto density_of_law = [&](const NoiseLaw& of) {
-    return reduced.shown(density_of(of, reduced.angles(), reduced.cosines()));
+    return reduced.grid().shown(density_of(of, reduced.grid().angles()));
   };
   const auto whole = density_of_law(law), plain = density_of_law(white);
   constexpr double least = 0.02;  // what is taken away leaves something
-  const std::size_t first = reduced.first_fast_bin();
+  const std::size_t first = reduced.grid().first_fast_bin();
   std::vector<double> ratio(seen.size());
   for (std::size_t k = first; k < seen.size(); ++k)
     ratio[k] = std::max(least, 1.0 + (seen[k] - whole[k]) / plain[k]);
@@ -82,7 +82,7 @@ std::optional<Nameless> colour_of_the_noise(const Conditions& conditions, const 
   for (std::size_t k = 0; k <= last; ++k)
     for (std::size_t lag = 0; lag < covariance.size(); ++lag)
       covariance[lag] += (k == 0 || k == last ? 0.5 : 1.0) * ratio[k] *
-                         std::cos(static_cast<double>(lag) * reduced.angles()[k]) /
+                         std::cos(static_cast<double>(lag) * reduced.grid().angles().values[k]) /
                          static_cast<double>(last);
   const auto all = autoregression(covariance);
   const auto chosen =
@@ -91,7 +91,7 @@ std::optional<Nameless> colour_of_the_noise(const Conditions& conditions, const 
   Effect effect =
       effects::EmpiricalNoise{.gain = std::sqrt(all.errors[chosen.order]), .reflection_1 = 0.0};
   for (std::size_t m = 0; m < chosen.order; ++m) effect.value(m + 1) = all.reflections[m];
-  return Nameless{effect, change_in_words(ratio, plain, reduced.resolution_hz())};
+  return Nameless{effect, change_in_words(ratio, plain, reduced.grid().resolution_hz())};
 }
 
 std::optional<Nameless> colour_of_the_compass(const Simulator& simulator, const Series& recording,

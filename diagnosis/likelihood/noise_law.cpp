@@ -26,38 +26,54 @@ NoiseLaw NoiseLaw::without_jumps() const {
   return law;
 }
 
-std::vector<double> density_of(const NoiseLaw& given, const std::vector<double>& angles,
-                               const std::vector<double>& cosines) {
+std::vector<double> gain_of_white(const NoiseLaw& law, const Angles& angles) {
+  const auto& cosines = angles.cosines;
+  const std::size_t bins = cosines.size();
+  std::vector<double> gain(bins, 1.0);
+  if (law.filter) law.filter->multiply_gain(angles.values, cosines, law.interval_s, gain);
+  if (!law.averaging.empty())
+    for (std::size_t k = 0; k < bins; ++k) {
+      // cos((lag + 1) x) = 2 cos x cos(lag x) - cos((lag - 1) x)
+      double averaged = law.averaging[0], before = 1.0, here = cosines[k];
+      for (std::size_t lag = 1; lag < law.averaging.size(); ++lag) {
+        averaged += 2.0 * law.averaging[lag] * here;
+        const double next = 2.0 * cosines[k] * here - before;
+        before = here;
+        here = next;
+      }
+      gain[k] *= std::max(0.0, averaged);
+    }
+  return gain;
+}
+
+std::vector<double> density_of(const NoiseLaw& given, const Angles& angles) {
   const NoiseLaw law = given.without_jumps();
   const double step = law.walk * law.interval_s;
-  std::vector<double> density(cosines.size(), law.rounding);
-  std::vector<double> memories;
-  for (const auto& d : law.decaying) memories.push_back(std::exp(-law.interval_s / d.memory_s));
-  for (std::size_t k = 0; k < cosines.size(); ++k) {
-    const double c = cosines[k];
-    double gain = law.filter ? law.filter->gain(angles[k], c, law.interval_s) : 1.0;
-    if (!law.averaging.empty()) {
-      double averaged = law.averaging[0];
-      for (std::size_t lag = 1; lag < law.averaging.size(); ++lag)
-        averaged += 2.0 * law.averaging[lag] * std::cos(static_cast<double>(lag) * angles[k]);
-      gain *= averaged;
-    }
-    density[k] += law.white * std::max(gain, 1e-9) + law.angle * (1.0 - c);
-    for (std::size_t i = 0; i < memories.size(); ++i)
-      density[k] += law.decaying[i].variance * poisson_kernel(memories[i], c);
-    density[k] += step / std::max(2.0 - 2.0 * c, 1e-12);
+  const auto& cosines = angles.cosines;
+  const std::size_t bins = cosines.size();
+  const auto gain = gain_of_white(law, angles);
+  std::vector<double> density(bins, law.rounding);
+  for (std::size_t k = 0; k < bins; ++k) {
+    density[k] += law.white * std::max(gain[k], 1e-9) + law.angle * (1.0 - cosines[k]);
+    if (step > 0.0) density[k] += step / std::max(2.0 - 2.0 * cosines[k], 1e-12);
+  }
+  for (const auto& d : law.decaying) {
+    const double a = std::exp(-law.interval_s / d.memory_s);
+    for (std::size_t k = 0; k < bins; ++k) density[k] += d.variance * poisson_kernel(a, cosines[k]);
   }
   // Through the window of a periodogram, no line is narrower than a bin.
   const double bin_hz =
-      angles.size() > 1 ? (angles[1] - angles[0]) / (2.0 * std::numbers::pi * law.interval_s) : 0.0;
+      (angles.values[1] - angles.values[0]) / (2.0 * std::numbers::pi * law.interval_s);
   for (const auto& r : law.resonances) {
     const double bandwidth_hz = std::max(r.bandwidth_hz, bin_hz);
     const double a = std::exp(-std::numbers::pi * bandwidth_hz * law.interval_s);
     const double centre = 2.0 * std::numbers::pi * r.centre_hz * law.interval_s;
-    for (std::size_t k = 0; k < angles.size(); ++k)
+    const double c = std::cos(centre), s = std::sin(centre);
+    for (std::size_t k = 0; k < bins; ++k) {
+      const double in_phase = cosines[k] * c, across = angles.sines[k] * s;
       density[k] += 0.5 * r.variance *
-                    (poisson_kernel(a, std::cos(angles[k] - centre)) +
-                     poisson_kernel(a, std::cos(angles[k] + centre)));
+                    (poisson_kernel(a, in_phase + across) + poisson_kernel(a, in_phase - across));
+    }
   }
   for (double& d : density) d *= 2.0 * law.interval_s;
   return density;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include <gyrostat/diagnosis/likelihood/rate_grid.hpp>
 #include <gyrostat/generators/effects/noise_bandwidth.hpp>
 
 namespace gyrostat::gap {
@@ -45,9 +46,10 @@ struct NoiseLaw {
   NoiseLaw without_jumps() const;
 };
 
-/// One-sided density, dps²/Hz, at evenly spaced angles (radians a sample) given by their cosines
-/// and themselves, as a periodogram with these bins shows it.
-std::vector<double> density_of(const NoiseLaw& law, const std::vector<double>& angles,
-                               const std::vector<double>& cosines);
+/// Of what passes the law's filter and its averaging, as a share of its density.
+std::vector<double> gain_of_white(const NoiseLaw& law, const Angles& angles);
+
+/// One-sided density, dps²/Hz, as a periodogram with these bins shows it.
+std::vector<double> density_of(const NoiseLaw& law, const Angles& angles);
 
 }  // namespace gyrostat::gap

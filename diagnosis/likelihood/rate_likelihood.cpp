@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace gyrostat::gap {
 namespace {
@@ -23,32 +23,35 @@ MeanOf mean_over(double u) {
   return {2.0 * (u - lost) / (u * u), lost * lost / (u * u)};
 }
 
-}  // namespace
+/// A law as what is white to cluster means, and what they remember.
+struct Bands {
+  NoiseLaw fast, slow;
+};
 
-SlowLaw slow_law(const ReducedRate& reduced, const NoiseLaw& law, std::size_t cluster) {
-  const double interval_s = law.interval_s * static_cast<double>(cluster);
-  NoiseLaw fast = law;
-  fast.walk = 0.0;
-  fast.jumps.reset();
-  fast.decaying.clear();
+Bands bands_of(const NoiseLaw& law, double cluster_s) {
+  Bands bands{.fast = law, .slow = {.interval_s = law.interval_s, .duration_s = law.duration_s}};
+  bands.slow.walk = std::exchange(bands.fast.walk, 0.0);
+  bands.slow.jumps = std::exchange(bands.fast.jumps, std::nullopt);
+  bands.fast.decaying.clear();
+  for (const auto& d : law.decaying)
+    (d.memory_s < shortest_memory * cluster_s || d.variance < 0.0 ? bands.fast : bands.slow)
+        .decaying.push_back(d);
+  return bands;
+}
+
+SlowLaw slow_law_of(const ReducedRate& reduced, const NoiseLaw& remembered,
+                    const std::vector<double>& fast_density, double interval_s) {
   SlowLaw slow{.white = 0.0,
-               .walk = law.walk * interval_s,
+               .walk = remembered.walk * interval_s,
                .parts = {},
-               .jumps = law.jumps,
+               .jumps = remembered.jumps,
                .interval_s = interval_s};
-  const auto is_fast = [&](const Decaying& d) {
-    return d.memory_s < shortest_memory * interval_s || d.variance < 0.0;
-  };
-  std::copy_if(law.decaying.begin(), law.decaying.end(), std::back_inserter(fast.decaying),
-               is_fast);
-  const auto density = density_of(fast, reduced.angles(), reduced.cosines());
-  const auto& weights = reduced.of_a_mean();
-  slow.white = std::inner_product(density.begin(), density.end(), weights.begin(), 0.0) *
+  const auto& weights = reduced.grid().of_a_mean();
+  slow.white = std::inner_product(fast_density.begin(), fast_density.end(), weights.begin(), 0.0) *
                reduced.noise_of_means();
   // The mean of a walk over its cluster has a sixth of a step's variance less than its end.
   slow.white = std::max(slow.white - slow.walk / 6.0, 0.05 * (slow.white + slow.walk));
-  for (const auto& d : law.decaying) {
-    if (is_fast(d)) continue;
+  for (const auto& d : remembered.decaying) {
     // Means over u memories have covariances that fall by exp(-u) from lag to lag, from the first
     // on; that at lag 0 is a little less than where they come from. The white noise of the means
     // takes the difference up as far as it goes.
@@ -64,12 +67,21 @@ SlowLaw slow_law(const ReducedRate& reduced, const NoiseLaw& law, std::size_t cl
   return slow;
 }
 
+}  // namespace
+
+SlowLaw slow_law(const ReducedRate& reduced, const NoiseLaw& law, std::size_t cluster) {
+  const double interval_s = law.interval_s * static_cast<double>(cluster);
+  const auto bands = bands_of(law, interval_s);
+  return slow_law_of(reduced, bands.slow, density_of(bands.fast, reduced.grid().angles()),
+                     interval_s);
+}
+
 double fast_ratio(const ReducedRate& reduced, const NoiseLaw& law) {
   const auto& seen = reduced.periodogram(Part::train);
   if (seen.empty()) return 1.0;
-  const auto density = reduced.shown(density_of(law, reduced.angles(), reduced.cosines()));
+  const auto density = reduced.grid().shown(density_of(law, reduced.grid().angles()));
   double sum = 0.0, bins = 0.0;
-  for (std::size_t k = reduced.first_fast_bin(); k + 1 < density.size(); ++k)
+  for (std::size_t k = reduced.grid().first_fast_bin(); k + 1 < density.size(); ++k)
     sum += seen[k] / density[k], bins += 1.0;
   return sum / bins;
 }
@@ -77,6 +89,10 @@ double fast_ratio(const ReducedRate& reduced, const NoiseLaw& law) {
 RateTerms rate_terms(const ReducedRate& reduced, Part part, const NoiseLaw& law,
                      const Eigen::MatrixXd& regressors, const Eigen::VectorXd& prior_std) {
   RateTerms terms;
+  const double interval_s =
+      law.interval_s * std::round(reduced.cluster_s() / law.interval_s);
+  const auto bands = bands_of(law, interval_s);
+  auto density = density_of(bands.fast, reduced.grid().angles());
   const auto& slow = reduced.slow(part);
   if (slow.points.size() > 1) {
     const Eigen::VectorXd& values = slow.means;
@@ -85,17 +101,17 @@ RateTerms rate_terms(const ReducedRate& reduced, Part part, const NoiseLaw& law,
       const auto at = slow.points[static_cast<std::size_t>(k)];
       if (regressors.cols() > 0) chosen.row(k) = regressors.row(static_cast<Eigen::Index>(at));
     }
-    const auto cluster =
-        static_cast<std::size_t>(std::lround(reduced.cluster_s() / law.interval_s));
-    terms.slow =
-        slow_terms(slow_law(reduced, law, cluster), slow.points, values, chosen, prior_std);
+    terms.slow = slow_terms(slow_law_of(reduced, bands.slow, density, interval_s), slow.points,
+                            values, chosen, prior_std);
     terms.log_likelihood = terms.slow.log_likelihood;
   }
   const auto& seen = reduced.periodogram(part);
   if (seen.empty()) return terms;
-  const auto density = reduced.shown(density_of(law, reduced.angles(), reduced.cosines()));
+  const auto slow_density = density_of(bands.slow, reduced.grid().angles());
+  for (std::size_t k = 0; k < density.size(); ++k) density[k] += slow_density[k];
+  density = reduced.grid().shown(density);
   double sum = 0.0;
-  for (std::size_t k = reduced.first_fast_bin(); k + 1 < density.size(); ++k) {
+  for (std::size_t k = reduced.grid().first_fast_bin(); k + 1 < density.size(); ++k) {
     const double log_density = std::log(density[k]);
     terms.log_density.push_back(log_density);
     sum += log_density + seen[k] / density[k];

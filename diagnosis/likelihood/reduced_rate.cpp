@@ -1,12 +1,7 @@
 #include <gyrostat/diagnosis/likelihood/reduced_rate.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <complex>
-#include <numbers>
-
-#include <unsupported/Eigen/FFT>
 
 #include <gyrostat/analysis/spectra/welch.hpp>
 #include <gyrostat/core/step.hpp>
@@ -14,20 +9,7 @@
 namespace gyrostat::gap {
 namespace {
 
-constexpr std::size_t shortest_segment = 64, longest_segment = 4096;
-constexpr std::size_t segments_wanted = 32;
 constexpr std::size_t clusters_smoothed = 8;
-
-std::size_t segment_length(const Conditions& conditions) {
-  std::size_t samples = 0, longest = 0;
-  for (const auto& span : conditions.spans(Part::train)) {
-    samples += span.size();
-    longest = std::max(longest, span.size());
-  }
-  const std::size_t wanted =
-      std::clamp(samples / segments_wanted, shortest_segment, longest_segment);
-  return std::bit_floor(std::max(shortest_segment, std::min(wanted, longest / 2)));
-}
 
 /// A straight line from the middle of each run of clusters of one part to the next's.
 std::vector<double> smoothed(const Conditions& conditions, const std::vector<double>& means) {
@@ -64,15 +46,10 @@ std::vector<double> smoothed(const Conditions& conditions, const std::vector<dou
 }  // namespace
 
 ReducedRate::ReducedRate(const Conditions& conditions, const std::vector<double>& error_dps,
-                         const std::vector<char>& masked) {
+                         std::shared_ptr<const RateGrid> grid)
+    : grid_(std::move(grid)), cluster_s_(conditions.slow_interval_s()) {
   std::vector<double> values = error_dps;
-  double hidden = 0.0, all = 0.0;
-  for (const auto& span : conditions.spans(Part::train))
-    for (std::size_t i = span.first; i < span.last; ++i) {
-      hidden += masked[i] != 0 ? 1.0 : 0.0;
-      all += 1.0;
-    }
-  kept_ = all > 0.0 ? 1.0 - hidden / all : 1.0;
+  const auto& masked = grid_->masked();
   for (std::size_t i = 0; i < values.size(); ++i)
     if (masked[i] != 0) values[i] = no_value;
   const auto means = conditions.slow_means(values);
@@ -99,12 +76,12 @@ ReducedRate::ReducedRate(const Conditions& conditions, const std::vector<double>
       slow.means[static_cast<Eigen::Index>(k)] = means[slow.points[k]];
   }
   if (points > 0.0) noise_of_means_ = inverse_shares / points;
-  if (hidden > 0.0) {
+  if (grid_->hides_any()) {
     const auto level = smoothed(conditions, means);
     for (std::size_t i = 0; i < values.size(); ++i)
       values[i] = is_missing(values[i]) ? 0.0 : values[i] - level[i];
   }
-  reduce_fast(conditions, values, masked);
+  reduce_fast(conditions, values);
 }
 
 double ReducedRate::white_std_dps() const {
@@ -117,59 +94,13 @@ double ReducedRate::white_std_dps() const {
     return std::sqrt(0.5 * squares / static_cast<double>(count));
   }
   double sum = 0.0, bins = 0.0;
-  for (std::size_t k = first_fast_bin_; k + 1 < density.size(); ++k) sum += density[k], bins += 1.0;
-  const double nyquist_hz = resolution_hz_ * static_cast<double>(density.size() - 1);
-  return std::sqrt(sum / bins * nyquist_hz / std::max(kept_, 0.05));
+  for (std::size_t k = grid_->first_fast_bin(); k + 1 < density.size(); ++k) sum += density[k], bins += 1.0;
+  const double nyquist_hz = grid_->resolution_hz() * static_cast<double>(density.size() - 1);
+  return std::sqrt(sum / bins * nyquist_hz / std::max(grid_->kept(), 0.05));
 }
 
-std::vector<double> ReducedRate::shown(const std::vector<double>& density) const {
-  if (pairs_.empty()) return density;
-  // The covariance of a product of independent series is the product of their covariances.
-  const std::size_t bins = density.size();
-  std::vector<std::complex<double>> half(bins, 0.0);
-  for (std::size_t k = first_fast_bin_ / 2; k < bins; ++k) half[k] = density[k];
-  Eigen::FFT<double> fft;
-  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  std::vector<double> covariance(2 * (bins - 1));
-  fft.inv(covariance, half, static_cast<Eigen::Index>(covariance.size()));
-  for (std::size_t lag = 0; lag < covariance.size(); ++lag)
-    covariance[lag] *= pairs_[std::min(lag, covariance.size() - lag)];
-  fft.fwd(half, covariance);
-  std::vector<double> seen(bins);
-  for (std::size_t k = 0; k < bins; ++k) seen[k] = std::max(half[k].real(), 1e-6 * density[k]);
-  return seen;
-}
-
-void ReducedRate::reduce_fast(const Conditions& conditions, const std::vector<double>& error_dps,
-                              const std::vector<char>& masked) {
-  const std::size_t length = segment_length(conditions);
-  const std::size_t bins = length / 2 + 1;
-  resolution_hz_ = conditions.rate_hz() / static_cast<double>(length);
-  cluster_s_ = conditions.slow_interval_s();
-  const auto m = static_cast<double>(conditions.cluster());
-  for (std::size_t k = 0; k < bins; ++k) {
-    const double angle = std::numbers::pi * static_cast<double>(k) / static_cast<double>(bins - 1);
-    angles_.push_back(angle);
-    cosines_.push_back(std::cos(angle));
-    const double mean = k == 0 ? 1.0 : std::sin(0.5 * m * angle) / (m * std::sin(0.5 * angle));
-    const double weight = k == 0 || k == bins - 1 ? 0.5 : 1.0;
-    of_a_mean_.push_back(weight * mean * mean * resolution_hz_);
-  }
-  const double lowest_hz = 0.5 / conditions.slow_interval_s();
-  first_fast_bin_ =
-      std::max<std::size_t>(3, static_cast<std::size_t>(std::ceil(lowest_hz / resolution_hz_)));
-
-  if (kept_ < 1.0) {
-    pairs_.assign(bins, 0.0);
-    std::vector<double> all(bins, 0.0);
-    for (const auto& span : conditions.spans(Part::train))
-      for (std::size_t i = span.first; i < span.last; i += 7)
-        for (std::size_t lag = 0; lag < bins && i + lag < span.last; ++lag) {
-          all[lag] += 1.0;
-          pairs_[lag] += masked[i] == 0 && masked[i + lag] == 0 ? 1.0 : 0.0;
-        }
-    for (std::size_t lag = 0; lag < bins; ++lag) pairs_[lag] /= std::max(all[lag], 1.0);
-  }
+void ReducedRate::reduce_fast(const Conditions& conditions, const std::vector<double>& error_dps) {
+  const std::size_t length = grid_->segment();
   for (const Part part : parts) {
     std::vector<std::span<const double>> stretches;
     double samples = 0.0;
@@ -180,7 +111,7 @@ void ReducedRate::reduce_fast(const Conditions& conditions, const std::vector<do
     }
     periodogram_[index_of(part)] =
         welch(stretches, conditions.rate_hz(), length, length / 2).density;
-    degrees_[index_of(part)] = kept_ * samples / static_cast<double>(length);
+    degrees_[index_of(part)] = grid_->kept() * samples / static_cast<double>(length);
   }
 }
 

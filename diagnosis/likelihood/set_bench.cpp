@@ -46,8 +46,8 @@ SetBench::SetBench(const Simulator& simulator, const Series& recording,
     : simulator_(simulator),
       conditions_(simulator.conditions()),
       recording_(recording),
-      without_(std::move(without)),
-      masked_(recording.size(), 0) {
+      without_(std::move(without)) {
+  mask_only(std::vector<char>(recording.size(), 0));
   Series bare;
   synthesise_rate_under(plain(), conditions_.series(), {}, bare);
   plain_gyro_dps_ = std::move(bare.gyro_dps);
@@ -64,9 +64,15 @@ bool SetBench::is_marked(std::string_view effect) const {
          effect == "stale_samples" || effect == "outliers" || effect == "noise_temperature";
 }
 
+void SetBench::mask_only(std::vector<char> samples) {
+  grid_ = std::make_shared<const RateGrid>(conditions_, std::move(samples));
+}
+
 void SetBench::mask_too(const std::vector<char>& samples) {
-  for (std::size_t i = 0; i < masked_.size(); ++i)
-    if (samples[i] != 0) masked_[i] = 1;
+  auto masked = grid_->masked();
+  for (std::size_t i = 0; i < masked.size(); ++i)
+    if (samples[i] != 0) masked[i] = 1;
+  mask_only(std::move(masked));
 }
 
 Scenario SetBench::plain() const {
@@ -104,7 +110,7 @@ std::shared_ptr<const SetFitter> SetBench::fitter_of(const Scenario& scenario) c
   simulator_.interrupt().check();
   return std::make_shared<SetFitter>(
       conditions_,
-      std::make_shared<const ReducedRate>(conditions_, rate_error_beside(scenario), masked_),
+      std::make_shared<const ReducedRate>(conditions_, rate_error_beside(scenario), grid_),
       simulator_.interrupt());
 }
 

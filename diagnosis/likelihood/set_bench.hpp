@@ -38,8 +38,8 @@ class SetBench {
   bool is_marked(std::string_view effect) const;
   void mark_saturation() { marked_saturation_ = true; }
 
-  const std::vector<char>& masked() const { return masked_; }
-  void mask_only(std::vector<char> samples) { masked_ = std::move(samples); }
+  const std::vector<char>& masked() const { return grid_->masked(); }
+  void mask_only(std::vector<char> samples);
   void mask_too(const std::vector<char>& samples);
 
   /// No noise, no drift and no effects, under the recording's sampling.
@@ -83,7 +83,7 @@ class SetBench {
   const Series& recording_;
   std::vector<std::string> without_;
   std::vector<double> plain_gyro_dps_;  ///< of plain()
-  std::vector<char> masked_;
+  std::shared_ptr<const RateGrid> grid_;
   bool marked_saturation_ = false;
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include <Eigen/Cholesky>
 
@@ -11,7 +12,8 @@ namespace gyrostat::gap {
 namespace {
 
 constexpr int most_states = 16;
-constexpr int few_states = 2;  ///< enough for a level and one decaying error
+constexpr int few_states = 2;   ///< enough for a level and one decaying error
+constexpr int some_states = 4;
 constexpr std::size_t most_histories = 12;
 
 /// The covariance recursion, the same for every series that is filtered, for at most N states.
@@ -251,13 +253,23 @@ double jump_log_likelihood(const SlowLaw& law, std::span<const std::size_t> poin
                                innovation * innovation / h.recursion.variance());
     }
     normalise(histories, total);
-    if (histories.size() > most_histories) {
-      std::sort(histories.begin(), histories.end(),
-                [](const auto& a, const auto& b) { return a.log_weight > b.log_weight; });
-      histories.erase(histories.begin() + most_histories, histories.end());
+    while (histories.size() > most_histories) {
+      const auto least = std::min_element(
+          histories.begin(), histories.end(),
+          [](const auto& a, const auto& b) { return a.log_weight < b.log_weight; });
+      if (&*least != &histories.back()) *least = histories.back();
+      histories.pop_back();
     }
   }
   return total;
+}
+
+/// Calls with the least number of states (std::integral_constant) that the law's recursion needs.
+template <class Call>
+auto with_room_for(const SlowLaw& law, Call&& call) {
+  if (law.parts.size() < few_states) return call(std::integral_constant<int, few_states>{});
+  if (law.parts.size() < some_states) return call(std::integral_constant<int, some_states>{});
+  return call(std::integral_constant<int, most_states>{});
 }
 
 }  // namespace
@@ -266,15 +278,15 @@ SlowTerms slow_terms(const SlowLaw& law, std::span<const std::size_t> points,
                      const Eigen::VectorXd& values, const Eigen::MatrixXd& regressors,
                      const Eigen::VectorXd& prior_std) {
   const SlowLaw gaussian = without_jumps(law);
-  auto terms = gaussian.parts.size() < few_states
-                   ? gaussian_terms<few_states>(gaussian, points, values, regressors, prior_std)
-                   : gaussian_terms<most_states>(gaussian, points, values, regressors, prior_std);
+  auto terms = with_room_for(gaussian, [&](auto states) {
+    return gaussian_terms<states.value>(gaussian, points, values, regressors, prior_std);
+  });
   if (!law.jumps) return terms;
   Eigen::VectorXd left = values;
   if (regressors.cols() > 0) left -= regressors * terms.coefficients;
-  terms.log_likelihood = law.parts.size() < few_states
-                             ? jump_log_likelihood<few_states>(law, points, left)
-                             : jump_log_likelihood<most_states>(law, points, left);
+  terms.log_likelihood = with_room_for(law, [&](auto states) {
+    return jump_log_likelihood<states.value>(law, points, left);
+  });
   terms.log_likelihood -= terms.cost_of_coefficients;
   return terms;
 }

@@ -140,9 +140,9 @@ double p_of_the_spectrum(const SetFitter& fitter, const Conditions& conditions,
   const auto& reduced = fitter.reduced();
   const auto& seen = reduced.periodogram(Part::train);
   if (seen.empty()) return 1.0;
-  const auto density = reduced.shown(
-      density_of(law_of(set, conditions.interval_s()), reduced.angles(), reduced.cosines()));
-  const std::size_t first = reduced.first_fast_bin(), last = density.size() - 1;
+  const auto density = reduced.grid().shown(
+      density_of(law_of(set, conditions.interval_s()), reduced.grid().angles()));
+  const std::size_t first = reduced.grid().first_fast_bin(), last = density.size() - 1;
   if (last < first + 4 * bands) return 1.0;
   double sum = 0.0;
   for (std::size_t b = 0; b < bands; ++b) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include <gyrostat/core/fields.hpp>
@@ -73,16 +74,21 @@ struct NoiseBandwidth {
     });
   }
 
-  /// |H|² at an angle (radians a sample), where a sampling interval is `interval_s`.
-  double gain(double angle, double cosine, double interval_s) const {
+  /// Multiplies by |H|² at angles (radians a sample), where a sampling interval is `interval_s`.
+  void multiply_gain(std::span<const double> angles, std::span<const double> cosines,
+                     double interval_s, std::span<double> gain) const {
     if (maximally_flat > 0.5) {
-      if (cutoff_hz * interval_s >= 0.5) return 1.0;
-      const double ratio =
-          std::tan(0.5 * angle) / std::tan(std::numbers::pi * cutoff_hz * interval_s);
-      return 1.0 / (1.0 + std::pow(ratio, 2.0 * poles));
+      if (cutoff_hz * interval_s >= 0.5) return;
+      const double edge = std::tan(std::numbers::pi * cutoff_hz * interval_s);
+      for (std::size_t k = 0; k < gain.size(); ++k)
+        gain[k] /= 1.0 + std::pow(std::tan(0.5 * angles[k]) / edge, 2.0 * poles);
+      return;
     }
     const double pole = std::exp(-2.0 * std::numbers::pi * cutoff_hz * interval_s);
-    return std::pow((1.0 - pole) * (1.0 - pole) / (1.0 - 2.0 * pole * cosine + pole * pole), poles);
+    for (std::size_t k = 0; k < gain.size(); ++k) {
+      const double of_one = (1.0 - pole) * (1.0 - pole) / (1.0 - 2.0 * pole * cosines[k] + pole * pole);
+      gain[k] *= poles == 1.0 ? of_one : std::pow(of_one, poles);
+    }
   }
 
  private:

@@ -150,8 +150,10 @@ TEST(CatalogueContract, StartsAreTheEffectWithSoundParameters) {
   const auto baseline = fit_baseline(simulator, recording).scenario;
   const Evidence evidence{simulator, recording, Scene(conditions, recording), baseline};
   const SetFitter fitter(
-      conditions, std::make_shared<const ReducedRate>(conditions, evidence.scene.rate_error_dps,
-                                                      std::vector<char>(recording.size(), 0)));
+      conditions, std::make_shared<const ReducedRate>(
+                      conditions, evidence.scene.rate_error_dps,
+                      std::make_shared<const RateGrid>(
+                          conditions, std::vector<char>(recording.size(), 0))));
   SetFit fit;
   fit.scenario = baseline;
   const Beside beside{conditions, fitter, fit};

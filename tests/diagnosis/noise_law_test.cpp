@@ -43,13 +43,7 @@ TEST_P(Density, IsWhatTheGeneratorMakes) {
     segments += static_cast<double>(spectrum.segments);
     for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += spectrum.density[k] / recordings;
   }
-  std::vector<double> angles, cosines;
-  for (std::size_t k = 0; k < mean.size(); ++k) {
-    angles.push_back(std::numbers::pi * static_cast<double>(k) /
-                     static_cast<double>(mean.size() - 1));
-    cosines.push_back(std::cos(angles.back()));
-  }
-  const auto expected = density_of(law_of(s, 1.0 / rate_hz), angles, cosines);
+  const auto expected = density_of(law_of(s, 1.0 / rate_hz), Angles(mean.size()));
   for (std::size_t first = 4; first + 8 < mean.size(); first += 8) {
     double seen = 0.0, law = 0.0;
     for (std::size_t k = first; k < first + 8; ++k) seen += mean[k], law += expected[k];

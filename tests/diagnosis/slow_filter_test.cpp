@@ -115,7 +115,9 @@ TEST(SlowFilter, FollowsTwoLevelsAsTheSumOverAllHistoriesDoes) {
 TEST(SlowLaw, HasTheCovariancesOfMeans) {
   const Series series = recorded(still(), 3, false);
   const Conditions conditions(series);
-  const ReducedRate reduced(conditions, series.gyro_dps, std::vector<char>(series.size(), 0));
+  const ReducedRate reduced(
+      conditions, series.gyro_dps,
+      std::make_shared<const RateGrid>(conditions, std::vector<char>(series.size(), 0)));
   const double memory_s = 15.0, variance = 4e-4, interval_s = conditions.slow_interval_s();
   const NoiseLaw white{.interval_s = conditions.interval_s(), .white = 0.0025};
   NoiseLaw law = white;
