@@ -53,7 +53,8 @@ std::vector<std::vector<double>> squared_envelopes(const Conditions& conditions,
 }
 
 double log_bessel_i0(double x) {
-  if (x < 30.0) return std::log(boost::math::cyl_bessel_i(0, x));
+  using boost::math::policies::policy, boost::math::policies::promote_double;
+  if (x < 30.0) return std::log(boost::math::cyl_bessel_i(0, x, policy<promote_double<false>>()));
   return x - 0.5 * std::log(2.0 * std::numbers::pi * x) + 0.125 / x;
 }
 

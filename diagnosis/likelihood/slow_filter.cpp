@@ -15,6 +15,7 @@ constexpr int most_states = 16;
 constexpr int few_states = 2;   ///< enough for a level and one decaying error
 constexpr int some_states = 4;
 constexpr std::size_t most_histories = 12;
+const double log_two_pi = std::log(2.0 * std::numbers::pi);
 
 /// The covariance recursion, the same for every series that is filtered, for at most N states.
 template <int N>
@@ -42,6 +43,7 @@ class Recursion {
   const std::array<double, N>& gain() const { return gain_; }
   /// Variance of the innovation.
   double variance() const { return innovation_; }
+  double log_variance() const { return log_innovation_; }
   void widen_level(double by) { at(0, 0) += by, settled_ = false; }
 
   void predict(std::size_t steps) {
@@ -72,6 +74,7 @@ class Recursion {
       gain_[i] = gain;
     }
     innovation_ = innovation;
+    log_innovation_ = std::log(innovation);
     for (int i = 0; i < states_; ++i)
       for (int j = 0; j < states_; ++j) at(i, j) -= gain_[i] * row[j];
     settled_ = one_step_ && moved < 1e-9;
@@ -84,7 +87,7 @@ class Recursion {
   double white_;
   std::array<double, N> decay_{}, drive_{}, variance_{}, gain_{};
   std::array<double, N * N> covariance_{};
-  double innovation_ = 0.0;
+  double innovation_ = 0.0, log_innovation_ = 0.0;
   bool one_step_ = false, settled_ = false;
 };
 
@@ -143,7 +146,7 @@ SlowTerms gaussian_terms(const SlowLaw& law, std::span<const std::size_t> points
       estimates[c].update(recursion, innovation);
       white(row, static_cast<Eigen::Index>(c)) = innovation / deviation;
     }
-    terms.log_variances.push_back(std::log(recursion.variance()));
+    terms.log_variances.push_back(recursion.log_variance());
     if (k > 0) logs += terms.log_variances.back();
   }
   const Eigen::Index rows = values.size() - 1;
@@ -167,7 +170,7 @@ SlowTerms gaussian_terms(const SlowLaw& law, std::span<const std::size_t> points
   terms.innovations.assign(left.begin(), left.end());
   terms.log_variances.erase(terms.log_variances.begin());
   terms.log_likelihood = -0.5 * (logs + left.squaredNorm() +
-                                 static_cast<double>(rows) * std::log(2.0 * std::numbers::pi));
+                                 static_cast<double>(rows) * log_two_pi);
   return terms;
 }
 
@@ -249,7 +252,7 @@ double jump_log_likelihood(const SlowLaw& law, std::span<const std::size_t> poin
       const double innovation = value - h.level - h.estimate.expected(h.recursion.states());
       h.estimate.update(h.recursion, innovation);
       if (k > 0)
-        h.log_weight -= 0.5 * (std::log(2.0 * std::numbers::pi * h.recursion.variance()) +
+        h.log_weight -= 0.5 * (log_two_pi + h.recursion.log_variance() +
                                innovation * innovation / h.recursion.variance());
     }
     normalise(histories, total);
