@@ -15,7 +15,21 @@ constexpr std::size_t values_inspected = 50'000;
 constexpr double clear = 6.0;
 constexpr double least_share = 3e-4;
 
-/// The step of the values' grid, where so few values are used that they repeat.
+/// Of what changes from sample to sample beside the reference rate, robustly.
+double noise_of(const Conditions& conditions, const std::vector<double>& z) {
+  const auto& reference = conditions.series().rate_ref_dps;
+  const auto known = [&](std::size_t i) { return reference.empty() ? 0.0 : reference[i]; };
+  std::vector<double> steps;
+  for (const auto& span : conditions.spans(Part::train))
+    for (std::size_t i = span.first + 1; i < span.last; ++i)
+      if (const double step = z[i] - known(i) - z[i - 1] + known(i - 1); !is_missing(step))
+        steps.push_back(std::abs(step));
+  return steps.empty() ? 0.0
+                       : quantile(std::move(steps), 0.5) / (std::numbers::sqrt2 * normal_quartile);
+}
+
+/// The step of the values' grid, where so few values are used that they repeat, or where a motion
+/// spreads values over many steps that are not small to the noise.
 double grid_step(const Simulator& simulator, const std::vector<double>& z) {
   std::vector<double> sorted;
   for (const auto& span : simulator.conditions().spans(Part::train))
@@ -26,8 +40,13 @@ double grid_step(const Simulator& simulator, const std::vector<double>& z) {
   const double least = std::max(1.5 * simulator.resolution_dps(), 1e-12);
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i] - sorted[i - 1] > least) gaps.push_back(sorted[i] - sorted[i - 1]);
-  if (gaps.size() < 2 || gaps.size() > sorted.size() / 5) return 0.0;
+  if (gaps.size() < 2) return 0.0;
   const double step = quantile(gaps, 0.2);
+  constexpr double small_to_noise = 0.3;
+  if (gaps.size() > sorted.size() / 5 &&
+      (gaps.size() > sorted.size() / 2 ||
+       step < small_to_noise * noise_of(simulator.conditions(), z)))
+    return 0.0;
   double whole = 0.0;
   for (const double g : gaps)
     if (std::abs(g / step - std::nearbyint(g / step)) <

@@ -249,18 +249,24 @@ std::vector<double> SetBench::rate_left_by(const Scenario& scenario,
   auto left = rate_error_beside(scenario);
   for (std::size_t i = 0; i < left.size(); ++i)
     if (hidden[i] != 0) left[i] = no_value;
-  // Without its level, taken over long enough not to follow single samples, and within one part.
+  for (const auto& [first, last] : level_blocks()) {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = first; i < last; ++i)
+      if (!is_missing(left[i])) sum += left[i], count += 1.0;
+    for (std::size_t i = first; i < last; ++i) left[i] -= count > 0.0 ? sum / count : 0.0;
+  }
+  return left;
+}
+
+std::vector<Span> SetBench::level_blocks() const {
+  // Long enough not to follow single samples.
   const std::size_t block = std::max<std::size_t>(conditions_.cluster(), 32);
+  std::vector<Span> blocks;
   for (const Part part : parts)
     for (const auto& span : conditions_.spans(part))
-      for (std::size_t first = span.first; first < span.last; first += block) {
-        const std::size_t last = std::min(first + block, span.last);
-        double sum = 0.0, count = 0.0;
-        for (std::size_t i = first; i < last; ++i)
-          if (!is_missing(left[i])) sum += left[i], count += 1.0;
-        for (std::size_t i = first; i < last; ++i) left[i] -= count > 0.0 ? sum / count : 0.0;
-      }
-  return left;
+      for (std::size_t first = span.first; first < span.last; first += block)
+        blocks.push_back({first, std::min(first + block, span.last)});
+  return blocks;
 }
 
 Standing SetBench::beside_memory(const Standing& standing) const {

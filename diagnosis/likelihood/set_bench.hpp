@@ -11,8 +11,8 @@
 
 namespace gyrostat::gap {
 
-/// Log prior odds against any one effect more: of some thirty one or two are there.
-constexpr double prior = 4.0;
+/// Log prior odds against any one effect more: of some thirty one or two are there (30 e^-3 = 1.5).
+constexpr double prior = 3.0;
 
 /// A set with its fit.
 struct Standing {
@@ -63,6 +63,8 @@ class SetBench {
   Evidence evidence_of(const Standing& standing) const;
   /// The rate error less its level and what is taken out; NaN where `hidden` (a flag a sample).
   std::vector<double> rate_left_by(const Scenario& scenario, const std::vector<char>& hidden) const;
+  /// The stretches over which that level is taken, within one part each.
+  std::vector<Span> level_blocks() const;
 
  private:
   static constexpr int fitting_iterations = 15;

@@ -16,6 +16,7 @@
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/line_names.hpp>
 #include <gyrostat/diagnosis/likelihood/marks.hpp>
+#include <gyrostat/diagnosis/likelihood/motion_left.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 #include <gyrostat/diagnosis/likelihood/tails.hpp>
 
@@ -26,6 +27,8 @@ namespace {
 /// form of an effect and ours differ by as much.
 constexpr double share_of_band = 0.003;
 constexpr double most_odds = 1e4;
+/// Sizes of innovations are odd in more ways than the catalogue has effects for.
+constexpr double prior_of_sizes = 4.0;
 bool is_compass(const CauseType& cause) { return cause.effect().stage() == Stage::compass; }
 /// Where in the rate error an effect shows.
 enum class Band { fast, slow, thermal, motion };
@@ -163,12 +166,20 @@ std::vector<Standing> Search::each_added(const Standing& standing) {
 }
 
 double Search::least_gain(const Standing& standing, Band band) const {
-  double most = 0.0;
-  for (const auto& [effect, gain] : gains_)
-    if (has(standing.scenario, effect) &&
-        (band_of(effect) == band || band_of(effect) == Band::motion))
-      most = std::max(most, gain);
-  return share_of_band * most;
+  double of_band = 0.0, of_motion = 0.0;
+  for (const auto& [effect, gain] : gains_) {
+    if (!has(standing.scenario, effect)) continue;
+    auto& most = band_of(effect) == Band::motion ? of_motion : of_band;
+    if (band_of(effect) == band || band_of(effect) == Band::motion) most = std::max(most, gain);
+  }
+  // Where nothing of the motion is left, its effects have nature's form.
+  if (band != Band::motion && of_motion > of_band)
+    of_motion = std::min(
+        of_motion, std::max(0.0, log_gain_of_motion(conditions_,
+                                                    bench_.rate_left_by(standing.scenario,
+                                                                        bench_.masked()))) /
+                       share_of_band);
+  return share_of_band * std::max(of_band, of_motion);
 }
 
 Standing Search::two_further(const Standing& standing, std::vector<Standing> tried) {
@@ -365,12 +376,18 @@ void Search::judge_tails(const Standing& standing) {
   const auto bursts = samples_in_bursts(bench_, standing.scenario, without_outliers);
   for (std::size_t i = 0; i < left.size(); ++i)
     if (bursts[i] != 0) left[i] = no_value;
+  // Nor the level on either side of a jump.
+  if (law_of(standing.scenario, conditions_.interval_s()).jumps) {
+    const auto beside = samples_beside_jumps(left, bench_.level_blocks());
+    for (std::size_t i = 0; i < left.size(); ++i)
+      if (beside[i] != 0) left[i] = no_value;
+  }
   tails_ = tails_of(conditions_, left, conditions_.has_temperature());
   const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
   has_outliers_ = is_normal_ && bench_.is_allowed("outliers") &&
-                  tails_.outlier_gain > prior + 2.0 * value + 4.0;
+                  tails_.outlier_gain > prior_of_sizes + 2.0 * value + 4.0;
   has_warm_noise_ =
-      bench_.is_allowed("noise_temperature") && tails_.temperature_gain > prior + value;
+      bench_.is_allowed("noise_temperature") && tails_.temperature_gain > prior_of_sizes + value;
 }
 
 void Search::add_nameless_tails(FoundSet& found) const {

@@ -21,4 +21,8 @@ struct Tails {
 /// may follow it.
 Tails tails_of(const Conditions& conditions, const std::vector<double>& left_dps, bool temperature);
 
+/// Flags the samples of blocks within which `left_dps` goes from one level to another.
+std::vector<char> samples_beside_jumps(const std::vector<double>& left_dps,
+                                       const std::vector<Span>& blocks);
+
 }  // namespace gyrostat::gap
