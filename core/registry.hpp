@@ -63,10 +63,25 @@ class Registry {
     types_.push_back(std::move(type));
   }
 
+  /// The same, but one of this name that the program added before is described anew, for programs
+  /// in which code is written while they run. As with `add`, nothing else may read meanwhile.
+  void add_or_replace(Type type) {
+    for (std::size_t i = own_; i < types_.size(); ++i)
+      if (types_[i].id == type.id) {
+        types_[i] = std::move(type);
+        return;
+      }
+    add(std::move(type));
+  }
+
  private:
-  Registry() { Type::describe_all(types_); }
+  Registry() {
+    Type::describe_all(types_);
+    own_ = types_.size();
+  }
 
   std::deque<Type> types_;  ///< whose elements stay where they are
+  std::size_t own_ = 0;     ///< so many are the project's
 };
 
 }  // namespace gyrostat

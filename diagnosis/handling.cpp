@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
@@ -73,6 +76,19 @@ Handling handling_of(const Series& recording) {
     return runs == 0 ? 0.0 : static_cast<double>((runs + 1) * length + rest) / rate_hz;
   };
   return {seconds(before, 0), seconds(after, recording.size() - is_loud.size() * length)};
+}
+
+Series without_handling(const Series& recording, std::vector<std::string>& told) {
+  const auto handling = handling_of(recording);
+  const auto tell = [&](std::string_view end, double seconds) {
+    if (seconds > 0.0)
+      told.push_back(
+          fmt::format("the {} {:.2g} s are left out: the sensor was moved", end, seconds));
+  };
+  tell("first", handling.first_s);
+  tell("last", handling.last_s);
+  if (handling.first_s + handling.last_s == 0.0) return recording;
+  return cut(recording, handling.first_s, recording.duration_s() - handling.last_s, "handling");
 }
 
 }  // namespace gyrostat::gap

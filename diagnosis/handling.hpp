@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <gyrostat/core/series.hpp>
 
 namespace gyrostat::gap {
@@ -14,5 +17,8 @@ struct Handling {
 /// the median one, on any of the gyro's axes, and the run beside them. No more than a twentieth of
 /// the recording is taken for it, and nothing of one with a reference rate, which may move.
 Handling handling_of(const Series& recording);
+
+/// The recording without its handling; `told` hears of what was left out.
+Series without_handling(const Series& recording, std::vector<std::string>& told);
 
 }  // namespace gyrostat::gap

@@ -259,15 +259,6 @@ struct Assembly {
   }
 };
 
-Recording recording_of(ColumnTable table, const std::string& place, std::string_view axis,
-                       const RecordingLayout& layout, std::span<const std::string_view> wanted) {
-  const CsvHeader header{.names = table.names, .units = {}, .line = 0, .first_row = 0};
-  Assembly assembly(header, place, axis, over(layout, table.layout), wanted);
-  table.take(assembly.targets, place);
-  assembly.recording.notes = table.notes;
-  return std::move(assembly).finished();
-}
-
 /// Room for about as many rows as the file has.
 void reserve_rows(const Targets& targets, std::string_view block, std::uintmax_t bytes) {
   constexpr std::size_t most = std::size_t{1} << 27;
@@ -302,8 +293,9 @@ Recording recording_of_text(InputFile& file, FormatHead& head, const FormatType*
   if (!format) format = format_of(head);
   if (format && format->read) {
     InputFile again(file.path());  // it reads the text itself
-    auto recording = recording_of(format->read({file.path(), file.place(), &again, stated.topic}),
-                                  file.place(), axis, stated, wanted);
+    auto recording =
+        recording_of_columns(format->read({file.path(), file.place(), &again, stated.topic}),
+                             file.place(), axis, stated, wanted);
     recording.format = format->id;
     return recording;
   }
@@ -341,6 +333,16 @@ fs::path in_folder(const fs::path& path) {
 
 }  // namespace
 
+Recording recording_of_columns(ColumnTable table, const std::string& place, std::string_view axis,
+                               const RecordingLayout& layout,
+                               std::span<const std::string_view> wanted) {
+  const CsvHeader header{.names = table.names, .units = {}, .line = 0, .first_row = 0};
+  Assembly assembly(header, place, axis, over(layout, table.layout), wanted);
+  table.take(assembly.targets, place);
+  assembly.recording.notes = table.notes;
+  return std::move(assembly).finished();
+}
+
 Recording read_recording(const fs::path& named, std::string_view axis,
                          const RecordingLayout& layout, std::span<const std::string_view> wanted) {
   const auto path = in_folder(named);
@@ -355,8 +357,9 @@ Recording read_recording(const fs::path& named, std::string_view axis,
       throw InputError(path.string(),
                        "is a directory; allowed: a file, or a folder as KITTI's oxts "
                        "or a bag of rosbag2");
-    auto recording = recording_of(format->read({path, path.string(), nullptr, layout.topic}),
-                                  path.string(), axis, layout, wanted);
+    auto recording =
+        recording_of_columns(format->read({path, path.string(), nullptr, layout.topic}),
+                             path.string(), axis, layout, wanted);
     recording.format = format->id;
     return recording;
   }
@@ -364,8 +367,8 @@ Recording read_recording(const fs::path& named, std::string_view axis,
   head.bytes = file.head();
   if (!format && layout.preset.empty()) format = format_of(head);
   if (format && format->read && format->recognises(head)) {
-    auto recording = recording_of(format->read({path, file.place(), &file, layout.topic}),
-                                  file.place(), axis, layout, wanted);
+    auto recording = recording_of_columns(format->read({path, file.place(), &file, layout.topic}),
+                                          file.place(), axis, layout, wanted);
     recording.format = format->id;
     return recording;
   }

@@ -11,6 +11,8 @@
 
 namespace gyrostat {
 
+struct ColumnTable;
+
 struct Recording {
   Series series;
   std::vector<std::string> ignored_columns;  ///< in the file's order, unknown to `channels`
@@ -44,6 +46,12 @@ struct Recording {
 Recording read_recording(const std::filesystem::path& path, std::string_view axis = "",
                          const RecordingLayout& layout = {},
                          std::span<const std::string_view> wanted = {});
+
+/// The same of columns that are in memory, under the names and units that a CSV would have;
+/// `place` is what messages call them.
+Recording recording_of_columns(ColumnTable columns, const std::string& place,
+                               std::string_view axis = "", const RecordingLayout& layout = {},
+                               std::span<const std::string_view> wanted = {});
 
 /// Puts a recording on an even clock, as `evenly_sampled` does and `layout.resample_hz` says, and
 /// notes what was done.

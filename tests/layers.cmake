@@ -19,9 +19,10 @@ set(experiments/coverage ${experiments/findings} experiments/findings)
 set(experiments/blind ${below_experiments} experiments/study experiments/run)
 set(experiments/pages ${experiments/coverage} experiments/coverage)
 set(experiments/cli ${experiments/pages} experiments/pages experiments/blind)
+set(python ${experiments/pages} experiments/pages)
 set(experiments/benchmarks ${experiments/cli})
 set(rooms ${below_experiments} experiments/study experiments/run experiments/findings experiments/coverage
-          experiments/blind experiments/pages experiments/cli)
+          experiments/blind experiments/pages experiments/cli python)
 set(tests ${rooms})
 
 set(offences "")

@@ -20,20 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Without what is not the sensor's, which is told.
-Series at_rest(const Series& series, const std::string& file, std::ostream& log) {
-  const auto handling = gap::handling_of(series);
-  const auto tell = [&](const char* end, double seconds) {
-    if (seconds > 0.0)
-      log << fmt::format("{}: the {} {:.2g} s are left out: the sensor was moved\n", file, end,
-                         seconds);
-  };
-  tell("first", handling.first_s);
-  tell("last", handling.last_s);
-  if (handling.first_s + handling.last_s == 0.0) return series;
-  return cut(series, handling.first_s, series.duration_s() - handling.last_s, file);
-}
-
 /// A recording of several, and what it is called among them.
 struct Named {
   RecordingOption recording;
@@ -91,9 +77,12 @@ std::optional<gap::Diagnosis> diagnosed(const RecordingOption& recording, const 
   PhaseProgress progress(console.log, console.log_is_terminal, "diagnose");
   try {
     interrupt.check();
-    const Series series = at_rest(cut(gap::on_grid(read.series, file, read.first_row), span.from_s,
-                                      span.to_s, file + ": --from, --to"),
-                                  file, console.log);
+    std::vector<std::string> told;
+    const Series series =
+        gap::without_handling(cut(gap::on_grid(read.series, file, read.first_row), span.from_s,
+                                  span.to_s, file + ": --from, --to"),
+                              told);
+    for (const auto& line : told) console.log << fmt::format("{}: {}\n", file, line);
     return about(file, [&] {
       return gap::diagnose(
           series, options, [&](const auto& now) { progress.set(now.phase, now.detail, now.share); },

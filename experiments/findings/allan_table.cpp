@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <gyrostat/analysis/spectra/allan.hpp>
+#include <gyrostat/core/error.hpp>
+
 namespace gyrostat {
 namespace {
 
@@ -52,6 +55,51 @@ Table allan_coefficients_table(const AllanCoefficients& c, const std::string& ti
     table.notes.push_back(
         fmt::format("from the points at {:.4g} s and longer, an octave apart", c.shortest_tau_s));
   return table;
+}
+
+std::vector<Table> allan_tables(std::span<const double> rate_dps, double rate_hz,
+                                const std::string& name) {
+  constexpr std::size_t fewest = 4, fewest_for_coefficients = 128;
+  if (rate_dps.size() < fewest)
+    throw InputError(name,
+                     fmt::format("{} samples; at least {} are needed", rate_dps.size(), fewest));
+  Table table{.title = name + ": overlapping Allan deviation",
+              .columns = {{"tau", "s"},
+                          {"deviation", "dps"},
+                          {"lower 95 %", "dps"},
+                          {"upper 95 %", "dps"},
+                          {"degrees of freedom", "1"}}};
+  try {
+    for (const auto& point : overlapping_allan_deviation(rate_dps, rate_hz))
+      table.rows.push_back({point.tau_s, point.deviation, point.lower, point.upper, point.edf});
+  } catch (const InputError& mistake) {
+    throw InputError(name, mistake.what());
+  }
+  std::vector<Table> tables = {std::move(table)};
+  if (rate_dps.size() >= fewest_for_coefficients)
+    tables.push_back(allan_coefficients_table(fit_allan_coefficients(rate_dps, rate_hz), name));
+  return tables;
+}
+
+Picture allan_picture(const Table& deviations) {
+  Mark line;
+  line.name = "deviation";
+  line.colour = "m0";
+  const auto number = [](const std::vector<TableCell>& row, std::size_t column) {
+    return std::get<double>(row[column]);
+  };
+  for (const auto& row : deviations.rows) {
+    line.x.push_back(number(row, 0));
+    line.y.push_back(number(row, 1));
+    line.y_low.push_back(number(row, 2));
+    line.y_high.push_back(number(row, 3));
+  }
+  return {.id = "allan",
+          .title = deviations.title,
+          .note = "Band: 95 % interval.",
+          .x = {.label = "τ", .unit = "s", .logarithmic = true},
+          .y = {.label = "Allan deviation", .unit = "dps", .logarithmic = true},
+          .marks = {std::move(line)}};
 }
 
 }  // namespace gyrostat

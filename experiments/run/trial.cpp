@@ -6,6 +6,7 @@
 #include <gyrostat/analysis/errors.hpp>
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/analysis/spectra/shrinkage.hpp>
+#include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/core/packed/kernels.hpp>
 #include <gyrostat/experiments/run/packed_track.hpp>
 #include <gyrostat/generators/true_parameters.hpp>
@@ -97,6 +98,8 @@ std::string thrown_by(const Work& work) {
     work();
     return {};
   } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const Interrupted&) {
     throw;
   } catch (const std::exception& failure) {
     const std::string what = failure.what();

@@ -69,7 +69,8 @@ inline constexpr std::array<std::uint32_t, 4> possible_lanes = {1, 2, 4, 8};
 /// Trials of a cell side by side, each with the bits that it has alone: filters that pack trials
 /// run over all of them at once, where there are kernels for so many and all signals are as long.
 /// `shared` is used unless the cell calibrates each trial. What a method throws is its outcome;
-/// what signal or calibration throw is the outcome of all. Only a lack of memory is thrown on.
+/// what signal or calibration throw is the outcome of all. A lack of memory is thrown on, and
+/// Interrupted, which is no outcome.
 /// Seconds and steps of each method are counted in the first workspace.
 std::vector<Record> run_trials_together(const Cell& cell, const Calibration& shared,
                                         std::uint64_t seed, std::span<const std::uint32_t> trials,

@@ -1,9 +1,5 @@
 #include <array>
 
-#include <fmt/format.h>
-
-#include <gyrostat/analysis/spectra/allan.hpp>
-
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/findings/allan_table.hpp>
@@ -26,25 +22,7 @@ int run(const AllanArguments& arguments, Console& console) {
   constexpr std::array<std::string_view, 1> wanted = {"gyro_dps"};
   const Series series =
       arguments.recording.read(console.log, {}, wanted, RecordingOption::Bursts::taken);
-  Table table{.title = arguments.recording.file + ": overlapping Allan deviation",
-              .columns = {{"tau", "s"},
-                          {"deviation", "dps"},
-                          {"lower 95 %", "dps"},
-                          {"upper 95 %", "dps"},
-                          {"degrees of freedom", "1"}}};
-  if (series.size() < 4)
-    throw InputError(arguments.recording.file,
-                     fmt::format("{} samples; at least 4 are needed", series.size()));
-  const auto points = about(arguments.recording.file, [&] {
-    return overlapping_allan_deviation(series.gyro_dps, series.rate_hz());
-  });
-  for (const auto& point : points)
-    table.rows.push_back({point.tau_s, point.deviation, point.lower, point.upper, point.edf});
-  std::vector<Table> tables = {std::move(table)};
-  constexpr std::size_t fewest_for_coefficients = 128;
-  if (series.size() >= fewest_for_coefficients)
-    tables.push_back(allan_coefficients_table(
-        fit_allan_coefficients(series.gyro_dps, series.rate_hz()), arguments.recording.file));
+  const auto tables = allan_tables(series.gyro_dps, series.rate_hz(), arguments.recording.file);
   console.out << render(tables, format);
   return complete;
 }

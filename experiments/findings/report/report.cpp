@@ -9,6 +9,7 @@
 #include <gyrostat/experiments/findings/report/cell_section.hpp>
 #include <gyrostat/experiments/findings/report/design_sections.hpp>
 #include <gyrostat/experiments/findings/report/live_page.hpp>
+#include <gyrostat/experiments/findings/report/picture.hpp>
 #include <gyrostat/experiments/findings/report/run_times.hpp>
 #include <gyrostat/experiments/findings/sensitivity_words.hpp>
 #include <gyrostat/experiments/study/address.hpp>
@@ -129,13 +130,47 @@ std::string foot(const Store& store) {
                      escaped(builds));
 }
 
+/// What all cells of a report share.
+struct ReportSources {
+  const Study& study;
+  const Store& store;
+  const MethodColours& colours;
+  const std::map<std::string, std::map<std::string, double>>& times;
+  const ReportOptions& options;
+};
+
+/// Hands `show` all that a cell in full is made of.
+template <class Show>
+void in_full(const ReportSources& from, std::size_t c, const CellSummary& summary,
+             const CellRanking& ranking, const Show& show) {
+  const auto& cell = from.study.cells[c];
+  const auto prepared = prepare_cell(cell, from.study.seed, from.options.threads);
+  const auto replay = std::min(from.options.replay.value_or(trials_to_replay(cell)), cell.trials);
+  const auto replayed = replay > 0 ? replay_trials(prepared, from.study.seed, replay) : Replayed{};
+  const auto values = cell_values(cell, from.store, static_cast<std::uint32_t>(c));
+  const CellView view{from.study,
+                      cell,
+                      from.colours,
+                      summary,
+                      values,
+                      best_first(cell, summary),
+                      fmt::format("cell-{}", c)};
+  const auto measured = from.times.find(cell.name);
+  show(view, ranking, prepared, replayed,
+       measured == from.times.end() ? std::map<std::string, double>() : measured->second);
+}
+
+std::optional<tbb::global_control> limited(int threads) {
+  std::optional<tbb::global_control> limit;
+  if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
+  return limit;
+}
+
 }  // namespace
 
 std::string report_page(const Study& study, const Store& store, const std::filesystem::path& folder,
                         const ReportOptions& options) {
-  std::optional<tbb::global_control> limit;
-  if (options.threads > 0)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
+  const auto limit = limited(options.threads);
   const auto manifest = store.manifest();
   const MethodColours colours(study);
   const auto sweeps = sweeps_of(study);
@@ -158,26 +193,35 @@ std::string report_page(const Study& study, const Store& store, const std::files
   body += sensitivity_sections(designs, colours);
   for (const std::size_t c : chosen) {
     if (summaries[c].finished == 0) continue;
-    const auto prepared = prepare_cell(study.cells[c], study.seed, options.threads);
-    const auto replay =
-        std::min(options.replay.value_or(trials_to_replay(study.cells[c])), study.cells[c].trials);
-    const auto replayed = replay > 0 ? replay_trials(prepared, study.seed, replay) : Replayed{};
-    const auto values = cell_values(study.cells[c], store, static_cast<std::uint32_t>(c));
-    const CellView view{study,
-                        study.cells[c],
-                        colours,
-                        summaries[c],
-                        values,
-                        best_first(study.cells[c], summaries[c]),
-                        fmt::format("cell-{}", c)};
-    const auto measured = times.find(study.cells[c].name);
-    body +=
-        cell_section(view, rankings[c], prepared, replayed,
-                     measured == times.end() ? std::map<std::string, double>() : measured->second);
+    in_full({study, store, colours, times, options}, c, summaries[c], rankings[c],
+            [&](const auto&... cell) { body += cell_section(cell...); });
   }
   body += failures(store, manifest);
   return live_page(fmt::format("{}: gyrostat report", study.name()), head(study, manifest), body,
                    foot(store));
+}
+
+std::vector<CellPictures> report_pictures(const Study& study, const Store& store,
+                                          const std::filesystem::path& folder,
+                                          const ReportOptions& options) {
+  const auto limit = limited(options.threads);
+  const MethodColours colours(study);
+  const auto times = run_times(folder / "log.jsonl");
+  std::vector<CellPictures> of_cells;
+  for (const std::size_t c : chosen_cells(study, options.cells)) {
+    const auto trials = trials_of(study.cells[c], store, static_cast<std::uint32_t>(c));
+    const auto summary = summarise_cell(study.cells[c], trials);
+    if (summary.finished == 0) continue;
+    in_full({study, store, colours, times, options}, c, summary, rank_cell(study.cells[c], trials),
+            [&](const CellView& view, const CellRanking& ranking, const PreparedCell&,
+                const Replayed& replayed, const std::map<std::string, double>& nanoseconds) {
+              auto& cell = of_cells.emplace_back(CellPictures{view.cell.name, {}});
+              append_pictures({view, ranking, replayed, nanoseconds}, cell.pictures);
+              std::erase_if(cell.pictures,
+                            [](const Picture& picture) { return picture.marks.empty(); });
+            });
+  }
+  return of_cells;
 }
 
 }  // namespace gyrostat

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gyrostat/experiments/study/study.hpp>
+#include <gyrostat/results/pictures/picture.hpp>
 #include <gyrostat/results/store.hpp>
 
 namespace gyrostat {
@@ -21,5 +22,16 @@ struct ReportOptions {
 /// options. The folder holds the store and, for times per step, the run's log.
 std::string report_page(const Study& study, const Store& store, const std::filesystem::path& folder,
                         const ReportOptions& options);
+
+/// The pictures of a cell that the page shows in full.
+struct CellPictures {
+  std::string cell;
+  std::vector<Picture> pictures;
+};
+
+/// Those pictures without the page.
+std::vector<CellPictures> report_pictures(const Study& study, const Store& store,
+                                          const std::filesystem::path& folder,
+                                          const ReportOptions& options);
 
 }  // namespace gyrostat

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gyrostat/analysis/calibration.hpp>
+#include <gyrostat/core/table.hpp>
+
+namespace gyrostat {
+
+/// What a fit to a recording says: parameters with their 95 % intervals, then the coefficients of
+/// IEEE 952 of what the drift leaves.
+struct FitTables {
+  std::vector<Table> tables;
+  std::vector<Calibration> fits;  ///< one a method, in the order asked for
+  bool converged = true;          ///< all of them
+};
+
+/// Fits phi, delta1, delta2 and R by each of the methods, and a, b, c where there is temperature.
+/// `name` is what title and messages call the recording, `title` what its table does. Throws
+/// InputError where it cannot be fitted.
+FitTables fit_tables(const Series& series, std::span<const FitMethod> methods,
+                     const std::string& name, const std::string& title);
+
+}  // namespace gyrostat
