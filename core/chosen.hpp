@@ -2,6 +2,7 @@
 
 #include <any>
 #include <concepts>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <typeinfo>
@@ -16,7 +17,7 @@ struct ParametricType {
   std::string_view id, title;
   std::span<const FieldInfo> fields;
   const std::type_info* cpp_type = nullptr;
-  std::any (*make)() = nullptr;  ///< with its defaults
+  std::function<std::any()> make{};  ///< with its defaults
   double& (*parameter)(std::any& plugin, std::size_t field) = nullptr;
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include <gyrostat/core/fields.hpp>
@@ -21,8 +23,10 @@ struct FilterType {
   bool draws_noise = false;
   std::span<const FieldInfo> fields;
   /// Runs it from its start over every sample of a series; `parameters` are in the order of
-  /// `fields`.
-  void (*run)(std::span<const double> parameters, const Series& series, Track& track) = nullptr;
+  /// `fields`. Called from many threads at once.
+  std::function<void(std::span<const double> parameters, const Series& series, Track& track)> run{};
+  /// Tells its code from another under the same name; empty for code of the program itself.
+  std::string code{};
 
   static void describe_all(std::deque<FilterType>& to);
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <gyrostat/core/chosen.hpp>
@@ -19,6 +20,8 @@ struct EffectType : ParametricType {
   Stage stage;
   std::span<std::vector<double> Series::*const> needs;  ///< channels
   void (*apply)(const std::any& effect, Series& series, const Noise& noise) = nullptr;
+  /// Tells its code from another under the same name; empty for code of the program itself.
+  std::string code{};
 
   static void describe_all(std::deque<EffectType>& to);
 };
