@@ -22,15 +22,6 @@ struct Fnv {
   std::string text() const { return fmt::format("{:016x}", hash); }
 };
 
-std::string file_digest(const fs::path& path) {
-  Fnv fnv;
-  std::ifstream file(path, std::ios::binary);
-  std::string block(1 << 20, '\0');
-  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
-    fnv.add({block.data(), static_cast<std::size_t>(file.gcount())});
-  return fnv.text();
-}
-
 /// Puts the contents of the recording that `object` names in the place of its name.
 void resolve_recording(SortedJson& object, const fs::path& folder) {
   if (!object.is_object() || !object.contains("file") || !object["file"].is_string()) return;
@@ -52,6 +43,15 @@ std::vector<Json> without_grid(const Json& written, const std::string& path) {
 std::string digest(std::string_view bytes) {
   Fnv fnv;
   fnv.add(bytes);
+  return fnv.text();
+}
+
+std::string file_digest(const std::filesystem::path& path) {
+  Fnv fnv;
+  std::ifstream file(path, std::ios::binary);
+  std::string block(1 << 20, '\0');
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
+    fnv.add({block.data(), static_cast<std::size_t>(file.gcount())});
   return fnv.text();
 }
 
