@@ -5,6 +5,6 @@ void leaky_mean_step(struct0_T *state, double gyro_dps, double time_constant, do
                      double *innovation)
 {
   *innovation = gyro_dps - state->mean;
-  state->mean += *innovation / time_constant;
+  state->mean += 1.0 / time_constant * *innovation;
   *estimate = state->mean;
 }

@@ -2,6 +2,6 @@ function [state, estimate, innovation] = leaky_mean_step(state, gyro_dps, time_c
 % One sample. The state goes in and comes out: a persistent variable would be shared by all instances.
 % codegen -config:lib leaky_mean_step -args {struct('mean', 0), 0, 0}
 innovation = gyro_dps - state.mean;
-state.mean = state.mean + innovation / time_constant;
+state.mean = state.mean + (1 / time_constant) * innovation;
 estimate = state.mean;
 end
