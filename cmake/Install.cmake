@@ -26,6 +26,8 @@ foreach(room IN LISTS components)
   endforeach()
 endforeach()
 install(TARGETS gyrostat)
+# What plug-ins are written against, under the name that they include.
+install(FILES experiments/plugins/gyrostat_plugin.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 configure_package_config_file(cmake/gyrostatConfig.cmake.in gyrostatConfig.cmake INSTALL_DESTINATION ${package})
 write_basic_package_version_file(gyrostatConfigVersion.cmake COMPATIBILITY SameMinorVersion)

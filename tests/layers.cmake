@@ -13,15 +13,16 @@ set(results core)
 set(diagnosis core generators analysis)
 set(below_experiments core recordings generators analysis results diagnosis)
 set(experiments/study ${below_experiments})
+set(experiments/plugins ${experiments/study} experiments/study)
 set(experiments/run ${experiments/study} experiments/study)
 set(experiments/findings ${experiments/run} experiments/run)
 set(experiments/coverage ${experiments/findings} experiments/findings)
 set(experiments/blind ${below_experiments} experiments/study experiments/run)
 set(experiments/pages ${experiments/coverage} experiments/coverage)
-set(experiments/cli ${experiments/pages} experiments/pages experiments/blind)
+set(experiments/cli ${experiments/pages} experiments/pages experiments/blind experiments/plugins)
 set(python ${experiments/pages} experiments/pages)
 set(experiments/benchmarks ${experiments/cli})
-set(rooms ${below_experiments} experiments/study experiments/run experiments/findings experiments/coverage
+set(rooms ${below_experiments} experiments/study experiments/plugins experiments/run experiments/findings experiments/coverage
           experiments/blind experiments/pages experiments/cli python)
 set(tests ${rooms})
 

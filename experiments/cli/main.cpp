@@ -9,7 +9,9 @@
 #include <unistd.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/experiments/cli/plugin_options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/plugins/host.hpp>
 
 namespace {
 
@@ -75,6 +77,8 @@ int main(int argc, char** argv) {
   using namespace gyrostat;
   fill_standard_streams();
   keep_freed_memory();
+  if (argc == 5 && std::string_view(argv[1]) == host_verb)
+    return host_plugin(argv[2], argv[3], argv[4]);
   signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
   cli::StopSignal stop;
   cli::Console console{std::cout, std::cerr, isatty(STDERR_FILENO) != 0, stop};
@@ -85,6 +89,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.set_version_flag("--version", GYROSTAT_VERSION);
   cli::add_verbs(program, console, exit_code);
+  cli::add_plugin_options(program);
 
   try {
     check_verb(program, argc, argv);

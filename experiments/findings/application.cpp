@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -126,8 +128,14 @@ void apply_methods(const std::vector<Method>& methods, const Series& series, std
           fmt::format("{} left out: the recording has no {}", method.id, fmt::join(missing, ", ")));
       continue;
     }
-    application.methods.push_back(method);
-    run_filter(filter, parameters, method.overrides, series, application.tracks.emplace_back());
+    try {
+      Track track;
+      run_filter(filter, parameters, method.overrides, series, track);
+      application.tracks.push_back(std::move(track));
+      application.methods.push_back(method);
+    } catch (const std::runtime_error& failure) {  // of a filter that is not ours
+      left_out.push_back(fmt::format("{} left out: {}", method.id, failure.what()));
+    }
   }
   if (application.methods.empty())
     throw InputError("no method can run", fmt::format("{}", fmt::join(left_out, "; ")));

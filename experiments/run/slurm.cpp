@@ -1,5 +1,8 @@
 #include <gyrostat/experiments/run/slurm.hpp>
 
+#include <algorithm>
+#include <cctype>
+
 #include <fmt/format.h>
 
 namespace gyrostat {
@@ -12,9 +15,18 @@ std::string word(const std::string& text) {
   return quoted + "'";
 }
 
+/// Whether it is one word as it stands.
+bool is_plain(const std::string& text) {
+  const auto is_safe = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-'; };
+  return std::all_of(text.begin(), text.end(), is_safe);
+}
+
 }  // namespace
 
 std::string sbatch_file(const SlurmJob& job) {
+  std::string options;
+  for (const auto& option : job.options)
+    options += ' ' + (is_plain(option) ? option : word(option));
   return fmt::format(R"(#!/bin/sh
 #SBATCH --job-name={name}
 #SBATCH --array=1-{shards}
@@ -45,8 +57,7 @@ exit "$code"
                      fmt::arg("threads", job.threads),
                      fmt::arg("time", job.time.empty() ? "" : "#SBATCH --time=" + job.time + "\n"),
                      fmt::arg("program", word(job.program)), fmt::arg("study", word(job.study)),
-                     fmt::arg("folder", word(job.folder)),
-                     fmt::arg("options", job.options.empty() ? "" : " " + job.options));
+                     fmt::arg("folder", word(job.folder)), fmt::arg("options", options));
 }
 
 }  // namespace gyrostat

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace gyrostat {
 
@@ -12,8 +13,8 @@ struct SlurmJob {
   std::string folder;  ///< absolute path: the shards' folders go below it
   int shards = 8;
   int threads = 1;
-  std::string time;     ///< limit of a task, as Slurm writes it; empty: the partition's
-  std::string options;  ///< further arguments of `gyrostat run`
+  std::string time;  ///< limit of a task, as Slurm writes it; empty: the partition's
+  std::vector<std::string> options;  ///< further arguments of `gyrostat run`
 };
 
 /// An sbatch file: one task a shard, sent again where a node fails or the time is up. Each task has

@@ -104,7 +104,7 @@ void StudyRun::read_states() {
 }
 
 std::vector<RanCell> StudyRun::run() {
-  const auto build = this_build();
+  const auto build = build_for(study_);
   log_.write("start", {{"study", study_.name()},
                        {"digest", study_.digest},
                        {"build", build.version},

@@ -1,6 +1,7 @@
 #include <gyrostat/experiments/run/study_store.hpp>
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,9 +49,9 @@ void require_build(const std::string& place, const std::vector<Session>& session
                                           described(session.build), described(build), ways_out));
 }
 
-/// Throws InputError where outcomes of `study` by this build may not be added to `store`.
-void require_match(const Store& store, const Manifest& wanted, const std::string& place,
-                   Mismatch mismatch) {
+/// Throws InputError where outcomes of `study` by `build` may not be added to `store`.
+void require_match(const Store& store, const Manifest& wanted, const Build& build,
+                   const std::string& place, Mismatch mismatch) {
   const auto there = store.manifest();
   if (mismatch == Mismatch::refuse) {
     if (there.digest != wanted.digest)
@@ -64,10 +65,23 @@ void require_match(const Store& store, const Manifest& wanted, const std::string
                          fmt::format("holds outcomes of another study among its own, mixed or "
                                      "merged in (digest {}, not {}); {}",
                                      session.digest, wanted.digest, ways_out));
-    require_build(place, store.sessions(), this_build());
+    require_build(place, store.sessions(), build);
   }
   require_same_columns(place, there, wanted);
   require_same_cells(place, there.cells, wanted.cells);
+}
+
+/// Throws InputError where the store was filled with plug-ins that are not there now.
+void require_plugins(const Store& store, const std::string& place) {
+  std::set<std::string> lacking;
+  for (const auto& session : store.sessions())
+    for (const auto& name : plugins_of(session.build))
+      if (!filter_types().find(name) && !effect_types().find(name)) lacking.insert(name);
+  if (!lacking.empty())
+    throw InputError(place,
+                     fmt::format("it was run with plug-ins that are not there: {}; name them "
+                                 "by --plugin or --filter-command",
+                                 fmt::join(lacking, ", ")));
 }
 
 }  // namespace
@@ -95,10 +109,11 @@ Store open_study_store(const fs::path& folder, const Study& study, Mismatch mism
   const auto manifest = manifest_of(study);
   if (mismatch == Mismatch::set_aside) Store::set_aside(folder);
   Store store = Store::open_or_create(folder, manifest);
-  require_match(store, manifest, place, mismatch);
+  const auto build = build_for(study);
+  require_match(store, manifest, build, place, mismatch);
   if (store.manifest().digest == manifest.digest) store.set_source(manifest.source);
   store.set_cells(manifest.cells);
-  store.begin_session({study.digest, this_build(), this_machine(), ::getpid(), utc_now(), "", 0});
+  store.begin_session({study.digest, build, this_machine(), ::getpid(), utc_now(), "", 0});
   return store;
 }
 
@@ -126,6 +141,7 @@ void require_same(const fs::path& into, const fs::path& from, Mismatch mismatch)
 Study stored_study(const Store& store) {
   const auto manifest = store.manifest();
   const auto path = (fs::path(manifest.folder) / (manifest.name + ".json")).string();
+  require_plugins(store, path);
   auto study = parse_study(Json::parse(manifest.source), path);
   for (std::size_t c = 0; c < std::min(study.cells.size(), manifest.cells.size()); ++c)
     study.cells[c].trials = manifest.cells[c].trials;

@@ -2,14 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <gyrostat/core/filter_type.hpp>
 #include <gyrostat/experiments/study/design.hpp>
-#include <gyrostat/generators/effect.hpp>
 
 namespace gyrostat {
 namespace {
@@ -24,15 +21,6 @@ struct Fnv {
   }
   std::string text() const { return fmt::format("{:016x}", hash); }
 };
-
-std::string file_digest(const fs::path& path) {
-  Fnv fnv;
-  std::ifstream file(path, std::ios::binary);
-  std::string block(1 << 20, '\0');
-  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
-    fnv.add({block.data(), static_cast<std::size_t>(file.gcount())});
-  return fnv.text();
-}
 
 /// Puts the contents of the recording that `object` names in the place of its name.
 void resolve_recording(SortedJson& object, const fs::path& folder) {
@@ -50,32 +38,20 @@ std::vector<Json> without_grid(const Json& written, const std::string& path) {
   return cells;
 }
 
-void note_texts(const SortedJson& json, std::set<std::string>& texts) {
-  if (json.is_string()) texts.insert(json.get<std::string>());
-  if (json.is_structured())
-    for (const auto& part : json) note_texts(part, texts);
-}
-
-/// What tells the code of the plug-ins that cells name, of those whose code is not the program's.
-SortedJson foreign_codes(const SortedJson& cells) {
-  std::set<std::string> named;
-  note_texts(cells, named);
-  SortedJson codes;
-  const auto add = [&](const auto& types) {
-    for (const auto& type : types)
-      if (!type.code.empty() && named.contains(std::string(type.id)))
-        codes[std::string(type.kind)][std::string(type.id)] = type.code;
-  };
-  add(filter_types());
-  add(effect_types());
-  return codes;
-}
-
 }  // namespace
 
 std::string digest(std::string_view bytes) {
   Fnv fnv;
   fnv.add(bytes);
+  return fnv.text();
+}
+
+std::string file_digest(const std::filesystem::path& path) {
+  Fnv fnv;
+  std::ifstream file(path, std::ios::binary);
+  std::string block(1 << 20, '\0');
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
+    fnv.add({block.data(), static_cast<std::size_t>(file.gcount())});
   return fnv.text();
 }
 
@@ -92,8 +68,6 @@ std::string study_digest(const Json& study, const std::string& path) {
         resolve_recording(cell["scenario"]["from_recording"], folder);
       canonical["cells"].push_back(std::move(cell));
     }
-  auto codes = foreign_codes(canonical["cells"]);
-  if (!codes.empty()) canonical["codes"] = std::move(codes);
   return digest(canonical.dump());
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,9 @@ namespace gyrostat {
 
 /// 64 bits of FNV-1a as 16 hexadecimal digits: tells one text from another, not from a forgery.
 std::string digest(std::string_view bytes);
+
+/// The same of what a file holds.
+std::string file_digest(const std::filesystem::path& path);
 
 /// Digest of all in a study's JSON that decides an outcome: its seed, and its cells with their
 /// grids expanded, whatever the order of keys, and the contents of the recordings they name; of

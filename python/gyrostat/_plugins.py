@@ -49,7 +49,7 @@ def _code(function: Callable[..., Any]) -> str:
         text = inspect.getsource(function)
     except (OSError, TypeError):
         text = repr((function.__code__.co_code, function.__code__.co_consts, function.__code__.co_names))
-    return "python " + hashlib.sha256(text.encode()).hexdigest()[:16]
+    return "python:" + hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def _title(function: Callable[..., Any], title: str) -> str:

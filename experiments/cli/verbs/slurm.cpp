@@ -7,6 +7,7 @@
 
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/plugins/plugins.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
 #include <gyrostat/recordings/text.hpp>
@@ -38,10 +39,15 @@ int run(SlurmArguments arguments, Console& console) {
                    .lexically_normal()
                    .string();
   job.program = fs::read_symlink("/proc/self/exe").string();
-  for (const auto& path : {job.study, job.folder, job.program})
+  if (arguments.trials > 0) job.options = {"--trials", std::to_string(arguments.trials)};
+  for (const auto& plugin : added_plugins())
+    job.options.insert(job.options.end(),
+                       {plugin.is_library ? "--plugin" : "--filter-command", plugin.from});
+  auto texts = job.options;
+  texts.insert(texts.end(), {job.study, job.folder, job.program});
+  for (const auto& path : texts)
     if (std::ranges::any_of(path, [](unsigned char c) { return c < ' ' || c == 127; }))
       throw InputError(printable(path), "has a line break or the like, which a script cannot hold");
-  if (arguments.trials > 0) job.options = fmt::format("--trials {}", arguments.trials);
   if (job.name.find_first_not_of(
           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-") != std::string::npos)
     throw InputError(job.study,
