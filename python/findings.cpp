@@ -25,8 +25,9 @@ using Rate = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 std::pair<std::vector<Table>, Drawn> allan_of(std::span<const double> rate_dps, double rate_hz,
                                               const std::string& name) {
-  auto tables = allan_tables(rate_dps, rate_hz, name);
-  const auto picture = allan_picture(tables.front());
+  const auto findings = allan_findings(rate_dps, rate_hz, name);
+  auto tables = allan_tables(findings, name);
+  const auto picture = allan_picture(findings, name + ": Allan deviation");
   return {std::move(tables), drawn({&picture, 1})};
 }
 

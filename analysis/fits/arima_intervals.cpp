@@ -99,8 +99,13 @@ Misfit misfit_about(std::span<const double> z, Parameter held, double value, con
   return misfit;
 }
 
+struct Lowest {
+  double misfit = std::numeric_limits<double>::infinity();
+  Free at{};
+};
+
 /// The least misfit that Fisher scoring reaches from `u`, damped as by Marquardt.
-double descend(std::span<const double> z, Parameter held, double value, Free u) {
+Lowest descend(std::span<const double> z, Parameter held, double value, Free u) {
   constexpr int most_steps = 60;
   constexpr double enough = 1e-4;  ///< of half a deviance
   Misfit at = misfit_about(z, held, value, u);
@@ -123,11 +128,11 @@ double descend(std::span<const double> z, Parameter held, double value, Free u) 
     damping *= 0.2;
     if (is_done) break;
   }
-  return at.value;
+  return {at.value, u};
 }
 
 /// The least misfit with the parameter held there, from the most promising starting points.
-double least_misfit(std::span<const double> z, Parameter held, double value,
+Lowest least_misfit(std::span<const double> z, Parameter held, double value,
                     std::span<const Arima111<double>> starts) {
   constexpr std::size_t descents = 3;
   std::vector<std::pair<double, Free>> from;
@@ -137,8 +142,9 @@ double least_misfit(std::span<const double> z, Parameter held, double value,
   }
   std::sort(from.begin(), from.end());
   from.resize(std::min(from.size(), descents));
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& [misfit, u] : from) least = std::min(least, descend(z, held, value, u));
+  Lowest least;
+  for (const auto& [misfit, u] : from)
+    if (const auto found = descend(z, held, value, u); found.misfit < least.misfit) least = found;
   return least;
 }
 
@@ -179,25 +185,55 @@ ArimaIntervals::ArimaIntervals(const ArimaFit& fit, std::span<const double> rate
   starts_.push_back(whole);
   least_ = misfit_of(z_, whole);
   needed_ = 2.0 * (misfit_of(z_, reported_) - least_);
+  find_other_modes();
 }
 
 double ArimaIntervals::deviance(Parameter parameter, double value) const {
-  return std::max(0.0, 2.0 * (least_misfit(z_, parameter, value, starts_) - least_));
+  return std::max(0.0, 2.0 * (least_misfit(z_, parameter, value, starts_).misfit - least_));
+}
+
+void ArimaIntervals::find_other_modes() {
+  constexpr std::array grid = {-0.99, -0.9, -0.6, -0.2, 0.2, 0.6, 0.85, 0.95, 0.99};
+  constexpr double ridge = 0.5;  // of deviance, more than a descent leaves
+  const double most = chi_squared_quantile(0.95, 4.0);
+  const auto above = std::lower_bound(grid.begin(), grid.end(), reported_.phi);
+  const auto look = [&](auto from, auto to) {
+    double highest = needed_;  // since the last mode
+    bool falls = false;
+    for (; from != to; ++from) {
+      const auto found = least_misfit(z_, phi, *from, starts_);
+      const double height = std::max(0.0, 2.0 * (found.misfit - least_));
+      if (height > highest) falls = false;
+      if (height < std::min(highest - ridge, most)) {
+        if (falls) other_modes_.pop_back();
+        other_modes_.push_back({model(phi, *from, found.at.data()), height});
+        falls = true;
+        highest = height;
+      }
+      highest = std::max(highest, height);
+    }
+  };
+  look(above, grid.end());
+  look(std::make_reverse_iterator(above), grid.rend());
+  for (const auto& mode : other_modes_) needed_ = std::max(needed_, mode.deviance);
 }
 
 double ArimaIntervals::end(Parameter parameter, double limit, double reach) const {
-  const double estimate = value_of(parameter, reported_);
+  double estimate = value_of(parameter, reported_);
   const double side = limit > estimate ? 1.0 : -1.0;
+  for (const auto& mode : other_modes_)
+    estimate = side * std::max(side * estimate, side * value_of(parameter, mode.parameters));
   const auto excess = [&](double v) {
     return v == estimate ? -reach : std::sqrt(deviance(parameter, v)) - reach;
   };
 
-  // A parabola would have it here.
+  // A parabola would have it here, where the fit is its bottom.
   const double error = value_of(parameter, errors_);
   const double typical = parameter == phi ? 0.2 : 0.5 * starts_.back().delta1_dps;
-  double step = std::isfinite(error) && error > 0.0 ? reach * error : typical;
+  const bool has_error = std::isfinite(error) && error > 0.0;
+  double step = has_error ? reach * error : typical;
   const auto within = [&](double v) { return side * (limit - v) > 0.0; };
-  if (within(estimate + side * step))
+  if (has_error && needed_ < wald_is_good && within(estimate + side * step))
     if (const double miss = excess(estimate + side * step); std::abs(miss) < wald_is_good)
       return estimate + side * step * reach / (reach + miss);
 

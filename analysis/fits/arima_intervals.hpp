@@ -9,10 +9,19 @@
 
 namespace gyrostat {
 
+/// Values that are nearly as likely as those of a fit, and far from them: the likelihood falls
+/// between.
+struct ArimaMode {
+  Arima111<double> parameters;
+  double deviance = 0.0;  ///< twice by what the log-likelihood falls short of its maximum
+};
+
 /// Confidence intervals of the parameters of ARIMA(1,1,1) + white noise by profile likelihood: the
 /// values that a likelihood-ratio test does not reject, all other parameters free (Venzon and
 /// Moolgavkar, Applied Statistics 37, 1988). Where a signal hardly tells phi from delta2 or delta1
 /// from R the likelihood is no parabola, and these hold where multiples of a standard error do not.
+/// Where it has several maxima, they span all of those that a test of all four parameters together
+/// does not reject (5 %).
 ///
 /// Example: the 95 % interval of phi.
 ///
@@ -38,12 +47,16 @@ class ArimaIntervals {
   /// be. Wide enough to hold the fit, which may be of a simpler model.
   std::array<double, 2> interval(Parameter parameter, double confidence = 0.95) const;
 
+  /// The other maxima along phi, to the grid on which they are looked for.
+  std::span<const ArimaMode> other_modes() const { return other_modes_; }
+
   /// Whether the interval holds `value`.
   bool holds(Parameter parameter, double value, double confidence = 0.95) const {
     return std::sqrt(deviance(parameter, value)) <= reach(confidence);
   }
 
  private:
+  void find_other_modes();
   /// The root of the deviance at the interval's ends.
   double reach(double confidence) const;
   /// The end of the interval on the side of `limit`, which may be infinite.
@@ -53,7 +66,8 @@ class ArimaIntervals {
   Arima111<double> reported_, errors_;
   std::vector<Arima111<double>> starts_;  ///< the last is the fit of all four parameters
   double least_ = 0.0;                    ///< half of -2 log-likelihood there, up to a constant
-  double needed_ = 0.0;                   ///< deviance of the fit
+  double needed_ = 0.0;                   ///< the highest deviance of the fit and the other modes
+  std::vector<ArimaMode> other_modes_;
 };
 
 }  // namespace gyrostat

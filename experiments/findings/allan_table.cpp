@@ -57,49 +57,64 @@ Table allan_coefficients_table(const AllanCoefficients& c, const std::string& ti
   return table;
 }
 
-std::vector<Table> allan_tables(std::span<const double> rate_dps, double rate_hz,
-                                const std::string& name) {
+AllanFindings allan_findings(std::span<const double> rate_dps, double rate_hz,
+                             const std::string& name) {
   constexpr std::size_t fewest = 4, fewest_for_coefficients = 128;
   if (rate_dps.size() < fewest)
     throw InputError(name,
                      fmt::format("{} samples; at least {} are needed", rate_dps.size(), fewest));
+  AllanFindings findings;
+  try {
+    findings.points = overlapping_allan_deviation(rate_dps, rate_hz);
+  } catch (const InputError& mistake) {
+    throw InputError(name, mistake.what());
+  }
+  if (rate_dps.size() >= fewest_for_coefficients)
+    findings.coefficients = fit_allan_coefficients(rate_dps, rate_hz);
+  return findings;
+}
+
+std::vector<Table> allan_tables(const AllanFindings& findings, const std::string& name) {
   Table table{.title = name + ": overlapping Allan deviation",
               .columns = {{"tau", "s"},
                           {"deviation", "dps"},
                           {"lower 95 %", "dps"},
                           {"upper 95 %", "dps"},
                           {"degrees of freedom", "1"}}};
-  try {
-    for (const auto& point : overlapping_allan_deviation(rate_dps, rate_hz))
-      table.rows.push_back({point.tau_s, point.deviation, point.lower, point.upper, point.edf});
-  } catch (const InputError& mistake) {
-    throw InputError(name, mistake.what());
-  }
+  for (const auto& point : findings.points)
+    table.rows.push_back({point.tau_s, point.deviation, point.lower, point.upper, point.edf});
   std::vector<Table> tables = {std::move(table)};
-  if (rate_dps.size() >= fewest_for_coefficients)
-    tables.push_back(allan_coefficients_table(fit_allan_coefficients(rate_dps, rate_hz), name));
+  if (findings.coefficients)
+    tables.push_back(allan_coefficients_table(*findings.coefficients, name));
   return tables;
 }
 
-Picture allan_picture(const Table& deviations) {
-  Mark line;
-  line.name = "deviation";
-  line.colour = "m0";
-  const auto number = [](const std::vector<TableCell>& row, std::size_t column) {
-    return std::get<double>(row[column]);
-  };
-  for (const auto& row : deviations.rows) {
-    line.x.push_back(number(row, 0));
-    line.y.push_back(number(row, 1));
-    line.y_low.push_back(number(row, 2));
-    line.y_high.push_back(number(row, 3));
+Picture allan_picture(const AllanFindings& findings, const std::string& title) {
+  Picture picture{.id = "allan",
+                  .title = title,
+                  .note = "Overlapping, with the 95 % interval of each point.",
+                  .x = {"averaging time τ", "s", true},
+                  .y = {"Allan deviation", "dps", true}};
+  Mark measured;
+  measured.name = "recording";
+  measured.colour = "ink";
+  for (const auto& point : findings.points) {
+    measured.x.push_back(point.tau_s);
+    measured.y.push_back(point.deviation);
+    measured.y_low.push_back(point.lower);
+    measured.y_high.push_back(point.upper);
   }
-  return {.id = "allan",
-          .title = deviations.title,
-          .note = "Band: 95 % interval.",
-          .x = {.label = "τ", .unit = "s", .logarithmic = true},
-          .y = {.label = "Allan deviation", .unit = "dps", .logarithmic = true},
-          .marks = {std::move(line)}};
+  picture.marks.push_back(measured);
+  if (!findings.coefficients) return picture;
+  Mark fitted;
+  fitted.name = "Q, N, B, K and R";
+  fitted.colour = "m0";
+  fitted.dashed = true;
+  fitted.x = measured.x;
+  for (const double tau_s : fitted.x) fitted.y.push_back(allan_deviation(*findings.coefficients, tau_s));
+  picture.marks.push_back(std::move(fitted));
+  picture.note += " Dashed: what the five coefficients of the table amount to.";
+  return picture;
 }
 
 }  // namespace gyrostat

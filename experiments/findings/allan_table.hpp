@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <gyrostat/analysis/spectra/allan.hpp>
 #include <gyrostat/analysis/spectra/allan_coefficients.hpp>
 #include <gyrostat/core/table.hpp>
 #include <gyrostat/results/pictures/picture.hpp>
@@ -14,12 +16,20 @@ namespace gyrostat {
 /// each. A coefficient that the recording does not show is blank and has an upper limit alone.
 Table allan_coefficients_table(const AllanCoefficients& coefficients, const std::string& title);
 
-/// The overlapping Allan deviation of a rate in dps with its 95 % intervals, a row a tau, and from
-/// 128 samples on its coefficients. Throws InputError at `name` for fewer than four samples.
-std::vector<Table> allan_tables(std::span<const double> rate_dps, double rate_hz,
-                                const std::string& name);
+/// A recording's overlapping Allan deviation, and what it amounts to.
+struct AllanFindings {
+  std::vector<AllanPoint> points;
+  std::optional<AllanCoefficients> coefficients;  ///< from 128 samples on
+};
 
-/// The first of these tables, as engineers plot it.
-Picture allan_picture(const Table& deviations);
+/// Of a rate in dps. Throws InputError at `name` for fewer than four samples.
+AllanFindings allan_findings(std::span<const double> rate_dps, double rate_hz,
+                             const std::string& name);
+
+/// The points with their 95 % intervals, a row a tau, and the coefficients.
+std::vector<Table> allan_tables(const AllanFindings& findings, const std::string& name);
+
+/// Points, band and what the coefficients amount to, as engineers plot it: dps over s.
+Picture allan_picture(const AllanFindings& findings, const std::string& title);
 
 }  // namespace gyrostat

@@ -170,6 +170,16 @@ CellRanking rank_cell(const Cell& cell, const TrialSource& trials, const std::st
   for (std::size_t better = 0; better < order.size(); ++better)
     for (std::size_t worse = better + 1; worse < order.size(); ++worse)
       ranking.pairs.push_back({better, worse, s.pairs->difference(order[worse], order[better])});
+  std::vector<std::size_t> contenders;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (cell.methods[order[i]].role().is_contender()) contenders.push_back(i);
+  if (s.trials > 1 && !contenders.empty() && !std::isnan(ranking.methods[contenders[0]].mean)) {
+    ranking.winner = ranking.methods[contenders[0]].method;
+    for (const auto& pair : ranking.pairs)
+      ranking.winner_is_shared |=
+          pair.better == contenders[0] && !pair.difference.separable &&
+          std::find(contenders.begin(), contenders.end(), pair.worse) != contenders.end();
+  }
   if (s.trials > 0) ranking.share_worse = 1.0 - std::pow(0.05, 1.0 / static_cast<double>(s.trials));
   ranking.critical_difference = s.ranks.critical_difference();
   ranking.friedman_p = s.ranks.friedman_p();

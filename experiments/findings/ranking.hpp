@@ -40,6 +40,8 @@ struct CellRanking {
   std::vector<std::string> sentences;  ///< plain ones, the most important first
   std::vector<RankedPair> pairs;
   double friedman_p = no_value;  ///< of mean ranks so different where all methods are alike
+  std::string winner{};           ///< best mean of those that are no bound and no floor
+  bool winner_is_shared = false;  ///< not separable from another of those
   double share_worse =
       no_value;  ///< with 95 % confidence, fewer trials than this are worse than `worst`
 };

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -164,6 +167,37 @@ class Speaker {
 
 std::vector<std::string> ranking_sentences(const Cell& cell, const CellRanking& ranking) {
   return Speaker(cell, ranking).all();
+}
+
+std::string answer_in_words(std::span<const CellRanking> rankings) {
+  std::map<std::string, std::size_t> won;
+  std::set<std::string> metrics;
+  std::size_t cells = 0, shared = 0;
+  const CellRanking* last = nullptr;
+  for (const auto& ranking : rankings) {
+    if (ranking.winner.empty()) continue;
+    ++won[ranking.winner];
+    metrics.insert(ranking.metric);
+    ++cells;
+    shared += ranking.winner_is_shared;
+    last = &ranking;
+  }
+  if (cells == 0) return "";
+  if (cells == 1) {
+    auto text = last->sentences.front() + ".";
+    if (last->sentences.size() > 1) text += " " + last->sentences[1] + ".";
+    return text;
+  }
+  std::vector<std::pair<std::string, std::size_t>> order(won.begin(), won.end());
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  auto text = fmt::format("By {}, {} is best in {} of {} cells", fmt::join(metrics, " and "),
+                          order.front().first, order.front().second, cells);
+  for (std::size_t i = 1; i < order.size(); ++i)
+    text += fmt::format(", {} in {}", order[i].first, order[i].second);
+  return text + (shared == 0 ? ". In each of them it is separable from every other filter."
+                             : fmt::format(". In {} {} not separable from another filter.", shared,
+                                           shared == 1 ? "it is" : "the best is"));
 }
 
 }  // namespace gyrostat

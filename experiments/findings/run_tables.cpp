@@ -4,7 +4,9 @@
 
 #include <gyrostat/experiments/findings/error_tables.hpp>
 #include <gyrostat/experiments/findings/ranking.hpp>
+#include <gyrostat/experiments/findings/ranking_words.hpp>
 #include <gyrostat/experiments/findings/sensitivity.hpp>
+#include <gyrostat/experiments/findings/sensitivity_words.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
 #include <gyrostat/results/render/render.hpp>
@@ -12,7 +14,8 @@
 namespace gyrostat {
 namespace {
 
-void add_cell(const Cell& cell, const Store& store, const RanCell& ran, RunTables& all) {
+void add_cell(const Cell& cell, const Store& store, const RanCell& ran, RunTables& all,
+              std::vector<CellRanking>& rankings) {
   const TrialSource trials = [&](const auto& visit) {
     store.for_each_trial(ran.index, cell.trials, [&](const Store::TrialView& trial) {
       visit(trial.calibrated, trial.outcomes);
@@ -28,7 +31,10 @@ void add_cell(const Cell& cell, const Store& store, const RanCell& ran, RunTable
     errors.front().notes.push_back(
         fmt::format("stopped by its rule after {} trials: {}", cell.trials, *ran.stopped_by));
   for (auto& table : errors) all.tables.push_back(std::move(table));
-  if (cell.methods.size() > 1) all.tables.push_back(ranking_table(rank_cell(cell, trials)));
+  if (cell.methods.size() > 1) {
+    rankings.push_back(rank_cell(cell, trials));
+    all.tables.push_back(ranking_table(rankings.back()));
+  }
   if (!ran.nanoseconds_per_step.empty())
     all.timings.push_back(timing_table(cell, ran.nanoseconds_per_step));
 }
@@ -37,6 +43,9 @@ void add_designs(Study study, const Store& store, RunTables& all) {
   std::erase_if(study.designs, [](const Design& design) { return !design.is_sampled(); });
   if (study.designs.empty()) return;
   const auto found = sensitivities(study, store);
+  for (const auto& sensitivity : found)
+    if (const auto sentence = sensitivity_sentence(sensitivity); !sentence.empty())
+      all.answer += (all.answer.empty() ? "" : " ") + sentence + ".";
   for (auto& table : sensitivity_tables(found, study)) all.tables.push_back(std::move(table));
   all.points = point_tables(found, study);
 }
@@ -52,7 +61,9 @@ std::vector<Table> RunTables::with_points(std::size_t most) const {
 
 RunTables run_tables(const Study& study, const Store& store, const std::vector<RanCell>& ran) {
   RunTables all;
-  for (const auto& cell : ran) add_cell(study.cells[cell.index], store, cell, all);
+  std::vector<CellRanking> rankings;
+  for (const auto& cell : ran) add_cell(study.cells[cell.index], store, cell, all, rankings);
+  all.answer = answer_in_words(rankings);
   add_designs(study, store, all);
   return all;
 }

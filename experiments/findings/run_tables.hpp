@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <gyrostat/core/table.hpp>
@@ -13,6 +14,7 @@ struct RunTables {
   std::vector<Table> tables;   ///< of the cells, in their order, and of sampled designs
   std::vector<Table> points;   ///< every point of the designs
   std::vector<Table> timings;  ///< of this run alone
+  std::string answer;          ///< in a few sentences; empty where there is none
 
   /// The tables, with those of points that have no more than `most` rows.
   std::vector<Table> with_points(std::size_t most) const;

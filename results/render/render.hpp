@@ -30,6 +30,9 @@ std::string render(std::span<const Table> tables, Format format);
 /// number comes back as the text "inf".
 std::vector<Table> parse_tables(const std::string& json, const std::string& place);
 
+/// Running text in lines as wide as a screen, each with its end.
+std::string wrapped(const std::string& text);
+
 namespace render_detail {
 std::string text(const Table& table);
 std::string markdown(const Table& table);

@@ -148,3 +148,13 @@ std::string text(const Table& table) {
 }
 
 }  // namespace gyrostat::render_detail
+
+namespace gyrostat {
+
+std::string wrapped(const std::string& text) {
+  std::string out;
+  for (const auto& line : render_detail::broken(text, render_detail::screen)) out += line + '\n';
+  return out;
+}
+
+}  // namespace gyrostat

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
@@ -80,6 +81,33 @@ TEST(ArimaIntervals, ReachTheEndsOfWhatASignalDoesNotTell) {
   EXPECT_LE(noise[0], fit.parameters.measurement_noise_std_dps);
   EXPECT_GE(noise[1], fit.parameters.measurement_noise_std_dps);
   EXPECT_THROW(ArimaIntervals(fit, std::vector<double>(20, 1.0)), InputError);
+}
+
+// A walk of long memory far below white noise: the fit is a plain walk, or lies on another maximum.
+// No chance is in it: what the test of one value does not reject, the interval must hold.
+TEST(ArimaIntervals, HoldEveryMaximumOfTheLikelihood) {
+  constexpr double truth = 0.95;
+  int fits_elsewhere = 0;
+  for (std::uint32_t trial = 0; trial < 8; ++trial) {
+    const auto z = simulated({truth, 1e-4, 5e-5, 0.02}, 6000, Noise{77, trial});
+    const auto fit = fit_arima_likelihood(z);
+    const ArimaIntervals intervals(fit, z);
+    const auto [from, to] = intervals.interval(ArimaIntervals::phi);
+    if (intervals.holds(ArimaIntervals::phi, truth)) {
+      EXPECT_LE(from, truth) << trial;
+      EXPECT_GE(to, truth) << trial;
+    }
+    if (!(std::abs(fit.parameters.phi - truth) > 10.0 * fit.standard_errors.phi)) continue;
+    ++fits_elsewhere;
+    EXPECT_FALSE(intervals.other_modes().empty()) << trial;
+    EXPECT_GE(to, truth) << trial;
+  }
+  EXPECT_GT(fits_elsewhere, 0);  // trial 6: phi = -0.04 ± 0.013
+}
+
+TEST(ArimaIntervals, KnowOfNoOtherMaximumWhereThereIsNone) {
+  const auto z = simulated({0.9, 0.02, 0.004, 0.02}, 5000, 0);
+  EXPECT_TRUE(ArimaIntervals(fit_arima_likelihood(z), z).other_modes().empty());
 }
 
 }  // namespace

@@ -169,7 +169,7 @@ class Filters(InAFolder):
         with self.assertRaisesRegex(gyrostat.Error, "heading_deg"):
             gyrostat.filter(nothing, name="needy", needs=["rate_ref_dps"])
 
-    def test_other_code_under_the_same_name_is_another_study(self):
+    def test_outcomes_of_other_code_under_the_same_name_are_refused(self):
         def changing(t_s, *channels):
             return np.zeros_like(t_s)
 
@@ -181,7 +181,7 @@ class Filters(InAFolder):
             return np.ones_like(t_s)
 
         gyrostat.filter(changed, name="changing")
-        with self.assertRaisesRegex(gyrostat.Error, "another study"):
+        with self.assertRaisesRegex(gyrostat.Error, "outcomes of build .* with changing"):
             run(small("changing", trials=3), "run")
         gyrostat.filter(first, name="changing")
         self.assertEqual(len(run(small("changing", trials=3), "run").outcomes()["trial"]), 3)

@@ -1,6 +1,7 @@
 #include <array>
 
 #include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/picture_option.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/findings/allan_table.hpp>
 
@@ -9,20 +10,26 @@ namespace {
 
 constexpr const char* allan_examples = R"(Examples:
   gyrostat allan REC.csv
+  gyrostat allan REC.csv --html ALLAN.html --svg ALLAN.svg
   gyrostat allan REC.mat --axis z --format csv
   gyrostat allan LOG.csv.gz --columns t=Time[ms],gyro=GyrZ --units gyro=rad/s)";
 
 struct AllanArguments {
   RecordingOption recording;
   FormatOption format;
+  PictureOption picture;
 };
 
 int run(const AllanArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   constexpr std::array<std::string_view, 1> wanted = {"gyro_dps"};
+  arguments.picture.check(arguments.recording.file);
   const Series series =
       arguments.recording.read(console.log, {}, wanted, RecordingOption::Bursts::taken);
-  const auto tables = allan_tables(series.gyro_dps, series.rate_hz(), arguments.recording.file);
+  const auto& name = arguments.recording.file;
+  const auto findings = allan_findings(series.gyro_dps, series.rate_hz(), name);
+  const auto tables = allan_tables(findings, name);
+  arguments.picture.write(name, allan_picture(findings, name + ": Allan deviation"), tables);
   console.out << render(tables, format);
   return complete;
 }
@@ -35,6 +42,7 @@ void add_allan(CLI::App& program, Console& console, int& exit_code) {
   auto arguments = std::make_shared<AllanArguments>();
   arguments->recording.add_to(verb);
   arguments->format.add_to(verb);
+  arguments->picture.add_to(verb);
   verb->footer(allan_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <gyrostat/experiments/cli/answer.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/findings/ranking_words.hpp>
 #include <gyrostat/experiments/findings/report/rank_picture.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/experiments/run/study_store.hpp>
@@ -23,6 +25,7 @@ constexpr const char* rank_examples = R"(Examples:
 struct RankArguments {
   std::string folder, metric, cell, figures;
   FormatOption format;
+  bool points = false;
 };
 
 std::string diagram(const CellRanking& ranking, const MethodColours& colours) {
@@ -30,6 +33,13 @@ std::string diagram(const CellRanking& ranking, const MethodColours& colours) {
   picture.title = fmt::format("{}: mean ranks of {} over {} trials", ranking.cell, ranking.metric,
                               ranking.trials);
   return picture_file(picture);
+}
+
+/// Whether a cell is one of more points than anybody reads a ranking of.
+bool is_one_of_many(const Study& study, std::size_t cell) {
+  constexpr std::size_t few = 20;
+  const auto* design = design_of(study, cell);
+  return design != nullptr && (design->is_sampled() || design->labels.size() > few);
 }
 
 int run(const RankArguments& arguments, Console& console) {
@@ -41,6 +51,8 @@ int run(const RankArguments& arguments, Console& console) {
   if (!arguments.figures.empty()) make_result_folder(arguments.figures);
   const MethodColours colours(study);
   std::vector<Table> tables;
+  std::vector<CellRanking> rankings;
+  std::size_t left_out = 0;
   for (std::uint32_t c = 0; c < study.cells.size(); ++c) {
     const auto& cell = study.cells[c];
     if (only && only != &cell) continue;
@@ -49,13 +61,20 @@ int run(const RankArguments& arguments, Console& console) {
         visit(trial.calibrated, trial.outcomes);
       });
     };
-    const auto ranking = rank_cell(cell, trials, arguments.metric);
-    tables.push_back(ranking_table(ranking));
+    rankings.push_back(rank_cell(cell, trials, arguments.metric));
+    const auto& ranking = rankings.back();
+    if (only || arguments.points || format != Format::text || !is_one_of_many(study, c))
+      tables.push_back(ranking_table(ranking));
+    else
+      ++left_out;
     if (!arguments.figures.empty())
       write_atomically(fs::path(arguments.figures) / fmt::format("ranks_{}.svg", c + 1),
                        diagram(ranking, colours));
   }
+  print_answer(console, format, answer_in_words(rankings));
   console.out << render(tables, format);
+  if (left_out > 0)
+    console.log << fmt::format("{} points of designs are ranked with --points\n", left_out);
   return complete;
 }
 
@@ -69,6 +88,8 @@ void add_rank(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--metric", arguments->metric,
                    "error to rank by (default: the one methods are judged by)");
   verb->add_option("--cell", arguments->cell, "this cell alone");
+  verb->add_flag("--points", arguments->points,
+                 "print the ranking at every point of a design, too");
   verb->add_option("--figures", arguments->figures,
                    "folder for critical-difference diagrams, an SVG a cell");
   arguments->format.add_to(verb);

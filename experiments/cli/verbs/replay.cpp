@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 constexpr const char* replay_examples = R"(Examples:
   gyrostat status runs/STUDY --failures                    the addresses of what failed
   gyrostat replay STUDY:ramp:17:sr_ukf                     its outcome, from the study in runs/STUDY
+  gyrostat replay runs/OTHER:ramp:17:sr_ukf                the folder of the run in the study's place
   gyrostat replay STUDY:ramp:17:sr_ukf --steps > steps.csv every step of it
   gyrostat replay STUDY:ramp:17:sr_ukf --study STUDY.json  without a run)";
 
@@ -27,9 +28,11 @@ struct ReplayArguments {
   bool steps = false;
 };
 
+/// An address may begin with the folder of a run, as `status` and the others take it.
 fs::path store_of(const ReplayArguments& arguments) {
-  return arguments.store.empty() ? fs::path("runs") / study_of_address(arguments.address)
-                                 : fs::path(arguments.store);
+  if (!arguments.store.empty()) return arguments.store;
+  const fs::path study = study_of_address(arguments.address);
+  return fs::exists(study / Store::file_name) || study.has_parent_path() ? study : "runs" / study;
 }
 
 Study study_of(const ReplayArguments& arguments) {

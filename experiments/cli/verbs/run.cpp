@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <gyrostat/experiments/cli/answer.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/progress.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
@@ -111,6 +112,7 @@ int run(const RunArguments& arguments, Console& console) {
     const auto tables = run_tables(run.study(), run.store(), run.run());
     write_results(folder, run.store(), tables);  // first, for who reads what is printed may leave
     const int code = ended(run, folder, stopper, console);
+    print_answer(console, format, tables.answer);
     console.out << render(tables.with_points(most_shown), format);
     if (format == Format::text && !tables.timings.empty())
       console.out << '\n' << render(tables.timings, format);

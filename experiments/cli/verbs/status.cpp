@@ -1,6 +1,9 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include <gyrostat/analysis/statistics/sequential.hpp>
+#include <gyrostat/experiments/cli/answer.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/run/stopping.hpp>
@@ -123,6 +126,24 @@ Table failures_table(const Store& store, const Manifest& manifest) {
   return table;
 }
 
+/// How far it is and what to do next.
+std::string status_answer(const Store& store, const Manifest& manifest) {
+  std::int64_t finished = 0, trials = 0, failed = 0;
+  for (std::uint32_t c = 0; c < manifest.cells.size(); ++c) {
+    const auto& cell = manifest.cells[c];
+    finished += std::min(cell.finished, cell.trials);
+    trials += cell.trials;
+    failed += store.failed_trials(c, cell.trials);
+  }
+  const auto how_many = failed == 0 ? std::string("none") : std::to_string(failed);
+  if (finished == trials)
+    return fmt::format("{} is complete: {} trials, {} failed.", manifest.name, trials, how_many);
+  return fmt::format(
+      "{} has {} of {} trials ({:.0f} %), {} failed. gyrostat run of the same study goes on.",
+      manifest.name, finished, trials,
+      std::floor(100.0 * static_cast<double>(finished) / static_cast<double>(trials)), how_many);
+}
+
 int run(const StatusArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const Store store = Store::open(arguments.folder);
@@ -134,6 +155,7 @@ int run(const StatusArguments& arguments, Console& console) {
     tables = {cells_table(store, manifest), sessions_table(store)};
   if (!arguments.failures && manifest.source.find("\"stop\"") != std::string::npos)
     tables.insert(tables.begin() + 1, stops_table(store));
+  if (!arguments.failures) print_answer(console, format, status_answer(store, manifest));
   console.out << render(tables, format);
   return complete;
 }
