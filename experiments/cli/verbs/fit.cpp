@@ -42,7 +42,8 @@ void add_rows(Table& table, const std::string& method, const P& fitted, const P&
 
 Intervals likelihood_intervals(const Series& series, const Calibration& fit) {
   const auto rate = without_drift(series, fit.thermal);
-  const ArimaIntervals likelihood(fit.random_error, rate);
+  const auto fitted = std::span(rate).subspan(fit.random_error.first, fit.random_error.samples);
+  const ArimaIntervals likelihood(fit.random_error, fitted);
   Intervals intervals(4);
   tbb::parallel_for(0, 4, [&](int p) {
     intervals[static_cast<std::size_t>(p)] =
