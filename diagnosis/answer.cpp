@@ -66,6 +66,8 @@ std::string parameters_in_words(const Effect& effect) {
 
 std::string answer(const Diagnosis& d) {
   if (d.verdict.is_none()) return "The simulator already makes recordings like this one.";
+  if (d.claimed && d.verdict.is_unknown())
+    return "The recording has something that the claimed simulator lacks.";
   if (d.claimed)
     return fmt::format("With what is claimed, {}, the simulator comes {}.", claimed_effects(d),
                        closeness(d));
@@ -116,7 +118,9 @@ std::string next_in_words(const Diagnosis& d) {
 
 std::string evidence_in_words(const Diagnosis& d) {
   if (d.verdict.is_none())
-    return fmt::format("No gap: p = {:.2g} under the simulator as it stands.", d.p_before);
+    return fmt::format("No gap: p = {:.2g} under the simulator {}.",
+                       d.claimed ? d.p_after : d.p_before,
+                       d.claimed ? "that is claimed" : "as it stands");
   std::string text = fmt::format(
       "p = {:.2g} under the simulator as it stands, {:.2g} with the effects. Gap on the held-out "
       "part: from {:.3g} to {:.3g} spreads of a reading.",

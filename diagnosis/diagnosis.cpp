@@ -341,10 +341,16 @@ void Work::judge_claim() {
     result_.causes.push_back({.effect = names.back(), .scenario = alone});
     result_.causes.back().probability = 1.0;
   }
-  climb(names);
-  result_.verdict = Verdict::cause(names.front());
+  if (names.empty())
+    rungs_.push_back(rung("the noise claimed", scenario, options_.candidate_replicas));
+  else
+    climb(names);
   result_.claimed = true;
   see_what_is_left();
+  if (!names.empty())
+    result_.verdict = Verdict::cause(names.front());
+  else if (result_.p_after <= options_.significance)
+    result_.verdict = Verdict::unknown();
 }
 
 void Work::see_what_is_left() {
@@ -529,8 +535,6 @@ Diagnosis diagnose(const Series& recording, const DiagnosisOptions& options,
   const auto first = std::find_if(z.begin(), z.end(), [](double v) { return !is_missing(v); });
   if (std::all_of(first, z.end(), [&](double v) { return is_missing(v) || v == *first; }))
     throw InputError("recording", "gyro_dps never changes; there is nothing to diagnose");
-  if (options.claim && options.claim->effects.empty())
-    throw InputError("claim", "its scenario has no effects; there is nothing to judge");
   return Work(recording, options, progress, interrupt).run();
 }
 

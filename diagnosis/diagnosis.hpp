@@ -20,7 +20,8 @@ namespace gyrostat::gap {
 struct DiagnosisOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> without;  ///< effects left out of the catalogue
-  /// Effects and random error found elsewhere, to be judged here instead of looking for causes.
+  /// Effects, if any, and random error found elsewhere, to be judged here instead of looking for
+  /// causes.
   std::optional<Scenario> claim;
   std::size_t baseline_replicas = 100;
   std::size_t candidate_replicas = 32;

@@ -149,8 +149,7 @@ std::shared_ptr<Diagnosed> diagnose(const RecordingHandle& recording, std::uint6
         auto diagnosed = std::make_shared<Diagnosed>();
         diagnosed->name = recording->name;
         require_dense(recording->series, recording->name);
-        const auto series = gap::without_handling(
-            gap::on_grid(recording->series, recording->name, 0), diagnosed->notes);
+        const auto series = gap::without_handling(recording->series, diagnosed->notes);
         try {
           diagnosed->diagnosis = gap::diagnose(
               series, options,

@@ -187,7 +187,7 @@ void require_dense(const Series& series, std::string_view place) {
   throw InputError(
       place,
       fmt::format("is {} bursts at {:.4g} Hz: {:.2g} % of that clock's samples are there, at "
-                  "least 25 % are needed. Take one burst (fit: --from, --to), or a mean of each: "
+                  "least 25 % are needed. Take one burst (--from, --to), or a mean of each: "
                   "--resample {:.2g}",
                   bursts, series.rate_hz(), percent(present, series.size()),
                   static_cast<double>(std::max<std::size_t>(bursts, 2) - 1) / series.duration_s()));

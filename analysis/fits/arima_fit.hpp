@@ -23,7 +23,7 @@ struct ArimaFit {
   bool converged = false;
   std::string message;
   int iterations = 0;
-  std::size_t samples = 0;
+  std::size_t first = 0, samples = 0;  ///< that were fitted
   /// Samples that each of the fitted values is the mean of: more than one where noise is coloured.
   std::size_t cluster = 1;
   /// Maximum likelihood: the log-likelihood. Moments: the chi-square of the misfit.

@@ -88,6 +88,7 @@ class PredictionErrors final : public ceres::CostFunction {
     });
     if (static_cast<int>(whitened.size()) != num_residuals()) return false;
     const T scale = exp(logs / T(2.0 * num_residuals()));
+    bool is_sound = true;
     for (std::size_t k = 0; k < whitened.size(); ++k) {
       const T r = whitened[k] * scale;
       if constexpr (std::is_same_v<T, double>) {
@@ -95,9 +96,11 @@ class PredictionErrors final : public ceres::CostFunction {
       } else {
         residuals[k] = r.a;
         std::copy_n(r.v.data(), 3, jacobian + 3 * k);
+        is_sound = is_sound && r.v.allFinite();
       }
+      is_sound = is_sound && std::isfinite(residuals[k]);
     }
-    return std::isfinite(residuals[0]);
+    return is_sound;  // numbers that are none Ceres would print
   }
 
   std::span<const double> z_;

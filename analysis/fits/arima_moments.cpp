@@ -63,15 +63,24 @@ struct Moments {
   double chi_square(const FreeMoments& free) const { return misfit(model_of(free)).squaredNorm(); }
 };
 
+bool is_sound(double value) { return std::isfinite(value); }
+
+template <int N>
+bool is_sound(const ceres::Jet<double, N>& value) {
+  return std::isfinite(value.a) && value.v.allFinite();
+}
+
 struct Residuals {
   const Moments& moments;
 
+  /// False at a step too far out for the model to be computed there: Ceres then tries a shorter
+  /// one. Given numbers that are none it would do so as well, and print them.
   template <class T>
   bool operator()(const T* free, T* residuals) const {
     const auto misfit = moments.misfit(model_of(free));
     residuals = std::copy(misfit.begin(), misfit.end(), residuals);
     for (int i = 0; i < 4; ++i) residuals[i] = T(tie_break) * free[i];
-    return true;
+    return std::all_of(misfit.begin(), misfit.end(), [](const T& m) { return is_sound(m); });
   }
 };
 

@@ -17,6 +17,9 @@ constexpr std::size_t fewest_means = 100;
 constexpr std::size_t least_cluster = 8;
 constexpr std::size_t longest_cluster = 128;
 constexpr double least_share_of_noise = 0.5;
+/// Longer ones are not fitted sample by sample: a fit takes hundreds of passes over its samples.
+constexpr std::size_t longest_fitted_whole = std::size_t{1} << 20;
+constexpr std::size_t longest_fitted = std::size_t{1} << 18;
 
 /// Of clusters of which at least half is present; NaN for the others.
 std::vector<double> means_over(std::span<const double> rate, std::size_t cluster) {
@@ -55,6 +58,46 @@ ArimaFit fit_with(FitMethod method, std::span<const double> rate) {
   return method == FitMethod::likelihood ? fit_arima_likelihood(rate) : fit_arima_moments(rate);
 }
 
+/// A random walk in white noise, fitted to means.
+ArimaFit walk_of_means(std::span<const double> rate, FitMethod method, std::size_t cluster) {
+  const auto means = means_over(rate, cluster);
+  const bool by_moments = method == FitMethod::moments && means.size() >= fewest_for_moments;
+  auto walk =
+      of_samples(by_moments ? fit_walk_moments(means) : fit_walk_likelihood(means), cluster);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  walk.standard_errors.phi = walk.standard_errors.delta2_dps = infinity;
+  walk.covariance[0] = walk.covariance[2] = {0.0, 0.0, 0.0, 0.0};
+  for (auto& row : walk.covariance) row[0] = row[2] = 0.0;
+  walk.covariance[0][0] = walk.covariance[2][2] = infinity;
+  walk.samples = rate.size();
+  if (walk.converged) walk.message = "converged";
+  return walk;
+}
+
+std::string of_means_over(std::size_t cluster) {
+  return "delta1 and R are of means over " + std::to_string(cluster) + " samples";
+}
+constexpr const char* not_told = "phi and delta2 cannot be told and are held at 0";
+
+/// A memory of samples is told by a stretch in the middle, a walk by means over all of it.
+ArimaFit fit_of_long(std::span<const double> rate, FitMethod method) {
+  const std::size_t first = (rate.size() - longest_fitted) / 2;
+  auto fit = fit_random_error(rate.subspan(first, longest_fitted), method);
+  const bool remembers = fit.parameters.phi != 0.0 || fit.parameters.delta2_dps != 0.0;
+  if (fit.cluster == 1 && remembers) {
+    fit.first = first;
+    fit.message += "; fitted to the " + std::to_string(longest_fitted) +
+                   " samples in the middle, which tell a memory as short as that";
+    return fit;
+  }
+  const std::size_t least = (rate.size() + longest_fitted - 1) / longest_fitted;
+  const std::size_t cluster = fit.cluster * ((least + fit.cluster - 1) / fit.cluster);
+  auto walk = walk_of_means(rate, method, cluster);
+  walk.message += "; " + of_means_over(cluster) + "; " + not_told;
+  if (fit.cluster > 1) walk.message += "; the noise is coloured";
+  return walk;
+}
+
 }  // namespace
 
 WhiteMeans white_means(std::span<const double> rate) {
@@ -79,25 +122,15 @@ WhiteMeans white_means(std::span<const double> rate) {
 }
 
 ArimaFit fit_random_error(std::span<const double> rate, FitMethod method) {
+  if (rate.size() > longest_fitted_whole) return fit_of_long(rate, method);
   const auto fit = fit_with(method, rate);
   const auto [cluster, white] = white_means(rate);
   const double R = std::pow(fit.parameters.measurement_noise_std_dps, 2);
   if (cluster == 0 || R >= least_share_of_noise * white * white) return fit;
-  const auto means = means_over(rate, cluster);
-  const bool by_moments = method == FitMethod::moments && means.size() >= fewest_for_moments;
-  auto walk =
-      of_samples(by_moments ? fit_walk_moments(means) : fit_walk_likelihood(means), cluster);
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  walk.standard_errors.phi = walk.standard_errors.delta2_dps = infinity;
-  walk.covariance[0] = walk.covariance[2] = {0.0, 0.0, 0.0, 0.0};
-  for (auto& row : walk.covariance) row[0] = row[2] = 0.0;
-  walk.covariance[0][0] = walk.covariance[2][2] = infinity;
-  walk.samples = rate.size();
-  walk.message = (walk.converged ? "converged" : walk.message) +
-                 "; the noise is coloured: delta1 and R are of means over " +
-                 std::to_string(cluster) +
-                 " samples, R as of white noise with the same density at low frequencies; phi and "
-                 "delta2 cannot be told and are held at 0. gyrostat diagnose says what colours it";
+  auto walk = walk_of_means(rate, method, cluster);
+  walk.message += "; the noise is coloured: " + of_means_over(cluster) +
+                  ", R as of white noise with the same density at low frequencies; " + not_told +
+                  ". gyrostat diagnose says what colours it";
   return walk;
 }
 

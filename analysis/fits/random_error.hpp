@@ -30,6 +30,9 @@ WhiteMeans white_means(std::span<const double> rate_dps);
 /// white, by a random walk in white noise. R is that of white noise of the same density, and phi
 /// and delta2 are held at 0 with infinite standard errors.
 ///
+/// Of more than 2^20 samples a memory (phi, delta2) is told by the 2^18 in the middle alone, of
+/// which the fit then says it is; else a walk in white noise is fitted to at most 2^18 means.
+///
 /// Example: R of a sensor with an output filter.
 ///
 ///   Series series;

@@ -5,6 +5,7 @@
 
 #include <gyrostat/diagnosis/compare/added.hpp>
 #include <gyrostat/diagnosis/diagnosis.hpp>
+#include <gyrostat/diagnosis/likelihood/dials.hpp>
 
 namespace gyrostat::gap {
 
@@ -24,17 +25,14 @@ struct ComparisonOptions {
 enum class Differs { lacks, too_little, too_much, other_form };
 std::string_view name_of(Differs how);
 
-/// Beside the effects of the catalogue the simulator may differ in its own noise.
-inline constexpr std::string_view white_noise = "white_noise", random_walk = "random_walk";
-
 struct Difference {
-  std::string effect;
+  std::string effect;  ///< of the catalogue, `white_noise` or `random_walk`
   Differs how;
   /// Log-likelihood that one form for both costs against one each: of the whole that recording and
   /// simulator lose together.
   double log_odds = 0.0;
-  double p = 1.0;                       ///< of that by chance, for all effects that were compared
-  std::vector<Effect> real, simulated;  ///< fitted to either; empty where it is not there
+  double p = 1.0;  ///< of that by chance; for all effects compared, unless segments differ anyway
+  std::vector<Effect> real, simulated;         ///< fitted to either; empty where it is not there
   double real_std = 0.0, simulated_std = 0.0;  ///< of white noise, dps; of the walk, dps/√s
   Addition addition;                     ///< that would mend it; nothing where nothing can be added
   double gap_after = 0.0, closed = 0.0;  ///< held-out, of this one mended alone
@@ -57,8 +55,9 @@ struct Comparison {
   double segment_s = 0.0;
   double p_before = 1.0, p_after = 1.0;  ///< by relabelled segments of the train parts
   double gap_before = 0.0, gap_after = 0.0, closed = 0.0, closed_low = 0.0, closed_high = 0.0;
-  std::vector<Where> where;             ///< "simulated" is the user's simulator
-  std::vector<Difference> differences;  ///< those that close most first
+  std::vector<Where> where, where_after;  ///< "simulated" is the user's simulator, and mended
+  std::vector<Band> bands;                ///< of segments; before and after it is mended
+  std::vector<Difference> differences;    ///< those that close most first
   std::vector<Undecided> undecided;
   std::vector<std::string> in_recording, in_simulator;  ///< effects found in either
   Verdict verdict = Verdict::none();
@@ -78,7 +77,11 @@ struct Comparison {
 /// the log-likelihood that the one side loses by the other's form and A that which the other loses
 /// by the one's, the best form in between costs about D A / (D + A) (both fall as the square of the
 /// way to it). Of an effect that one side lacks, A is the odds with which it would be found in that
-/// side's traces were it added to them. Twice that is chi-square.
+/// side's traces were it added to them. Twice that is chi-square. Slow curves and what is read off
+/// single samples are compared by their parameters and standard errors (Wald).
+///
+/// Where segments differ, that there is a difference is known at half of the significance, and an
+/// effect is named at the other half; where they do not, at that half for all effects together.
 ///
 /// Which effects are there is decided by the train parts; how far the gap closes once they are
 /// added to the simulated traces, by the parts held out.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/compare/counted.hpp>
 #include <gyrostat/diagnosis/likelihood/marks.hpp>
 #include <gyrostat/diagnosis/likelihood/tails.hpp>
 
@@ -84,44 +85,17 @@ void TraceStudy::prepare() const {
   standing_ = bench_->refitted(rate);
 }
 
-/// By golden sections in the logarithms of what is free, in turn.
-double TraceStudy::best_likelihood(Scenario scenario, Free free) const {
-  auto& noise = scenario.random_error;
-  const bool refit_signatures =
-      std::any_of(scenario.effects.begin(), scenario.effects.end(), [](const auto& effect) {
-        const auto* cause = cause_types().find(effect.id());
-        return cause != nullptr && cause->signature == Signature::repeated;
-      });
-  const auto fitter = refit_signatures ? bench_->refitted(scenario, 0).fitter : standing_.fitter;
-  const auto likelihood = [&] { return fitter->terms(scenario, Part::train).log_likelihood; };
-  const auto improve = [&](double& value, double reach) {
-    constexpr double section = 0.6180339887498949;
-    if (!(value > 0.0)) return likelihood();
-    double low = std::log(value) - reach, high = std::log(value) + reach;
-    const auto at = [&](double x) {
-      value = std::exp(x);
-      return likelihood();
-    };
-    double a = high - section * (high - low), b = low + section * (high - low);
-    double fa = at(a), fb = at(b);
-    for (int k = 0; k < 14; ++k) {
-      if (fa > fb) {
-        high = b, b = a, fb = fa;
-        fa = at(a = high - section * (high - low));
-      } else {
-        low = a, a = b, fa = fb;
-        fb = at(b = low + section * (high - low));
-      }
-    }
-    return at(0.5 * (low + high));
-  };
-  double best = likelihood();
-  for (int pass = 0; pass < 2; ++pass) {
-    const double near = pass == 0 ? 1.0 : 0.1;
-    if (free != Free::walk) best = std::max(best, improve(noise.measurement_noise_std_dps, near));
-    if (free != Free::white) best = std::max(best, improve(noise.delta1_dps, 3.0 * near));
-  }
-  return best;
+double TraceStudy::best_likelihood(const Scenario& scenario, std::string_view held) const {
+  constexpr int iterations = 15;
+  const bool takes_out = std::any_of(scenario.effects.begin(), scenario.effects.end(),
+                                     [](const auto& effect) { return is_taken_out(effect); });
+  const auto fitter = takes_out ? bench_->refitted(scenario, 0).fitter : standing_.fitter;
+  return fitter->maximise(scenario, iterations, Jumping::yes, held).log_likelihood;
+}
+
+double TraceStudy::loss_of(const Scenario& other, std::string_view held) const {
+  const double here = best_likelihood(standing_.scenario, {});
+  return std::max(0.0, here - best_likelihood(other, held));
 }
 
 double TraceStudy::loss_with(std::string_view name, const std::vector<Effect>& others) const {
@@ -130,27 +104,38 @@ double TraceStudy::loss_with(std::string_view name, const std::vector<Effect>& o
   if (cause == nullptr || cause->signature == Signature::slow ||
       (cause->enter == nullptr && cause->signature != Signature::repeated))
     return 0.0;
-  const double here = best_likelihood(standing_.scenario, Free::both);
   Scenario other = standing_.scenario;
   std::erase_if(other.effects, [&](const auto& e) { return e.id() == name; });
   for (const auto& effect : others) other.effects.push_back(effect);
-  return std::max(0.0, here - best_likelihood(other, Free::both));
+  return loss_of(other, name);
 }
 
 double TraceStudy::loss_with_white(double std_dps) const {
   prepare();
-  const double here = best_likelihood(standing_.scenario, Free::both);
   Scenario other = standing_.scenario;
   other.random_error.measurement_noise_std_dps = std_dps;
-  return std::max(0.0, here - best_likelihood(other, Free::walk));
+  return loss_of(other, white_noise);
 }
 
 double TraceStudy::loss_with_walk(double dps_per_sqrt_s) const {
   prepare();
-  const double here = best_likelihood(standing_.scenario, Free::both);
   Scenario other = standing_.scenario;
   other.random_error.delta1_dps = dps_per_sqrt_s * std::sqrt(conditions().interval_s());
-  return std::max(0.0, here - best_likelihood(other, Free::white));
+  return loss_of(other, random_walk);
+}
+
+std::vector<double> TraceStudy::errors_of(std::string_view name) const {
+  constexpr double two_sided_95 = 1.959964;
+  const auto& all = found_.scenario.effects;
+  const auto at = static_cast<std::size_t>(
+      std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.id() == name; }) -
+      all.begin());
+  if (at == all.size()) return {};
+  auto errors = errors_by_count(all[at], conditions());
+  for (const auto& interval : found_.intervals)
+    if (interval.effect == at)
+      errors[interval.field] = (interval.high - interval.low) / (2.0 * two_sided_95);
+  return errors;
 }
 
 double TraceStudy::white_std_dps() const {

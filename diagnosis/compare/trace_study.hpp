@@ -34,19 +34,23 @@ class TraceStudy {
   /// they were.
   Series mended(const Addition& addition, const Noise& noise) const;
 
+  /// Standard errors of the fields of the first effect of that name; NaN where none is known.
+  std::vector<double> errors_of(std::string_view name) const;
+
   /// The log-likelihood that the trace loses where the effects of that name have the parameters of
-  /// `others`, white noise and walk fitted anew; 0 where the effect has no law.
+  /// `others`, all else fitted anew; 0 where the effect has no law, or is a slow curve.
   double loss_with(std::string_view name, const std::vector<Effect>& others) const;
-  /// The same with another white noise or another walk, the walk or the white noise fitted anew.
+  /// The same with another white noise, or with another walk.
   double loss_with_white(double std_dps) const;
   double loss_with_walk(double dps_per_sqrt_s) const;
   double white_std_dps() const;
   double walk_dps_per_sqrt_s() const;
 
  private:
-  enum class Free { white, walk, both };
   void prepare() const;
-  double best_likelihood(Scenario scenario, Free free) const;
+  /// With all fitted but what is held.
+  double best_likelihood(const Scenario& scenario, std::string_view held) const;
+  double loss_of(const Scenario& other, std::string_view held) const;
 
   Series series_;
   std::vector<std::string> without_;

@@ -214,45 +214,4 @@ std::vector<double> Conditions::slow_means(const std::vector<double>& values) co
   return means;
 }
 
-Series on_grid(const Series& series, std::string_view place, std::size_t first_row) {
-  const std::size_t n = series.size();
-  std::vector<double> intervals;
-  for (std::size_t i = 1; i < n; ++i) intervals.push_back(series.t_s[i] - series.t_s[i - 1]);
-  if (intervals.empty()) return series;
-  auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  const double step = *middle;
-
-  std::vector<std::size_t> index(n, 0);
-  for (std::size_t i = 1; i < n; ++i) {
-    const double steps = (series.t_s[i] - series.t_s[i - 1]) / step;
-    const double whole = std::round(steps);
-    if (whole < 1.0 || std::abs(steps - whole) > 0.3)
-      throw InputError(
-          sample_place(place, first_row, i),
-          "t_s = " + std::to_string(series.t_s[i]) + " s: sampled unevenly, " +
-              std::to_string(steps) + " intervals of " + std::to_string(step) +
-              " s after the sample before it; a whole number, give or take 0.3, is allowed");
-    index[i] = index[i - 1] + static_cast<std::size_t>(whole);
-  }
-  const std::size_t size = index.back() + 1;
-  if (size == n) return series;
-  if (size / 50 > n)
-    throw InputError(place, "fewer than one sample in fifty is there; at least 2 % are needed");
-  Series grid;
-  for (const auto& channel : channels) {
-    const auto& from = series.*channel.values;
-    if (from.empty()) continue;
-    auto& to = grid.*channel.values;
-    to.assign(size, no_value);
-    for (std::size_t i = 0; i < n; ++i) to[index[i]] = from[i];
-    if (channel.values == &Series::gyro_dps || channel.values == &Series::heading_deg) continue;
-    for (std::size_t i = 1; i < n; ++i)  // what the sensor went through is continuous
-      for (std::size_t k = index[i - 1] + 1; k < index[i]; ++k)
-        to[k] = from[i - 1] + (from[i] - from[i - 1]) * static_cast<double>(k - index[i - 1]) /
-                                  static_cast<double>(index[i] - index[i - 1]);
-  }
-  return grid;
-}
-
 }  // namespace gyrostat::gap

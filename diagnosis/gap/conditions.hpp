@@ -103,9 +103,4 @@ class Conditions {
   std::vector<std::size_t> train_points_;
 };
 
-/// A series whose intervals are all multiples of one, with NaN rows for what is missing. Throws
-/// InputError at `place` where an interval is more than 0.3 of one off such a grid, or where the
-/// grid would be fifty times longer than the series.
-Series on_grid(const Series& series, std::string_view place, std::size_t first_row = 2);
-
 }  // namespace gyrostat::gap

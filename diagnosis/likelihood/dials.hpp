@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <gyrostat/core/numerics/linear.hpp>
@@ -20,7 +21,11 @@ struct Dial {
     std::size_t effect, field;
   };
   std::optional<Place> place = std::nullopt;
+  std::string_view of = {};  ///< an effect, `white_noise` or `random_walk`
 };
+
+/// What a simulator has beside effects, as they are called among them.
+inline constexpr std::string_view white_noise = "white_noise", random_walk = "random_walk";
 
 /// On a logarithmic scale, from `low` to `high`.
 Dial logarithmic(const std::function<double&(Scenario&)>& value, double low, double high);

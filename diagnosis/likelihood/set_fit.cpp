@@ -43,7 +43,9 @@ std::vector<Dial> dials_of(const Scenario& scenario) {
   dials.push_back(
       logarithmic([](Scenario& s) -> double& { return s.random_error.measurement_noise_std_dps; },
                   1e-6 * white, 1e6 * white));
+  dials.back().of = white_noise;
   dials.push_back(size_of_walk(1e-9 * white, 1e3 * white));
+  dials.back().of = random_walk;
   if (scenario.random_error.phi != 0.0) {
     dials.push_back(size_of_memory(white));
     dials.push_back(length_of_memory());
@@ -70,6 +72,7 @@ std::vector<Dial> dials_of(const Scenario& scenario) {
       else
         dials.push_back(linear(value, largest));
       dials.back().place = Dial::Place{k, f};
+      dials.back().of = cause.id;
     }
   }
   return dials;
@@ -323,9 +326,11 @@ std::vector<ParameterInterval> SetFitter::intervals(const SetFit& fit) const {
   return found;
 }
 
-SetFit SetFitter::maximise(const Scenario& start, int iterations, Jumping jumping) const {
+SetFit SetFitter::maximise(const Scenario& start, int iterations, Jumping jumping,
+                           std::string_view held) const {
   SetFit fit{.scenario = start, .drift = {}};
-  const auto dials = dials_of(start);
+  auto dials = dials_of(start);
+  std::erase_if(dials, [&](const Dial& dial) { return !held.empty() && dial.of == held; });
   const auto count = static_cast<Eigen::Index>(dials.size());
   fit.parameters = dials.size();
   RateTerms here = terms(fit.scenario, Part::train, jumping);

@@ -1,43 +1,79 @@
 #include <gyrostat/experiments/cli/diagnosed.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <gyrostat/diagnosis/answer.hpp>
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
-#include <gyrostat/diagnosis/gap/conditions.hpp>
 #include <gyrostat/diagnosis/handling.hpp>
 #include <gyrostat/experiments/cli/phase_progress.hpp>
-#include <gyrostat/experiments/findings/shared_effects.hpp>
-#include <gyrostat/experiments/run/outcome_file.hpp>
-#include <gyrostat/recordings/atomic_file.hpp>
 
 namespace gyrostat::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A recording of several, and what it is called among them.
-struct Named {
-  RecordingOption recording;
-  std::string name;
+/// Without what is not the sensor's, which is told.
+Series at_rest(const Series& recording, const std::string& file, std::ostream& log) {
+  std::vector<std::string> told;
+  Series series = gap::without_handling(recording, told);
+  for (const auto& line : told) log << fmt::format("{}: {}\n", file, line);
+  return series;
+}
+
+/// Samples [first, first + count).
+struct Part {
+  std::size_t first, count;
 };
 
-std::vector<Named> each_of(const RecordingOption& recording,
-                           const std::vector<std::string>& further) {
+std::vector<Part> parts_of(const Series& series) {
+  const std::size_t parts = (series.size() + most_samples_at_once - 1) / most_samples_at_once;
+  std::vector<Part> all;
+  for (std::size_t k = 0; k < parts; ++k) {
+    const std::size_t from = k * series.size() / parts, to = (k + 1) * series.size() / parts;
+    all.push_back({from, to - from});
+  }
+  return all;
+}
+
+/// Random errors are steps a sample: at another rate they are others.
+void require_rate_of(const std::optional<Scenario>& claim, const Series& series,
+                     const std::string& file) {
+  constexpr double most_apart = 0.01;
+  if (claim && std::abs(claim->sampling.rate_hz / series.rate_hz() - 1.0) > most_apart)
+    throw InputError(file, fmt::format("sampled at {:.6g} Hz, the simulator that it is held to at "
+                                       "{:.6g} Hz; allowed: the same within 1 %",
+                                       series.rate_hz(), claim->sampling.rate_hz));
+}
+
+gap::Diagnosis diagnosis_of(const Series& series, const std::string& file,
+                            const gap::DiagnosisOptions& options, const Interrupt& interrupt,
+                            Console& console) {
+  PhaseProgress progress(console.log, console.log_is_terminal, "diagnose");
+  return about(file, [&] {
+    return gap::diagnose(
+        series, options, [&](const auto& now) { progress.set(now.phase, now.detail, now.share); },
+        interrupt);
+  });
+}
+
+}  // namespace
+
+std::vector<ToDiagnose> each_of(const RecordingOption& recording,
+                                const std::vector<std::string>& further) {
   std::vector<std::string> files = {recording.file};
   files.insert(files.end(), further.begin(), further.end());
   const std::vector<std::string> axes = recording.axis == "all"
                                             ? std::vector<std::string>{"x", "y", "z"}
                                             : std::vector<std::string>{recording.axis};
-  std::vector<Named> all;
+  std::vector<ToDiagnose> all;
   std::set<std::string> names;
   for (const auto& file : files)
     for (const auto& axis : axes) {
-      Named one{recording, files.size() == 1 ? axis : fs::path(file).filename().string()};
+      ToDiagnose one{recording, files.size() == 1 ? axis : fs::path(file).filename().string()};
       if (files.size() > 1 && axes.size() > 1) one.name += ' ' + axis;
       if (!names.insert(one.name).second) one.name = file + (axes.size() > 1 ? ' ' + axis : "");
       one.recording.file = file;
@@ -47,7 +83,8 @@ std::vector<Named> each_of(const RecordingOption& recording,
   return all;
 }
 
-gap::Json members_json(const std::vector<gap::Member>& members, const std::string& kind) {
+nlohmann::ordered_json members_json(const std::vector<gap::Member>& members,
+                                    const std::string& kind) {
   gap::Json json = {{"each", gap::Json::array()}, {"shared", gap::Json::array()}};
   for (const auto& m : members)
     json["each"].push_back({{kind, m.name}, {"diagnosis", gap::to_json(m.diagnosis)}});
@@ -67,55 +104,44 @@ gap::Json members_json(const std::vector<gap::Member>& members, const std::strin
   return json;
 }
 
-}  // namespace
-
-std::optional<gap::Diagnosis> diagnosed(const RecordingOption& recording, const SpanOption& span,
-                                        const gap::DiagnosisOptions& options, Console& console) {
-  const auto& file = recording.file;
+std::optional<std::vector<gap::Member>> diagnosed(const ToDiagnose& one, const SpanOption& span,
+                                                  const gap::DiagnosisOptions& options,
+                                                  Parts allowed, Console& console) {
+  const auto& file = one.recording.file;
   const Interrupt interrupt(console.stop.orderly());
-  const auto read = recording.read_all(console.log);
-  PhaseProgress progress(console.log, console.log_is_terminal, "diagnose");
-  try {
-    interrupt.check();
-    std::vector<std::string> told;
-    const Series series =
-        gap::without_handling(cut(gap::on_grid(read.series, file, read.first_row), span.from_s,
-                                  span.to_s, file + ": --from, --to"),
-                              told);
-    for (const auto& line : told) console.log << fmt::format("{}: {}\n", file, line);
-    return about(file, [&] {
-      return gap::diagnose(
-          series, options, [&](const auto& now) { progress.set(now.phase, now.detail, now.share); },
-          interrupt);
-    });
-  } catch (const Interrupted&) {
-    return std::nullopt;
-  }
-}
-
-int diagnose_members(const RecordingOption& recording, const std::vector<std::string>& further,
-                     const SpanOption& span, const gap::DiagnosisOptions& options, Format format,
-                     const std::string& json_out, Console& console) {
-  const std::string kind = further.empty() ? "axis" : "sensor";
-  std::vector<gap::Member> members;
-  for (const auto& one : each_of(recording, further)) {
-    console.log << fmt::format("{} {}\n", kind, one.name);
-    auto diagnosis = diagnosed(one.recording, span, options, console);
-    if (!diagnosis) {
-      console.log << "stopped early: nothing was written\n";
-      return console.stop.exit_code();
+  const Series series = at_rest(one.recording.read(console.log, span), file, console.log);
+  require_rate_of(options.claim, series, file);
+  const auto parts = parts_of(series);
+  if (parts.size() == 1) try {
+      interrupt.check();
+      auto diagnosis = diagnosis_of(series, file, options, interrupt, console);
+      return std::vector{gap::Member{one.name, std::move(diagnosis)}};
+    } catch (const Interrupted&) {
+      return std::nullopt;
     }
-    members.push_back({one.name, std::move(*diagnosis)});
+  if (allowed == Parts::refused)
+    throw InputError(file, fmt::format("{} samples; what is of one diagnosis is of up to {}: take "
+                                       "a part by --from and --to",
+                                       series.size(), most_samples_at_once));
+  console.log << fmt::format(
+      "{}: {} samples are diagnosed in {} parts; what is slower than a part shows with "
+      "--resample\n",
+      file, series.size(), parts.size());
+  std::vector<gap::Member> members;
+  for (const auto& [first, count] : parts) {
+    const Series part = series.slice(first, count);
+    const auto name =
+        fmt::format("{}{}{:.6g} to {:.6g} s", one.name, one.name.empty() ? "" : " ",
+                    part.t_s.front() - series.t_s.front(), part.t_s.back() - series.t_s.front());
+    console.log << name << '\n';
+    try {
+      auto diagnosis = diagnosis_of(part, file, options, interrupt, console);
+      members.push_back({name, std::move(diagnosis)});
+    } catch (const Interrupted&) {
+      return std::nullopt;
+    }
   }
-  if (!json_out.empty()) write_atomically(json_out, members_json(members, kind).dump(1) + '\n');
-  if (format == Format::text) {
-    console.out << gap::shared_in_words(members) << "\n\n";
-    for (const auto& m : members)
-      console.out << fmt::format("{}: {}\n", m.name, gap::answer(m.diagnosis));
-    console.out << '\n';
-  }
-  console.out << render(gap::member_tables(members, kind), format);
-  return complete;
+  return members;
 }
 
 }  // namespace gyrostat::cli

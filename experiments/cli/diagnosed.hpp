@@ -4,21 +4,39 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <gyrostat/diagnosis/diagnosis.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/findings/shared_effects.hpp>
 
 namespace gyrostat::cli {
 
-/// The diagnosis of a span of a recording, at rest where it has no reference rate; nothing where
-/// Ctrl-C ended it.
-std::optional<gap::Diagnosis> diagnosed(const RecordingOption& recording, const SpanOption& span,
-                                        const gap::DiagnosisOptions& options, Console& console);
+/// A recording that is to be diagnosed, and what it is called among others.
+struct ToDiagnose {
+  RecordingOption recording;
+  std::string name;
+};
 
-/// `--axis all`, and several recordings: each diagnosed, then what they share. Writes JSON where
-/// `json_out` is given.
-int diagnose_members(const RecordingOption& recording, const std::vector<std::string>& further,
-                     const SpanOption& span, const gap::DiagnosisOptions& options, Format format,
-                     const std::string& json_out, Console& console);
+/// `--axis all`, and several recordings.
+std::vector<ToDiagnose> each_of(const RecordingOption& recording,
+                                const std::vector<std::string>& further);
+
+/// One that is longer is diagnosed in parts, since a diagnosis needs some two hundred bytes for
+/// each sample that it simulates.
+inline constexpr std::size_t most_samples_at_once = std::size_t{1} << 22;
+
+enum class Parts { allowed, refused };
+
+/// The diagnoses of a span of a recording, at rest where it has no reference rate: one, or one of
+/// each of the equal parts of a long recording (refused where `parts` says so). Nothing where
+/// Ctrl-C ended it.
+std::optional<std::vector<gap::Member>> diagnosed(const ToDiagnose& one, const SpanOption& span,
+                                                  const gap::DiagnosisOptions& options, Parts parts,
+                                                  Console& console);
+
+nlohmann::ordered_json members_json(const std::vector<gap::Member>& members,
+                                    const std::string& kind);
 
 }  // namespace gyrostat::cli

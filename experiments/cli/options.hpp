@@ -58,6 +58,9 @@ struct SpanOption {
     verb->add_option("--to", to_s, "end of the span, s from the first sample")
         ->check(within(0.0, 1e12));
   }
+  bool is_part_of(const Series& series) const {
+    return from_s > 0.0 || to_s <= series.duration_s();
+  }
 };
 
 /// The recording that a verb works on, with the axis where it has several, and what the program
@@ -114,12 +117,9 @@ struct RecordingOption {
             .resample_hz = resample_hz};
   }
 
-  enum class Bursts { refused, taken };
-
   /// All of it, evenly sampled; says in `log` as what it was read and what was done to it. `wanted`
   /// as `read_recording` has it.
-  Recording read_all(std::ostream& log, std::span<const std::string_view> wanted = {},
-                     Bursts bursts = Bursts::refused) const {
+  Recording read_all(std::ostream& log, std::span<const std::string_view> wanted = {}) const {
     const auto how = layout();
     auto recording = read_recording(file, axis, how, wanted);
     make_even(recording, file, how);
@@ -133,7 +133,6 @@ struct RecordingOption {
                          fmt::join(recording.ignored_columns, ", "));
     if (!recording.notes.empty())
       log << fmt::format("{}: {}\n", file, fmt::join(recording.notes, "; "));
-    if (bursts == Bursts::refused) require_dense(recording.series, file);
     return recording;
   }
 
@@ -150,12 +149,15 @@ struct RecordingOption {
     return cut(series, seconds(first - z.begin()), seconds(z.rend() - last - 1), file);
   }
 
+  /// Short bursts with long pauses, which only an Allan deviation is told by.
+  enum class Bursts { refused, taken };
+
   /// The span of it.
   Series read(std::ostream& log, const SpanOption& span = {},
               std::span<const std::string_view> wanted = {},
               Bursts bursts = Bursts::refused) const {
-    auto series = read_all(log, wanted, Bursts::taken).series;
-    if (span.from_s > 0.0 || span.to_s <= series.duration_s())
+    auto series = read_all(log, wanted).series;
+    if (span.is_part_of(series))
       series = between_samples(cut(series, span.from_s, span.to_s, file + ": --from, --to"), file);
     if (bursts == Bursts::refused) require_dense(series, file);
     return series;

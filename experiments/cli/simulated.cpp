@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include <gyrostat/diagnosis/compare/comparison_text.hpp>
-#include <gyrostat/diagnosis/gap/conditions.hpp>
 #include <gyrostat/experiments/cli/phase_progress.hpp>
+#include <gyrostat/experiments/findings/comparison_page.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
 
@@ -30,9 +30,7 @@ std::vector<gap::Trace> read_traces(const std::vector<std::string>& files, Recor
   std::vector<gap::Trace> traces;
   for (const auto& file : files) {
     layout.file = file;
-    const auto read = layout.read_all(console.log);
-    traces.push_back({file, cut(gap::on_grid(read.series, file, read.first_row), span.from_s,
-                                span.to_s, file + ": --from, --to")});
+    traces.push_back({file, layout.read(console.log, span)});
   }
   return traces;
 }
@@ -59,10 +57,11 @@ std::vector<fs::path> places_of(const SimulatedArguments& arguments) {
 
 int diagnose_simulated(const SimulatedArguments& arguments, const RecordingOption& recording,
                        const SpanOption& span, const gap::ComparisonOptions& options, Format format,
-                       const std::string& json_out, Console& console) {
+                       Console& console) {
   std::vector<std::string> files = {recording.file};
   files.insert(files.end(), arguments.further.begin(), arguments.further.end());
-  if (!json_out.empty()) require_writable(json_out, recording.file);
+  for (const auto& out : {arguments.json_out, arguments.html_out})
+    if (!out.empty()) require_writable(out, recording.file);
   std::vector<fs::path> places;
   if (!arguments.out.empty()) places = places_of(arguments);
   const auto real = read_traces(files, recording, span, console);
@@ -80,7 +79,12 @@ int diagnose_simulated(const SimulatedArguments& arguments, const RecordingOptio
       return console.stop.exit_code();
     }
   }
-  if (!json_out.empty()) write_atomically(json_out, gap::to_json(*comparison).dump(1) + '\n');
+  const auto of_recordings = first_and_more(files), of_traces = first_and_more(arguments.simulated);
+  if (!arguments.json_out.empty())
+    write_atomically(arguments.json_out, gap::to_json(*comparison).dump(1) + '\n');
+  if (!arguments.html_out.empty())
+    write_atomically(arguments.html_out,
+                     gap::comparison_page(*comparison, of_recordings, of_traces));
   if (!places.empty()) {
     if (comparison->with_added.empty())
       console.log << "nothing to add: no trace was written\n";
@@ -90,9 +94,7 @@ int diagnose_simulated(const SimulatedArguments& arguments, const RecordingOptio
       write_series(places[k], comparison->with_added[k]);
   }
   if (format == Format::text)
-    console.out << gap::in_words(*comparison, first_and_more(files),
-                                 first_and_more(arguments.simulated))
-                << '\n';
+    console.out << gap::in_words(*comparison, of_recordings, of_traces) << '\n';
   console.out << render(gap::comparison_tables(*comparison), format);
   return complete;
 }

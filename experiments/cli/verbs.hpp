@@ -17,7 +17,14 @@ struct Console {
 };
 
 /// Beside these, 128 + its number where a signal ended what cannot be resumed.
-enum ExitCode { complete = 0, error = 1, usage = 2, over_failure_budget = 3, stopped = 4 };
+enum ExitCode {
+  complete = 0,
+  error = 1,
+  usage = 2,
+  over_failure_budget = 3,
+  stopped = 4,
+  unhealthy = 5  ///< a recording fails by a rule
+};
 
 /// Adds the verb of every file in verbs/ to the program: those of verbs/order.txt in that order,
 /// then the others by name. A verb that was called leaves its exit code in `exit_code`.

@@ -5,24 +5,12 @@
 #include <gyrostat/diagnosis/answer.hpp>
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
 #include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
+#include <gyrostat/experiments/findings/lens_sections.hpp>
 #include <gyrostat/experiments/findings/report/live_page.hpp>
 #include <gyrostat/results/render/html.hpp>
 
 namespace gyrostat::gap {
 namespace {
-
-std::string grid_of(const std::vector<Picture>& pictures) {
-  std::string out;
-  for (const auto& picture : pictures)
-    if (!picture.marks.empty()) out += html(picture);
-  return out.empty() ? "" : "<div class=\"pictures\">\n" + out + "</div>\n";
-}
-
-std::string section(const std::string& title, const std::string& note, const std::string& body) {
-  if (body.empty()) return "";
-  return fmt::format("<section><h2>{}</h2>\n<p class=\"note\">{}</p>\n{}</section>\n",
-                     escaped(title), escaped(note), body);
-}
 
 std::string head(const Diagnosis& d, const std::string& name) {
   std::string out =
@@ -47,14 +35,6 @@ Table effects_table(const Diagnosis& d) {
   return table;
 }
 
-/// Lenses of one agreement.
-std::string lenses(const std::vector<LensPicture>& all, Agreement agreement) {
-  std::vector<Picture> pictures;
-  for (const auto& lens : all)
-    if (lens.agreement == agreement) pictures.push_back(lens.picture);
-  return grid_of(pictures);
-}
-
 }  // namespace
 
 std::string diagnosis_page(const Diagnosis& d, const std::string& name) {
@@ -69,13 +49,7 @@ std::string diagnosis_page(const Diagnosis& d, const std::string& name) {
                   "ones. Blue nearer to black than orange is: a study with the effects promises "
                   "what the sensor keeps.",
                   grid_of(filter_pictures(d)));
-  const auto all = lens_pictures(d);
-  const auto off = lenses(all, Agreement::still_off);
-  page += section("Where the simulator is still off", "The clearest first.", off);
-  page += section("What the effects mended", "The clearest first.", lenses(all, Agreement::mended));
-  page +=
-      section("Where it agreed all along", "Neither with nor without the effects is it seen off.",
-              lenses(all, Agreement::always));
+  page += lens_sections(lens_pictures(d), "the effects");
   std::string numbers;
   for (const auto& table : diagnosis_tables(d, name)) numbers += html(table);
   page += section("How sure that is", evidence_in_words(d), numbers);

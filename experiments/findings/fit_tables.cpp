@@ -35,7 +35,8 @@ void add_rows(Table& table, const std::string& method, const P& fitted, const P&
 /// nothing: they are taken out, and the fit's message tells.
 Intervals likelihood_intervals(const Series& series, Calibration& fit) {
   const auto rate = without_drift(series, fit.thermal);
-  const ArimaIntervals likelihood(fit.random_error, rate);
+  const auto fitted = std::span(rate).subspan(fit.random_error.first, fit.random_error.samples);
+  const ArimaIntervals likelihood(fit.random_error, fitted);
   if (!likelihood.other_modes().empty() && std::isfinite(fit.random_error.standard_errors.phi)) {
     std::vector<std::string> others;
     for (const auto& mode : likelihood.other_modes())

@@ -123,5 +123,42 @@ TEST(RandomError, MissingSamplesAreNotMeans) {
   EXPECT_NEAR(fit.parameters.measurement_noise_std_dps, white_dps, 0.1 * white_dps);
 }
 
+/// 1.2 million samples: a walk in white noise, or an error that returns with phi.
+std::vector<double> long_recording(double phi) {
+  Scenario s;
+  s.sampling = {1200.0, 1000.0};
+  s.random_error = {.phi = phi,
+                    .delta1_dps = phi == 0.0 ? 2e-4 : 0.05,
+                    .delta2_dps = phi == 0.0 ? 0.0 : 0.045,
+                    .measurement_noise_std_dps = white_dps};
+  Series series;
+  synthesise(s, {.seed = 20261122, .trial = 0}, series);
+  return series.gyro_dps;
+}
+
+// The walk over clusters of five samples is told to within 2 % by 2^18 means (six times its
+// standard error, which the fit states; a false failure once in 5e8).
+TEST(RandomError, OfALongRecordingAWalkIsToldByMeansOverAllOfIt) {
+  const auto fit = fit_random_error(long_recording(0.0), FitMethod::moments);
+  EXPECT_EQ(fit.cluster, 5);
+  EXPECT_EQ(fit.samples, 1'200'000);
+  EXPECT_THAT(fit.message, HasSubstr("means over 5 samples"));
+  EXPECT_NEAR(fit.parameters.delta1_dps, 2e-4, 6.0 * fit.standard_errors.delta1_dps);
+  EXPECT_NEAR(fit.parameters.measurement_noise_std_dps, white_dps,
+              6.0 * fit.standard_errors.measurement_noise_std_dps);
+  EXPECT_LT(fit.standard_errors.delta1_dps, 0.1 * 2e-4);
+  EXPECT_TRUE(std::isinf(fit.standard_errors.phi));
+}
+
+TEST(RandomError, OfALongRecordingAMemoryIsToldByItsMiddle) {
+  const auto z = long_recording(0.9);
+  const auto fit = fit_random_error(z, FitMethod::moments);
+  EXPECT_EQ(fit.cluster, 1);
+  EXPECT_EQ(fit.samples, std::size_t{1} << 18);
+  EXPECT_EQ(fit.first, (z.size() - fit.samples) / 2);
+  EXPECT_THAT(fit.message, HasSubstr("in the middle"));
+  EXPECT_NEAR(fit.parameters.phi, 0.9, 6.0 * fit.standard_errors.phi);
+}
+
 }  // namespace
 }  // namespace gyrostat

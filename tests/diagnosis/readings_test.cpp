@@ -141,39 +141,6 @@ TEST(Conditions, NeverMixThePartsInAMeanOrABridge) {
   }
 }
 
-TEST(OnGrid, GapsBecomeMissingSamples) {
-  Series s;
-  for (const double t : {0.0, 0.1, 0.2, 0.5, 0.6}) {
-    s.t_s.push_back(t);
-    s.gyro_dps.push_back(t);
-    s.temperature_C.push_back(10.0 * t);
-  }
-  const auto grid = on_grid(s, "x.csv");
-  ASSERT_EQ(grid.size(), 7U);
-  EXPECT_TRUE(std::isnan(grid.gyro_dps[3]));
-  EXPECT_NEAR(grid.temperature_C[3], 3.0, 1e-12);
-  EXPECT_EQ(grid.gyro_dps[5], 0.5);
-}
-
-TEST(OnGrid, TimesBetweenTheGridAreRefusedWithTheirLine) {
-  Series s;
-  for (const double t : {0.0, 0.1, 0.2, 0.35, 0.45, 0.55}) {
-    s.t_s.push_back(t);
-    s.gyro_dps.push_back(t);
-  }
-  const auto message = [&](std::size_t first_row) -> std::string {
-    try {
-      on_grid(s, "x.csv", first_row);
-    } catch (const InputError& mistake) {
-      return mistake.what();
-    }
-    return "";
-  };
-  EXPECT_THAT(message(2), testing::StartsWith("x.csv:5: "));
-  EXPECT_THAT(message(9), testing::StartsWith("x.csv:12: "));
-  EXPECT_THAT(message(0), testing::StartsWith("x.csv: row 4: "));
-}
-
 // Newcombe, Statistics in Medicine 17, 1998, table I: 81 of 263 gives 0.2553 to 0.3662.
 TEST(WilsonInterval, IsThePublishedOne) {
   const auto [low, high] = wilson_interval(81, 263, 0.95);

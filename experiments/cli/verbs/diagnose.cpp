@@ -1,15 +1,18 @@
+#include <algorithm>
 #include <filesystem>
-#include <optional>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <gyrostat/diagnosis/answer.hpp>
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
 #include <gyrostat/experiments/cli/diagnosed.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/simulated.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/cli/watched.hpp>
 #include <gyrostat/experiments/findings/diagnosis_page.hpp>
 #include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
@@ -29,7 +32,9 @@ constexpr const char* diagnose_examples = R"(Examples:
   gyrostat diagnose REC.csv --axis all               every axis, and what they share
   gyrostat diagnose A.csv B.csv C.csv                every sensor of a fleet, likewise
   gyrostat diagnose OTHER.csv --claim STUDY.json     does it close the gap of another recording?
-  gyrostat diagnose REC.csv --simulated SIM.csv --out-simulated MENDED)";
+  gyrostat diagnose REC.csv --simulated SIM.csv --out-simulated MENDED
+  gyrostat diagnose TODAY.csv --baseline STUDY.json --fail-if 'gap>2'    5 where it holds
+  gyrostat diagnose logs/*.csv --fail-if 'vibration>0.9' --jsonl         a line of JSON each)";
 
 struct DiagnoseArguments {
   RecordingOption recording;
@@ -39,74 +44,140 @@ struct DiagnoseArguments {
   bool timing = false;
   gap::DiagnosisOptions options;
   SimulatedArguments simulated;
+  WatchArguments watch;
 };
 
-/// What a diagnosis of several at once, or of the user's simulator, does not write.
-void refuse_beside(const DiagnoseArguments& arguments, const std::string& why) {
-  const std::pair<const char*, bool> given[] = {{"--html", !arguments.html_out.empty()},
-                                                {"--scenario", !arguments.scenario_out.empty()},
-                                                {"--out-figures", !arguments.figures_out.empty()},
-                                                {"--claim", !arguments.claim.empty()}};
-  for (const auto& [option, is_given] : given)
+using Given = std::vector<std::pair<const char*, bool>>;
+
+void refuse(const Given& options, const std::string& why) {
+  for (const auto& [option, is_given] : options)
     if (is_given) throw InputError(option, why);
 }
 
-int run(DiagnoseArguments& arguments, Console& console) {
-  const auto format = arguments.format.get();
-  const auto& file = arguments.recording.file;
-  for (const auto& name : arguments.options.without) (void)effect_types().named(name, "--without");
-  const auto& traces = arguments.simulated;
-  if (!traces.simulated.empty()) {
-    refuse_beside(arguments,
-                  "is of gyrostat's own simulator; beside --simulated there are --json and "
-                  "--out-simulated");
-    return diagnose_simulated(
-        traces, arguments.recording, arguments.span,
-        {.seed = arguments.options.seed, .without = arguments.options.without}, format,
-        arguments.json_out, console);
-  }
-  if (!traces.out.empty()) throw InputError("--out-simulated", "needs --simulated");
-  if (!traces.further.empty() || arguments.recording.axis == "all") {
-    refuse_beside(arguments,
-                  "is of one recording and axis; of several there are tables and --json");
-    if (!arguments.json_out.empty()) require_writable(arguments.json_out, file);
-    return diagnose_members(arguments.recording, traces.further, arguments.span, arguments.options,
-                            format, arguments.json_out, console);
-  }
+/// What is of one diagnosis.
+Given of_one(const DiagnoseArguments& arguments) {
+  return {{"--html", !arguments.html_out.empty()},
+          {"--scenario", !arguments.scenario_out.empty()},
+          {"--out-figures", !arguments.figures_out.empty()},
+          {"--claim", !arguments.claim.empty()}};
+}
+
+bool any(const Given& options) {
+  return std::any_of(options.begin(), options.end(), [](const auto& o) { return o.second; });
+}
+
+int run_simulated(const DiagnoseArguments& arguments, Format format, Console& console) {
+  refuse({{"--scenario", !arguments.scenario_out.empty()},
+          {"--out-figures", !arguments.figures_out.empty()},
+          {"--claim", !arguments.claim.empty()}},
+         "is of gyrostat's own simulator; beside --simulated there are --html, --json and "
+         "--out-simulated");
+  refuse({{"--fail-if", !arguments.watch.fail_if.empty()},
+          {"--baseline", !arguments.watch.baseline.empty()},
+          {"--jsonl", arguments.watch.json_lines}},
+         "is of recordings alone, without --simulated");
+  auto traces = arguments.simulated;
+  traces.json_out = arguments.json_out;
+  traces.html_out = arguments.html_out;
+  return diagnose_simulated(traces, arguments.recording, arguments.span,
+                            {.seed = arguments.options.seed, .without = arguments.options.without},
+                            format, console);
+}
+
+/// The simulator that is judged in place of looking for causes.
+void give_claim(DiagnoseArguments& arguments) {
+  if (!arguments.claim.empty() && !arguments.watch.baseline.empty())
+    throw InputError("--baseline", "stands in place of --claim; give one of them");
   if (!arguments.claim.empty()) {
     const auto study = read_study(arguments.claim);
     if (study.cells.front().scenario.effects.empty())
       throw InputError(arguments.claim, "its scenario has no effects; there is nothing to judge");
     arguments.options.claim = study.cells.front().scenario;
   }
+  arguments.watch.give_baseline(arguments.options);
+}
+
+void write_one(const DiagnoseArguments& arguments, const gap::Diagnosis& diagnosis,
+               const std::string& name) {
+  if (!arguments.json_out.empty())
+    write_atomically(arguments.json_out, gap::to_json(diagnosis).dump(1) + '\n');
+  if (!arguments.html_out.empty())
+    write_atomically(arguments.html_out, gap::diagnosis_page(diagnosis, name));
+  if (!arguments.scenario_out.empty())
+    write_atomically(arguments.scenario_out, gap::scenario_json(diagnosis, name).dump(2) + '\n');
+  if (!arguments.figures_out.empty())
+    for (const auto& picture : gap::diagnosis_pictures(diagnosis))
+      write_atomically(fs::path(arguments.figures_out) / (picture.id + ".svg"),
+                       picture_file(picture));
+}
+
+void print_one(const DiagnoseArguments& arguments, const gap::Diagnosis& diagnosis,
+               const std::string& name, Format format, Console& console) {
+  if (format == Format::text) console.out << gap::in_words(diagnosis, name) << '\n';
+  console.out << render(gap::diagnosis_tables(diagnosis, name), format);
+  if (arguments.timing)
+    for (const auto& [part, seconds] : diagnosis.seconds)
+      console.log << fmt::format("{:<16} {:.2f} s\n", part, seconds);
+}
+
+void print_several(const std::vector<gap::Member>& members, const std::string& kind, Format format,
+                   Console& console) {
+  if (format == Format::text) {
+    console.out << gap::shared_in_words(members) << "\n\n";
+    for (const auto& m : members)
+      console.out << fmt::format("{}: {}\n", m.name, gap::answer(m.diagnosis));
+    console.out << '\n';
+  }
+  console.out << render(gap::member_tables(members, kind), format);
+}
+
+int run(DiagnoseArguments& arguments, Console& console) {
+  const auto format = arguments.format.get();
+  const auto& file = arguments.recording.file;
+  const auto& further = arguments.simulated.further;
+  const auto& axis = arguments.recording.axis;
+  for (const auto& name : arguments.options.without) (void)effect_types().named(name, "--without");
+  if (!arguments.simulated.simulated.empty()) return run_simulated(arguments, format, console);
+  if (!arguments.simulated.out.empty()) throw InputError("--out-simulated", "needs --simulated");
+  const auto rules = arguments.watch.rules(arguments.options.significance);
+  const auto all = each_of(arguments.recording, further);
+  if (all.size() > 1)
+    refuse(of_one(arguments),
+           "is of one recording and axis; of several there are tables and --json");
+  give_claim(arguments);
+  if (arguments.watch.json_lines) {
+    refuse(of_one(arguments), "is of one diagnosis; --jsonl prints lines");
+    refuse({{"--json", !arguments.json_out.empty()}}, "is written beside tables, not --jsonl");
+    return diagnose_in_lines(all, arguments.span, arguments.options, rules, console);
+  }
   for (const auto& out : {arguments.json_out, arguments.html_out, arguments.scenario_out})
     if (!out.empty()) require_writable(out, file);
   if (!arguments.figures_out.empty()) make_result_folder(arguments.figures_out);
-  const auto diagnosis = diagnosed(arguments.recording, arguments.span, arguments.options, console);
-  if (!diagnosis) {
-    std::error_code not_empty;
-    if (!arguments.figures_out.empty()) fs::remove(arguments.figures_out, not_empty);
-    console.log << "stopped early: nothing was written\n";
-    return console.stop.exit_code();
+  const std::string kind = !further.empty() ? "sensor" : axis == "all" ? "axis" : "part";
+  const auto parts = any(of_one(arguments)) ? Parts::refused : Parts::allowed;
+  std::vector<gap::Member> members;
+  for (const auto& one : all) {
+    if (all.size() > 1) console.log << fmt::format("{} {}\n", kind, one.name);
+    auto some = diagnosed(one, arguments.span, arguments.options, parts, console);
+    if (!some) {
+      std::error_code not_empty;
+      if (!arguments.figures_out.empty()) fs::remove(arguments.figures_out, not_empty);
+      console.log << "stopped early: nothing was written\n";
+      return console.stop.exit_code();
+    }
+    std::move(some->begin(), some->end(), std::back_inserter(members));
   }
-  auto name = fs::path(file).filename().string();
-  if (!arguments.recording.axis.empty()) name += ", axis " + arguments.recording.axis;
-  if (!arguments.json_out.empty())
-    write_atomically(arguments.json_out, gap::to_json(*diagnosis).dump(1) + '\n');
-  if (!arguments.html_out.empty())
-    write_atomically(arguments.html_out, gap::diagnosis_page(*diagnosis, name));
-  if (!arguments.scenario_out.empty())
-    write_atomically(arguments.scenario_out, gap::scenario_json(*diagnosis, name).dump(2) + '\n');
-  if (!arguments.figures_out.empty())
-    for (const auto& picture : gap::diagnosis_pictures(*diagnosis))
-      write_atomically(fs::path(arguments.figures_out) / (picture.id + ".svg"),
-                       picture_file(picture));
-  if (format == Format::text) console.out << gap::in_words(*diagnosis, name) << '\n';
-  console.out << render(gap::diagnosis_tables(*diagnosis, name), format);
-  if (arguments.timing)
-    for (const auto& [part, seconds] : diagnosis->seconds)
-      console.log << fmt::format("{:<16} {:.2f} s\n", part, seconds);
-  return complete;
+  if (members.size() == 1) {
+    auto name = fs::path(file).filename().string();
+    if (!axis.empty()) name += ", axis " + axis;
+    write_one(arguments, members.front().diagnosis, name);
+    print_one(arguments, members.front().diagnosis, name, format, console);
+  } else {
+    if (!arguments.json_out.empty())
+      write_atomically(arguments.json_out, members_json(members, kind).dump(1) + '\n');
+    print_several(members, kind, format, console);
+  }
+  return judge_health(members, file, rules, console);
 }
 
 }  // namespace
@@ -134,6 +205,7 @@ void add_diagnose(CLI::App& program, Console& console, int& exit_code) {
                    "folder to write every picture of the page to, as SVG");
   verb->add_flag("--timing", arguments->timing, "say where the time went");
   arguments->format.add_to(verb);
+  arguments->watch.add_to(verb);
   verb->add_option("--without", arguments->options.without,
                    "leave these effects out of the catalogue")
       ->delimiter(',');

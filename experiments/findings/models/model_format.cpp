@@ -12,7 +12,7 @@
 namespace gyrostat {
 namespace {
 
-std::string with_interval(const AllanCoefficient& c, double unit, std::string_view name) {
+std::string coefficient_in_words(const AllanCoefficient& c, double unit, std::string_view name) {
   if (!(c.lower < c.upper)) return fmt::format("{:.4g} {}", unit * c.value, name);
   if (!(c.value > 0.0)) return fmt::format("below {:.4g} {} (95 %)", unit * c.upper, name);
   return fmt::format("{:.4g} {} (95 %: {:.4g} to {:.4g})", unit * c.value, name, unit * c.lower,
@@ -22,9 +22,9 @@ std::string with_interval(const AllanCoefficient& c, double unit, std::string_vi
 std::string coefficients_in_words(const SensorModel& model) {
   return fmt::format(
       "N = {}; B = {}; K = {}.",
-      with_interval(model.N, angle_random_walk_deg_per_sqrt_h(1.0), "deg/sqrt(h)"),
-      with_interval(model.B, bias_instability_deg_per_h(1.0), "deg/h"),
-      with_interval(model.K, rate_random_walk_deg_per_h_per_sqrt_h(1.0), "deg/h/sqrt(h)"));
+      coefficient_in_words(model.N, angle_random_walk_deg_per_sqrt_h(1.0), "deg/sqrt(h)"),
+      coefficient_in_words(model.B, bias_instability_deg_per_h(1.0), "deg/h"),
+      coefficient_in_words(model.K, rate_random_walk_deg_per_h_per_sqrt_h(1.0), "deg/h/sqrt(h)"));
 }
 
 std::string cover_in_words(const Cover& cover, bool holds_walk) {

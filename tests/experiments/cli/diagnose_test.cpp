@@ -109,6 +109,48 @@ TEST(Diagnose, TellsOneLineAPhaseWhereNobodyWatchesAndTheAnswerFirst) {
                                     100.0 * found.at("gap").at("closed").get<double>())));
 }
 
+TEST(Diagnose, AFailingRuleHasAStatusOfItsOwnAndALineOfJson) {
+  const TestFolder folder;
+  record(folder, 100);
+  folder.write("none.csv", "t_s,gyro_dps\n0,1\n");
+  const auto ended = run_program(folder, {"diagnose", "none.csv", "rec.csv", "--jsonl", "--fail-if",
+                                          "gap>1e6", "--fail-if", "vibration>0.5"});
+  EXPECT_EQ(ended.exit_code, 2) << ended.err;  // one of them cannot be read
+  std::istringstream lines(ended.out);
+  std::string first, second, more;
+  ASSERT_TRUE(std::getline(lines, first) && std::getline(lines, second));
+  EXPECT_FALSE(std::getline(lines, more));
+  EXPECT_THAT(Json::parse(first).at("error").get<std::string>(), HasSubstr("none.csv"));
+  EXPECT_EQ(Json::parse(second).at("file"), "rec.csv");
+  EXPECT_EQ(Json::parse(second).at("failed"), Json::array({"vibration>0.5"}));
+
+  // Its own simulator makes such recordings; one without the vibration does not.
+  record(folder, 100);
+  const auto own =
+      run_program(folder, {"diagnose", "rec.csv", "--baseline", "one.json", "--jsonl"});
+  EXPECT_EQ(own.exit_code, 0) << own.out << own.err;
+  auto bare = Json::parse(folder.read("one.json"));
+  bare["cells"][0]["scenario"]["effects"] = Json::array();
+  folder.write("bare.json", bare.dump());
+  const auto changed = run_program(folder, {"diagnose", "rec.csv", "--baseline", "bare.json"});
+  EXPECT_EQ(changed.exit_code, 5) << changed.out << changed.err;
+  EXPECT_THAT(changed.err, HasSubstr("rec.csv: p<0.02 holds: p is "));
+}
+
+TEST(Diagnose, OfBurstsOneIsTakenByItsSpan) {
+  const TestFolder folder;
+  std::string csv = "t_s,gyro_dps\n";
+  for (int burst = 0; burst < 2; ++burst)
+    for (int i = 0; i < 1100; ++i)
+      csv += fmt::format("{:.2f},{}\n", 1000.0 * burst + 0.02 * i, (i * 7919 % 1000) * 1e-3);
+  folder.write("bursts.csv", csv);
+  const auto whole = run_program(folder, {"diagnose", "bursts.csv"});
+  EXPECT_EQ(whole.exit_code, 2);
+  EXPECT_THAT(whole.err, HasSubstr("is 2 bursts"));
+  const auto one = run_program(folder, {"diagnose", "bursts.csv", "--from", "900"});
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+}
+
 TEST(BlindCheck, CtrlCEndsItInAMomentAndTheSameGoesOn) {
   const TestFolder folder;
   folder.write("check.json", R"({"seed": 3, "recordings": 1, "none_recordings": 2,

@@ -1,0 +1,227 @@
+#include <gyrostat/diagnosis/compare/differences.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <gyrostat/analysis/statistics/distributions.hpp>
+#include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+/// Differences that are clear and matter to nobody: of white noise, of the walk, of an effect.
+constexpr double least_of_white = 0.03, least_of_walk = 0.25, least_of_effect = 0.05;
+constexpr double read_off_the_values = 1e3;  ///< log odds of what is beyond doubt
+
+/// The size that an effect is known by: of what it has in dps, the largest; else the first of its
+/// free parameters.
+double size_of(const CauseType& cause, const std::vector<Effect>& effects) {
+  double size = 0.0;
+  for (const auto& effect : effects)
+    for (std::size_t i = 0; i < effect.fields().size(); ++i)
+      if (effect.fields()[i].unit == "dps") size = std::max(size, std::abs(effect.value(i)));
+  if (size == 0.0 && !effects.empty() && !cause.free_parameters.empty())
+    size = std::abs(effects.front().value(field_of(effects.front(), cause.free_parameters[0])));
+  return size;
+}
+
+bool differ_enough(const std::vector<Effect>& a, const std::vector<Effect>& b) {
+  if (a.size() != b.size()) return true;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (std::size_t i = 0; i < a[k].fields().size(); ++i) {
+      const double x = a[k].value(i), y = b[k].value(i);
+      if (std::abs(x - y) > least_of_effect * std::max(std::abs(x), std::abs(y))) return true;
+    }
+  return false;
+}
+
+/// A slow curve is linear in its amplitudes: the simulated one is taken out, the real one put in.
+std::vector<Effect> instead_of(const CauseType& cause, std::vector<Effect> real,
+                               std::vector<Effect> simulated) {
+  if (cause.signature != Signature::slow) return simulated.empty() ? real : std::vector<Effect>{};
+  for (auto& effect : simulated) {
+    for (std::size_t a = 0; a < cause.amplitudes; ++a)
+      effect.value(field_of(effect, cause.free_parameters[a])) *= -1.0;
+    real.push_back(std::move(effect));
+  }
+  return real;
+}
+
+/// Evidence for one form each, and how many parameters it is about.
+struct Weight {
+  double log_odds = 0.0, parameters = 1.0;
+};
+
+/// The common form costs least where it lies between both.
+Weight by_losses(double loss_real, double loss_simulated, double parameters) {
+  const double both = loss_real + loss_simulated;
+  return {both > 0.0 ? loss_real * loss_simulated / both : 0.0, std::max(1.0, parameters)};
+}
+
+/// Half of the squared differences of parameters over their errors.
+Weight by_errors(const Found& real, const Found& simulated) {
+  Weight evidence{0.0, 0.0};
+  const auto &a = real.effects.front(), &b = simulated.effects.front();
+  for (std::size_t i = 0; i < a.fields().size(); ++i) {
+    const double error = std::hypot(real.errors[i], simulated.errors[i]);
+    if (is_missing(error) || !(error > 0.0)) continue;
+    evidence.log_odds += 0.5 * std::pow((a.value(i) - b.value(i)) / error, 2);
+    evidence.parameters += 1.0;
+  }
+  evidence.parameters = std::max(1.0, evidence.parameters);
+  return evidence;
+}
+
+class DifferenceSearch {
+ public:
+  DifferenceSearch(const StudiedSide& real, const StudiedSide& simulated, const Matched& matched,
+                   const DifferenceOptions& options)
+      : real_(real), simulated_(simulated), matched_(matched), options_(options) {}
+
+  Differences run();
+
+ private:
+  bool keep(Difference difference, const Weight& evidence);
+  void compare(const CauseType& cause);
+  void one_side_alone(const CauseType& cause, const Found& real, const Found& simulated);
+  Weight evidence_of(const CauseType& cause, const Found& real, const Found& simulated) const;
+  /// Log odds with which the traces of a side would show these effects, had they been added.
+  double would_show(const StudiedSide& side, std::string_view name,
+                    const std::vector<Effect>& effects) const;
+  void compare_noise(std::string_view name, double (TraceStudy::*value)() const,
+                     double (TraceStudy::*loss)(double) const, double least);
+
+  const StudiedSide &real_, &simulated_;
+  const Matched& matched_;
+  const DifferenceOptions& options_;
+  Differences result_;
+};
+
+bool DifferenceSearch::keep(Difference difference, const Weight& evidence) {
+  difference.log_odds = evidence.log_odds;
+  const double by_chance = chi_squared_upper_tail(2.0 * evidence.log_odds, evidence.parameters);
+  difference.p =
+      options_.segments_differ ? by_chance : std::min(1.0, matched_.compared * by_chance);
+  if (difference.p > options_.level) return false;
+  result_.found.push_back(std::move(difference));
+  return true;
+}
+
+double DifferenceSearch::would_show(const StudiedSide& side, std::string_view name,
+                                    const std::vector<Effect>& effects) const {
+  double odds = 0.0;
+  for (std::size_t k = 0; k < side.traces.size(); ++k) {
+    const auto with = side.traces[k]->mended({.effects = effects},
+                                             {options_.seed, static_cast<std::uint32_t>(k)});
+    odds +=
+        TraceStudy(with, options_.seed, matched_.without, options_.interrupt, {}).log_odds(name);
+  }
+  return odds;
+}
+
+void DifferenceSearch::one_side_alone(const CauseType& cause, const Found& real,
+                                      const Found& simulated) {
+  const bool lacks = simulated.effects.empty();
+  const auto& has_it = lacks ? real : simulated;
+  const double shown = would_show(lacks ? simulated_ : real_, cause.id, has_it.effects);
+  Difference difference{.effect = std::string(cause.id),
+                        .how = lacks ? Differs::lacks : Differs::too_much,
+                        .real = real.effects,
+                        .simulated = simulated.effects,
+                        .addition = {}};
+  difference.addition.effects = instead_of(cause, real.effects, simulated.effects);
+  if (keep(difference, by_losses(has_it.log_odds, shown, 1.0))) return;
+  result_.undecided.push_back(
+      {difference.effect,
+       fmt::format("found in the {} (log odds {:.1f}); the {} would show it with log odds of "
+                   "{:.1f}, which is too little to say that it is not there",
+                   lacks ? "recording" : "simulated traces", has_it.log_odds,
+                   lacks ? "simulated traces" : "recording", shown)});
+}
+
+Weight DifferenceSearch::evidence_of(const CauseType& cause, const Found& real,
+                                     const Found& simulated) const {
+  if (cause.id == "quantization" || cause.id == "saturation")
+    return by_losses(read_off_the_values, read_off_the_values, 1.0);
+  const bool has_law = cause.enter != nullptr || cause.signature == Signature::repeated;
+  if (cause.signature == Signature::slow || !has_law) return by_errors(real, simulated);
+  double loss_real = 0.0, loss_simulated = 0.0;
+  for (const auto& trace : real_.traces) loss_real += trace->loss_with(cause.id, simulated.effects);
+  for (const auto& trace : simulated_.traces)
+    loss_simulated += trace->loss_with(cause.id, real.effects);
+  return by_losses(loss_real, loss_simulated, static_cast<double>(cause.free_parameters.size()));
+}
+
+void DifferenceSearch::compare(const CauseType& cause) {
+  const auto real = real_.found(cause.id), simulated = simulated_.found(cause.id);
+  if (real.effects.empty() && simulated.effects.empty()) return;
+  if (real.effects.empty() || simulated.effects.empty()) {
+    one_side_alone(cause, real, simulated);
+    return;
+  }
+  if (!differ_enough(real.effects, simulated.effects)) return;
+  const double ratio =
+      size_of(cause, real.effects) / std::max(1e-300, size_of(cause, simulated.effects));
+  Difference difference{.effect = std::string(cause.id),
+                        .how = ratio > 1.0 + least_of_effect   ? Differs::too_little
+                               : ratio < 1.0 - least_of_effect ? Differs::too_much
+                                                               : Differs::other_form,
+                        .real = real.effects,
+                        .simulated = simulated.effects,
+                        .addition = {}};
+  difference.addition.effects = instead_of(cause, real.effects, simulated.effects);
+  (void)keep(difference, evidence_of(cause, real, simulated));
+}
+
+void DifferenceSearch::compare_noise(std::string_view name, double (TraceStudy::*value)() const,
+                                     double (TraceStudy::*loss)(double) const, double least) {
+  const double real = real_.mean_of(value), simulated = simulated_.mean_of(value);
+  if (std::abs(real - simulated) <= least * std::max(real, simulated)) return;
+  Difference difference{.effect = std::string(name),
+                        .how = real > simulated ? Differs::too_little : Differs::too_much,
+                        .real = {},
+                        .simulated = {},
+                        .real_std = real,
+                        .simulated_std = simulated,
+                        .addition = {}};
+  const double more = std::sqrt(std::max(0.0, real * real - simulated * simulated));
+  (name == white_noise ? difference.addition.white_std_dps
+                       : difference.addition.walk_dps_per_sqrt_s) = more;
+  double loss_real = 0.0, loss_simulated = 0.0;
+  for (const auto& trace : real_.traces) loss_real += (*trace.*loss)(simulated);
+  for (const auto& trace : simulated_.traces) loss_simulated += (*trace.*loss)(real);
+  (void)keep(difference, by_losses(loss_real, loss_simulated, 1.0));
+}
+
+Differences DifferenceSearch::run() {
+  auto tell = [&, done = 0.0](std::string_view name) mutable {
+    options_.interrupt.check();
+    if (options_.progress) options_.progress(std::string(name), done / matched_.compared);
+    done += 1.0;
+  };
+  for (const auto& cause : cause_types()) {
+    if (std::ranges::find(matched_.without, cause.id) != matched_.without.end()) continue;
+    tell(cause.id);
+    compare(cause);
+  }
+  tell(white_noise);
+  compare_noise(white_noise, &TraceStudy::white_std_dps, &TraceStudy::loss_with_white,
+                least_of_white);
+  tell(random_walk);
+  compare_noise(random_walk, &TraceStudy::walk_dps_per_sqrt_s, &TraceStudy::loss_with_walk,
+                least_of_walk);
+  return std::move(result_);
+}
+
+}  // namespace
+
+Differences differences_between(const StudiedSide& real, const StudiedSide& simulated,
+                                const Matched& matched, const DifferenceOptions& options) {
+  return DifferenceSearch(real, simulated, matched, options).run();
+}
+
+}  // namespace gyrostat::gap
