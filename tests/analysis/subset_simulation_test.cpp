@@ -103,8 +103,8 @@ TEST(SubsetSimulation, VariesByThreeTenthsAtOneInAMillion) {
     EXPECT_LE(found.trials, 20000U);
     ratio.add(found.rare.probability / 1e-6);
   }
-  // 0.25 as 1,200 repeats have it; that of 100 near log-normal ones has a standard error of 0.022, so
-  // that one set of seeds in 90 would fail.
+  // About 0.25 in several hundred repeats; that of 100 near log-normal ones has a standard error of
+  // 0.022, so that one set of seeds in 90 would fail.
   EXPECT_LT(ratio.std(), 0.3);
   // Its bias is of the order of 1 / samples: a few hundredths, here allowed a tenth.
   EXPECT_NEAR(ratio.mean, 1.0, 0.1 + 4.0 * ratio.error());
