@@ -1,6 +1,10 @@
 #include <gyrostat/core/random.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
 
 #include <Random123/philox.h>
 
@@ -41,17 +45,52 @@ struct Baseline;
 NormalStream::NormalStream(std::uint64_t seed, std::uint32_t trial, std::string_view stream)
     : seed_(seed), stream_hash_(fnv1a(stream)), trial_(trial) {}
 
+NormalStream::NormalStream(std::uint64_t seed, std::uint32_t trial, std::string_view stream,
+                           std::span<const NoiseShare> shares, std::vector<double>* tape)
+    : seed_(seed), stream_hash_(fnv1a(stream)), trial_(trial), shares_(shares), tape_(tape) {}
+
 double NormalStream::normal(std::uint64_t sample) const {
+  double sum = 0.0;
+  for (const auto& share : shares_) sum += share.weight * normal_of(share.trial, sample);
+  const double value = shares_.empty() ? normal_of(trial_, sample) : sum;
+  if (tape_ != nullptr) {
+    if (tape_->size() <= sample) tape_->resize(sample + 1);
+    (*tape_)[sample] = value;
+  }
+  return value;
+}
+
+void NormalStream::fill(std::uint64_t first, std::span<double> out) const {
+  if (shares_.empty()) {
+    fill_of(trial_, first, out);
+  } else {
+    std::array<double, 256> piece{};
+    for (std::size_t at = 0; at < out.size(); at += piece.size()) {
+      const auto part = out.subspan(at, std::min(piece.size(), out.size() - at));
+      const auto drawn = std::span(piece).first(part.size());
+      std::fill(part.begin(), part.end(), 0.0);
+      for (const auto& share : shares_) {
+        fill_of(share.trial, first + at, drawn);
+        for (std::size_t i = 0; i < part.size(); ++i) part[i] += share.weight * drawn[i];
+      }
+    }
+  }
+  if (tape_ == nullptr) return;
+  if (tape_->size() < first + out.size()) tape_->resize(first + out.size());
+  std::copy(out.begin(), out.end(), tape_->begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+double NormalStream::normal_of(std::uint32_t trial, std::uint64_t sample) const {
   std::array<double, 4> four{};
-  NormalBlocks<Baseline, 1>::normals(address(seed_, stream_hash_, trial_),
+  NormalBlocks<Baseline, 1>::normals(address(seed_, stream_hash_, trial),
                                      static_cast<std::uint32_t>(sample / 4), four.data());
   return four[sample % 4];
 }
 
-void NormalStream::fill(std::uint64_t first, std::span<double> out) const {
+void NormalStream::fill_of(std::uint32_t trial, std::uint64_t first, std::span<double> out) const {
   constexpr std::size_t chunk = 4 * normal_blocks;
   const auto normals = available_kernels().back()->normals;
-  const NormalAddress at = address(seed_, stream_hash_, trial_);
+  const NormalAddress at = address(seed_, stream_hash_, trial);
   for (std::size_t i = 0; i < out.size();) {
     const std::uint64_t sample = first + i;
     const auto block = static_cast<std::uint32_t>(sample / 4);
@@ -68,6 +107,9 @@ void NormalStream::fill(std::uint64_t first, std::span<double> out) const {
 }
 
 double NormalStream::uniform(std::uint64_t sample) const {
+  if (!shares_.empty())
+    return std::clamp(0.5 * std::erfc(-normal(sample) / std::numbers::sqrt2),
+                      std::numeric_limits<double>::min(), 1.0 - 0x1p-53);
   return to_unit(words(seed_, stream_hash_, trial_, sample / 4)[sample % 4]);
 }
 

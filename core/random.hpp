@@ -1,10 +1,23 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace gyrostat {
+
+/// So many times the deviate that another trial has at the same address.
+struct NoiseShare {
+  std::uint32_t trial = 0;
+  double weight = 1.0;
+};
+
+/// The deviates that were drawn of each stream, by sample; those that were not are 0.
+using NoiseTape = std::map<std::string, std::vector<double>, std::less<>>;
 
 /// Standard normal deviates at addresses (seed, trial, stream, sample): no draw depends on another,
 /// so adding a stream or a sample moves nothing else.
@@ -22,30 +35,47 @@ namespace gyrostat {
 ///   noise.fill(0, block);
 ///   const bool same = block[0] == first;
 ///
-/// Thread safety: it has no state but its address, so any number of threads may draw at once.
+/// Thread safety: it has no state but its address, so any number of threads may draw at once; one
+/// with a tape belongs to one thread.
 class NormalStream {
  public:
   NormalStream(std::uint64_t seed, std::uint32_t trial, std::string_view stream);
+  /// Mixed of trials: each deviate is the sum of `shares` of theirs, a standard normal one again
+  /// where the squares of the weights add up to 1. It is written to `tape`, if any. Shares and tape
+  /// outlive the stream; no shares: `trial` alone.
+  NormalStream(std::uint64_t seed, std::uint32_t trial, std::string_view stream,
+               std::span<const NoiseShare> shares, std::vector<double>* tape);
 
   /// The deviate at `sample`.
   double normal(std::uint64_t sample) const;
   /// The deviates at first, first + 1, ... into `out`; the same values as `normal`.
   void fill(std::uint64_t first, std::span<double> out) const;
-  /// A uniform deviate on (0, 1) at `sample`. Shares words with `normal`: use one kind a stream.
+  /// A uniform deviate on (0, 1) at `sample`. Shares words with `normal`: use one kind a stream. A
+  /// mixed one is the probability below the normal deviate there, so that it moves with the shares.
   double uniform(std::uint64_t sample) const;
 
  private:
+  double normal_of(std::uint32_t trial, std::uint64_t sample) const;
+  void fill_of(std::uint32_t trial, std::uint64_t first, std::span<double> out) const;
+
   std::uint64_t seed_;
   std::uint64_t stream_hash_;
   std::uint32_t trial_;
+  std::span<const NoiseShare> shares_{};
+  std::vector<double>* tape_ = nullptr;
 };
 
-/// All noise of one trial.
+/// All noise of one trial, or of a mixture of trials.
 struct Noise {
   std::uint64_t seed = 0;
   std::uint32_t trial = 0;
+  std::span<const NoiseShare> shares{};  ///< none: `trial` alone; kept by who makes the noise
+  NoiseTape* tape = nullptr;             ///< hears of every deviate; for one thread
 
-  NormalStream stream(std::string_view name) const { return {seed, trial, name}; }
+  NormalStream stream(std::string_view name) const {
+    if (shares.empty() && tape == nullptr) return {seed, trial, name};
+    return {seed, trial, name, shares, tape == nullptr ? nullptr : &(*tape)[std::string(name)]};
+  }
 };
 
 }  // namespace gyrostat

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <gyrostat/experiments/findings/error_tables.hpp>
+#include <gyrostat/experiments/findings/failures.hpp>
 #include <gyrostat/experiments/findings/ranking.hpp>
 #include <gyrostat/experiments/findings/ranking_words.hpp>
 #include <gyrostat/experiments/findings/sensitivity.hpp>
@@ -59,10 +60,16 @@ std::vector<Table> RunTables::with_points(std::size_t most) const {
   return all;
 }
 
-RunTables run_tables(const Study& study, const Store& store, const std::vector<RanCell>& ran) {
+RunTables run_tables(const Study& study, const Store& store, const std::vector<RanCell>& ran,
+                     const std::filesystem::path& folder) {
   RunTables all;
   std::vector<CellRanking> rankings;
-  for (const auto& cell : ran) add_cell(study.cells[cell.index], store, cell, all, rankings);
+  for (const auto& r : ran) {
+    const auto& cell = study.cells[r.index];
+    add_cell(cell, store, r, all, rankings);
+    if (cell.failure)
+      all.tables.push_back(failure_table(cell, failure_findings(study, store, r.index, folder)));
+  }
   all.answer = answer_in_words(rankings);
   add_designs(study, store, all);
   return all;

@@ -20,7 +20,9 @@ struct RunTables {
   std::vector<Table> with_points(std::size_t most) const;
 };
 
-RunTables run_tables(const Study& study, const Store& store, const std::vector<RanCell>& ran);
+/// `folder` is the run's, where its failures are searched for.
+RunTables run_tables(const Study& study, const Store& store, const std::vector<RanCell>& ran,
+                     const std::filesystem::path& folder);
 
 /// Writes outcomes.csv.gz, tables.json and tables.md beside the store, each whole or not at all.
 void write_results(const std::filesystem::path& folder, const Store& store,

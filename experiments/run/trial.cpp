@@ -26,9 +26,13 @@ double uncompensated_rmse(const Series& series) {
 }  // namespace
 
 void make_trial(const Cell& cell, std::uint64_t seed, std::uint32_t trial, Series& series) {
-  if (!cell.recording) return synthesise(cell.scenario, {seed, trial}, series);
+  make_trial(cell, {seed, trial}, series);
+}
+
+void make_trial(const Cell& cell, const Noise& noise, Series& series) {
+  if (!cell.recording) return synthesise(cell.scenario, noise, series);
   const std::size_t samples = cell.scenario.sampling.samples();
-  series = cell.recording->slice(trial * samples, samples);
+  series = cell.recording->slice(noise.trial * samples, samples);
 }
 
 const Series& judged_series(const Cell& cell, const Series& series, Series& buffer) {
@@ -62,6 +66,8 @@ std::vector<double> judge_track(const Series& series, const Series& judged, cons
 
 Noise calibration_noise(std::uint64_t seed, std::uint32_t trial) { return {~seed, trial}; }
 
+Noise calibration_noise(const Noise& trial) { return {~trial.seed, trial.trial, trial.shares}; }
+
 ParameterMap told_parameters(const Cell& cell, const Method& method, const Calibration& calibration,
                              const Series& series) {
   ParameterMap parameters;
@@ -78,10 +84,14 @@ ParameterMap told_parameters(const Cell& cell, const Method& method, const Calib
 
 Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t trial,
                            Series& buffer) {
+  return calibrate_cell(cell, {seed, trial}, buffer);
+}
+
+Calibration calibrate_cell(const Cell& cell, const Noise& trial, Series& buffer) {
   if (cell.recording) return calibrate(cell.calibration_span, cell.calibration.method);
   Scenario scenario = cell.scenario;
   if (cell.calibration.duration_s > 0.0) scenario.sampling.duration_s = cell.calibration.duration_s;
-  synthesise(scenario, calibration_noise(seed, trial), buffer);
+  synthesise(scenario, calibration_noise(trial), buffer);
   return calibrate(buffer, cell.calibration.method);
 }
 
@@ -121,11 +131,10 @@ void append_thrown(Record& record, const std::string& thrown) {
 
 class TrialsTogether {
  public:
-  TrialsTogether(const Cell& cell, const Calibration& shared, std::uint64_t seed,
-                 std::span<const std::uint32_t> trials, std::span<Workspace> lanes)
+  TrialsTogether(const Cell& cell, const Calibration& shared, std::span<const Noise> trials,
+                 std::span<Workspace> lanes)
       : cell_(cell),
         shared_(shared),
-        seed_(seed),
         trials_(trials),
         lanes_(lanes),
         own_(trials.size()),
@@ -138,9 +147,9 @@ class TrialsTogether {
   void prepare() {
     for (std::size_t l = 0; l < trials_.size(); ++l) {
       auto& w = lanes_[l];
-      make_trial(cell_, seed_, trials_[l], w.series);
+      make_trial(cell_, trials_[l], w.series);
       if (cell_.calibration.each_trial && cell_.needs_calibration()) {
-        own_[l] = calibrate_cell(cell_, seed_, trials_[l], w.calibration_series);
+        own_[l] = calibrate_cell(cell_, trials_[l], w.calibration_series);
         records_[l].calibration_converged = own_[l].random_error.converged;
       }
       judged_[l] = &judged_series(cell_, w.series, w.denoised);
@@ -170,8 +179,7 @@ class TrialsTogether {
  private:
   const Cell& cell_;
   const Calibration& shared_;
-  std::uint64_t seed_;
-  std::span<const std::uint32_t> trials_;
+  std::span<const Noise> trials_;
   std::span<Workspace> lanes_;
   std::vector<Calibration> own_;
   std::vector<const Series*> judged_;
@@ -183,8 +191,16 @@ class TrialsTogether {
 std::vector<Record> run_trials_together(const Cell& cell, const Calibration& shared,
                                         std::uint64_t seed, std::span<const std::uint32_t> trials,
                                         std::vector<Workspace>& workspaces) {
+  std::vector<Noise> noises;
+  for (const auto trial : trials) noises.push_back({seed, trial});
+  return run_trials_together(cell, shared, noises, workspaces);
+}
+
+std::vector<Record> run_trials_together(const Cell& cell, const Calibration& shared,
+                                        std::span<const Noise> trials,
+                                        std::vector<Workspace>& workspaces) {
   if (workspaces.size() < trials.size()) workspaces.resize(trials.size());
-  TrialsTogether together(cell, shared, seed, trials, {workspaces.data(), trials.size()});
+  TrialsTogether together(cell, shared, trials, {workspaces.data(), trials.size()});
   const bool alone = trials.size() == 1;
   auto thrown = thrown_by([&] { together.prepare(); });
   const bool prepared = thrown.empty();
@@ -194,14 +210,18 @@ std::vector<Record> run_trials_together(const Cell& cell, const Calibration& sha
   }
   if (alone || thrown.empty()) return together.records_of_all();
   std::vector<Record> records;  // one by one, so that each is told of its own
-  for (const auto trial : trials)
-    records.push_back(run_trial(cell, shared, seed, trial, workspaces));
+  for (const auto& trial : trials) records.push_back(run_trial(cell, shared, trial, workspaces));
   return records;
+}
+
+Record run_trial(const Cell& cell, const Calibration& shared, const Noise& trial,
+                 std::vector<Workspace>& workspaces) {
+  return std::move(run_trials_together(cell, shared, {&trial, 1}, workspaces).front());
 }
 
 Record run_trial(const Cell& cell, const Calibration& shared, std::uint64_t seed,
                  std::uint32_t trial, std::vector<Workspace>& workspaces) {
-  return std::move(run_trials_together(cell, shared, seed, {&trial, 1}, workspaces).front());
+  return run_trial(cell, shared, Noise{seed, trial}, workspaces);
 }
 
 }  // namespace gyrostat

@@ -34,8 +34,9 @@ struct Workspace {
   std::vector<double> steps;
 };
 
-/// The signal of trial `trial` of a cell into `series`.
+/// The signal of trial `trial` of a cell into `series`, or that under any noise.
 void make_trial(const Cell& cell, std::uint64_t seed, std::uint32_t trial, Series& series);
+void make_trial(const Cell& cell, const Noise& noise, Series& series);
 
 /// What the methods' output is judged against: the series, with its rate denoised in `buffer` where
 /// the cell asks for that.
@@ -50,15 +51,18 @@ std::vector<double> judge_track(const Series& series, const Series& judged, cons
 
 /// Noise of signals that the trials of a study never see: for calibration and tuning.
 Noise calibration_noise(std::uint64_t seed, std::uint32_t trial);
+/// That of a trial's own calibration: mixed as the trial's.
+Noise calibration_noise(const Noise& trial);
 
 /// What the method is told for this signal, before its own overrides.
 ParameterMap told_parameters(const Cell& cell, const Method& method, const Calibration& calibration,
                              const Series& series);
 
 /// The calibration signal of trial `trial`, of the same scenario under other noise. The calibration
-/// for the whole cell is that of trial 0.
+/// for the whole cell is that of trial 0. Or that under the noise of any trial.
 Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t trial,
                            Series& buffer);
+Calibration calibrate_cell(const Cell& cell, const Noise& trial, Series& buffer);
 
 /// Trials that this machine runs best side by side: as many as its widest registers hold.
 std::uint32_t default_lanes();
@@ -76,7 +80,14 @@ std::vector<Record> run_trials_together(const Cell& cell, const Calibration& sha
                                         std::uint64_t seed, std::span<const std::uint32_t> trials,
                                         std::vector<Workspace>& workspaces);
 
+/// The same for trials of any noise.
+std::vector<Record> run_trials_together(const Cell& cell, const Calibration& shared,
+                                        std::span<const Noise> trials,
+                                        std::vector<Workspace>& workspaces);
+
 /// One of them.
+Record run_trial(const Cell& cell, const Calibration& shared, const Noise& trial,
+                 std::vector<Workspace>& workspaces);
 Record run_trial(const Cell& cell, const Calibration& shared, std::uint64_t seed,
                  std::uint32_t trial, std::vector<Workspace>& workspaces);
 

@@ -63,6 +63,7 @@ std::string study_digest(const Json& study, const std::string& path) {
       auto cell = SortedJson::parse(expanded.dump());
       cell.erase("trials");
       cell.erase("stop");
+      cell.erase("failure");
       if (cell.contains("pieces")) resolve_recording(cell["pieces"], folder);
       if (cell.contains("scenario") && cell["scenario"].contains("from_recording"))
         resolve_recording(cell["scenario"]["from_recording"], folder);

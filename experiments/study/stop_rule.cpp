@@ -1,31 +1,12 @@
 #include <gyrostat/experiments/study/stop_rule.hpp>
 
-#include <algorithm>
-
 #include <gyrostat/analysis/metric_type.hpp>
+#include <gyrostat/experiments/study/chosen_methods.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 #include <gyrostat/experiments/study/study_ranges.hpp>
 
 namespace gyrostat {
-namespace {
-
-std::vector<std::size_t> read_methods(JsonObject& object, const std::string& key,
-                                      const Cell& cell) {
-  std::vector<std::string> ids;
-  for (const auto& method : cell.methods) ids.push_back(method.id);
-  std::vector<std::size_t> chosen;
-  for (const auto& [value, place] : object.list(key)) {
-    const auto id = value->is_string() ? value->get<std::string>() : value->dump();
-    const auto found = std::find(ids.begin(), ids.end(), id);
-    if (found == ids.end()) throw InputError(place, unknown_name("method", id, ids));
-    chosen.push_back(static_cast<std::size_t>(found - ids.begin()));
-  }
-  return chosen;
-}
-
-}  // namespace
-
 StopRule read_stop(JsonObject object, const Cell& cell) {
   StopRule rule;
   rule.metric = metric_named(object.text("metric", std::string(judging_metric(cell))),
@@ -36,20 +17,13 @@ StopRule read_stop(JsonObject object, const Cell& cell) {
   if (object.has("separate") == object.has("half_width_below"))
     throw InputError(object.place(), "either \"separate\" or \"half_width_below\" is needed here");
   if (object.has("separate")) {
-    rule.methods = read_methods(object, "separate", cell);
+    rule.methods = chosen_methods(object, "separate", cell);
     rule.margin = object.number("margin", 0.0, ranges::non_negative, unit);
-    for (std::size_t i = 0; i < rule.methods.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        if (rule.methods[i] == rule.methods[j])
-          throw InputError(object.place_of("separate"), "a method stands twice");
     if (rule.methods.size() < 2)
       throw InputError(object.place_of("separate"), "at least two methods are needed here");
   } else {
     rule.half_width_below = object.number("half_width_below", 0.0, ranges::positive, unit);
-    rule.methods = read_methods(object, "methods", cell);
-    if (!object.has("methods"))
-      for (std::size_t m = 0; m < cell.methods.size(); ++m) rule.methods.push_back(m);
-    if (rule.methods.empty()) throw InputError(object.place_of("methods"), "the list is empty");
+    rule.methods = chosen_methods(object, "methods", cell);
   }
   object.finish();
   return rule;

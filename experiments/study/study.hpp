@@ -8,6 +8,7 @@
 
 #include <gyrostat/analysis/calibration.hpp>
 #include <gyrostat/experiments/study/design.hpp>
+#include <gyrostat/experiments/study/failure_rule.hpp>
 #include <gyrostat/experiments/study/json.hpp>
 #include <gyrostat/experiments/study/method.hpp>
 #include <gyrostat/experiments/study/stop_rule.hpp>
@@ -44,7 +45,8 @@ struct Cell {
   bool denoise =
       false;  ///< the rate is denoised by wavelet shrinkage before its error is judged [B]
   std::vector<Method> methods;
-  std::optional<StopRule> stop;  ///< before all trials are run
+  std::optional<StopRule> stop;        ///< before all trials are run
+  std::optional<FailureRule> failure;  ///< whose probability is asked for
 
   /// Whether any method starts from fitted parameters.
   bool needs_calibration() const;

@@ -11,6 +11,9 @@ inline constexpr Range budget{.from = 1, .to = 100000, .whole = true};
 inline constexpr Range points{.from = 1, .to = 1e6, .whole = true};
 inline constexpr Range levels{.from = 2, .to = 1000, .whole = true};
 inline constexpr Range first_look{.from = 10, .to = 1e8, .whole = true};
+inline constexpr Range runs{.from = 2, .to = 1000, .whole = true};
+inline constexpr Range level_samples{.from = 100, .to = 100000, .whole = true};
+inline constexpr Range subset_levels{.from = 1, .to = 20, .whole = true};
 inline constexpr Range share{.from = 0.0, .to = 1.0};
 inline constexpr Range seed{.from = 0, .to = 9007199254740992.0, .whole = true};
 

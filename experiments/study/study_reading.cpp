@@ -135,6 +135,9 @@ Cell read_cell(JsonObject object, const std::string& folder, FittedRecordings& f
     object.with_child("pieces", [&](JsonObject& pieces) { read_pieces(pieces, folder, cell); });
     if (object.has("stop") && listed)
       object.with_child("stop", [&](JsonObject& stop) { cell.stop = read_stop(stop, cell); });
+    if (object.has("failure") && listed)
+      object.with_child("failure",
+                        [&](JsonObject& rule) { cell.failure = read_failure(rule, cell); });
     object.finish();
   });
   if (sound) check_size(cell, object);
@@ -193,6 +196,9 @@ void add_design(GrowingStudy& growing, const Json& cell, const std::string& plac
   if (design.is_sampled() && cell.contains("stop"))
     throw InputError(place + ".stop",
                      "all points of a design of this kind run as many trials; leave it out");
+  if (design.is_sampled() && cell.contains("failure"))
+    throw InputError(place + ".failure",
+                     "points of a design of this kind are not asked for it; a \"grid\" is");
   design.first_cell = study.cells.size();
   for (const auto& [point, point_place] : cells_of(design, cell, place))
     add_read_cell(growing, point, point_place, place, folder, fits, mistakes);

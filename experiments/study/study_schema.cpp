@@ -248,6 +248,25 @@ Json stop() {
   return schema;
 }
 
+Json failure() {
+  const Json methods = {{"type", "array"},
+                        {"minItems", 1},
+                        {"items", {{"type", "string"}}},
+                        {"description", "whose failure is asked for; absent: all"}};
+  auto schema = object(
+      {{"metric", one_of(metric_types().ids(), "what fails a trial; one without a value fails")},
+       {"above", number(ranges::any, "a trial fails above it, in the metric's unit")},
+       {"below", number(ranges::any, "a trial fails below it, in the metric's unit")},
+       {"methods", methods},
+       {"runs", number(study_ranges::runs, 8, "independent runs of subset simulation")},
+       {"samples", number(study_ranges::level_samples, 380, "samples of each level of a run")},
+       {"levels", number(study_ranges::subset_levels, 10,
+                         "levels of a run at most, each a tenth as likely as the one before")}},
+      "a failure whose probability is asked for, however rare", {"metric"});
+  schema["oneOf"] = {{{"required", {"above"}}}, {{"required", {"below"}}}};
+  return schema;
+}
+
 Json cell() {
   auto name = text("how tables and addresses call it");
   name["pattern"] = R"(^[^"\u0000-\u001f]+$)";
@@ -286,7 +305,8 @@ Json cell() {
         {"description",
          "a cell for each combination: {\"scenario.random_error.phi\": [0.1, 0.5]}"}}},
       {"design", design()},
-      {"stop", stop()}};
+      {"stop", stop()},
+      {"failure", failure()}};
   return object(properties,
                 "one scenario, or one recording in pieces, with the filters tried on it");
 }

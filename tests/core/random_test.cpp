@@ -196,5 +196,56 @@ TEST(NormalStream, NoTwoOfManyAddressesAgree) {
   EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
 }
 
+/// What trials' deviates are mixed of is their sum, in whatever pieces it is drawn.
+TEST(MixedNoise, IsTheSumOfItsShares) {
+  const std::vector<NoiseShare> shares = {{3, 0.6}, {8, -0.8}};
+  const NormalStream mixed(1, 0, "a", shares, nullptr);
+  const auto one = normals(1, 3, "a", 1000), other = normals(1, 8, "a", 1000);
+  std::vector<double> drawn(990);
+  mixed.fill(7, drawn);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    EXPECT_EQ(drawn[i], 0.0 + 0.6 * one[i + 7] + -0.8 * other[i + 7]) << i;
+    EXPECT_EQ(drawn[i], mixed.normal(i + 7)) << i;
+  }
+}
+
+TEST(MixedNoise, OfOneTrialAloneIsThatTrial) {
+  const std::vector<NoiseShare> alone = {{5, 1.0}};
+  const Noise mixed{1, 0, alone};
+  std::vector<double> drawn(100);
+  mixed.stream("a").fill(0, drawn);
+  EXPECT_EQ(drawn, normals(1, 5, "a", 100));
+}
+
+/// A mixed uniform deviate is uniform: the largest distance of 20,000 from that has the law of
+/// Kolmogorov, beyond 2.2 with probability 1.3e-4.
+TEST(MixedNoise, UniformsStayUniform) {
+  constexpr std::size_t count = 20'000;
+  const std::vector<NoiseShare> shares = {{0, 0.6}, {1, 0.8}};
+  const NormalStream mixed(2, 0, "u", shares, nullptr);
+  std::vector<double> u(count);
+  for (std::size_t i = 0; i < count; ++i) u[i] = mixed.uniform(i);
+  std::sort(u.begin(), u.end());
+  EXPECT_GT(u.front(), 0.0);
+  EXPECT_LT(u.back(), 1.0);
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    farthest = std::max(farthest, std::abs(u[i] - (static_cast<double>(i) + 0.5) / count));
+  EXPECT_LT(farthest * std::sqrt(double(count)), 2.2);
+}
+
+TEST(MixedNoise, ATapeHoldsWhatWasDrawn) {
+  const std::vector<NoiseShare> shares = {{3, 0.6}, {8, -0.8}};
+  NoiseTape tape;
+  const Noise noise{1, 0, shares, &tape};
+  std::vector<double> drawn(10);
+  noise.stream("a").fill(4, drawn);
+  const double uniform = noise.stream("b").uniform(2);
+  ASSERT_EQ(tape.at("a").size(), 14U);
+  EXPECT_EQ(tape.at("a")[3], 0.0);
+  EXPECT_EQ(tape.at("a")[5], drawn[1]);
+  EXPECT_EQ(0.5 * std::erfc(-tape.at("b")[2] / std::numbers::sqrt2), uniform);
+}
+
 }  // namespace
 }  // namespace gyrostat::random_test

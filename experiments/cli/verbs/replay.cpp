@@ -6,6 +6,7 @@
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/findings/failures.hpp>
 #include <gyrostat/experiments/run/runner.hpp>
 #include <gyrostat/experiments/run/study_store.hpp>
 #include <gyrostat/experiments/study/address.hpp>
@@ -20,7 +21,8 @@ constexpr const char* replay_examples = R"(Examples:
   gyrostat replay STUDY:ramp:17:sr_ukf                     its outcome, from the study in runs/STUDY
   gyrostat replay runs/OTHER:ramp:17:sr_ukf                the folder of the run in the study's place
   gyrostat replay STUDY:ramp:17:sr_ukf --steps > steps.csv every step of it
-  gyrostat replay STUDY:ramp:17:sr_ukf --study STUDY.json  without a run)";
+  gyrostat replay STUDY:ramp:17:sr_ukf --study STUDY.json  without a run
+  gyrostat replay STUDY:ramp:failure:kf --steps            the most likely failing signal, see gyrostat failure)";
 
 struct ReplayArguments {
   std::string address, study, store;
@@ -93,7 +95,49 @@ std::string compared(const Store& store, const TrialAddress& at,
   return verdict;
 }
 
+/// "STUDY:ramp:failure:kf", the most likely failing signal, is a trial by another name.
+std::optional<std::string> as_a_trial(const std::string& address) {
+  constexpr std::string_view name = ":failure:";
+  const auto at = address.rfind(name);
+  if (at == std::string::npos || address.find(':', at + name.size()) != std::string::npos)
+    return std::nullopt;
+  return std::string(address).replace(at, name.size(), ":0:");
+}
+
+int replay_failure(const ReplayArguments& arguments, const std::string& as_trial,
+                   Console& console) {
+  const auto format = arguments.format.get();
+  const auto folder = store_of(arguments);
+  if (!fs::exists(folder / Store::file_name))
+    throw InputError(folder.string(), "there is no run here; name its folder with --store");
+  const Study study = stored_study(Store::open(folder));
+  const auto at = parse_address(as_trial, study);
+  auto prepared = prepare_cell(study.cells[at.cell], study.seed, 0);
+  const auto signal =
+      found_signal(study, static_cast<std::uint32_t>(at.cell), at.method, prepared, folder);
+  if (!signal)
+    throw InputError(arguments.address, "no failing signal is known: gyrostat failure " +
+                                            folder.string() + " tells how far the search is");
+  prepared.cell.methods = {prepared.cell.methods[at.method]};
+  std::vector<Workspace> workspaces(1);
+  const auto record = run_trial(prepared.cell, prepared.calibration,
+                                Noise{failure_seed(study), 0, signal->shares}, workspaces);
+  if (!record.thrown[0].empty())
+    throw std::runtime_error(arguments.address + ": " + record.thrown[0]);
+  if (arguments.steps) {
+    print_steps(workspaces[0].series, workspaces[0].track, console.out);
+    return complete;
+  }
+  auto table = outcome_table(arguments.address, record.of(0), "");
+  table.notes.push_back(
+      "the most likely failing signal: deviates that failing trials have in common");
+  console.out << render({&table, 1}, format);
+  return complete;
+}
+
 int run(const ReplayArguments& arguments, Console& console) {
+  if (const auto trial = as_a_trial(arguments.address))
+    return replay_failure(arguments, *trial, console);
   const auto format = arguments.format.get();
   Study study = study_of(arguments);
   admit_stored_trials(study, store_of(arguments));
@@ -128,7 +172,9 @@ int run(const ReplayArguments& arguments, Console& console) {
 void add_replay(CLI::App& program, Console& console, int& exit_code) {
   auto* verb = program.add_subcommand("replay", "run one filter in one trial of a study again");
   auto arguments = std::make_shared<ReplayArguments>();
-  verb->add_option("address", arguments->address, "study:cell:trial:filter")->required();
+  verb->add_option("address", arguments->address,
+                   "study:cell:trial:filter, or failure as the trial")
+      ->required();
   verb->add_option("--study", arguments->study,
                    "study file (default: the study that the run keeps)");
   verb->add_option("--store", arguments->store, "folder of the run (default: runs/<study>)");

@@ -8,6 +8,7 @@
 #include <gyrostat/experiments/cli/progress.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/findings/run_tables.hpp>
+#include <gyrostat/experiments/run/failure_run.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/experiments/run/time_of_day.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
@@ -100,16 +101,18 @@ int run(const RunArguments& arguments, Console& console) {
   make_result_folder(folder);
   Stopper stopper(console.stop.orderly(stopped), until);
   std::optional<Progress> bar;
-  StudyRun run(std::move(study), folder,
-               {.shard = shard,
-                .threads = arguments.threads,
-                .lanes = arguments.lanes,
-                .mismatch = arguments.set_aside ? Mismatch::set_aside
-                            : arguments.mix     ? Mismatch::mix
-                                                : Mismatch::refuse},
-               stopper, watcher_of(console, bar));
+  const StudyRunOptions options{.shard = shard,
+                                .threads = arguments.threads,
+                                .lanes = arguments.lanes,
+                                .mismatch = arguments.set_aside ? Mismatch::set_aside
+                                            : arguments.mix     ? Mismatch::mix
+                                                                : Mismatch::refuse};
+  StudyRun run(std::move(study), folder, options, stopper, watcher_of(console, bar));
   try {
-    const auto tables = run_tables(run.study(), run.store(), run.run());
+    const auto ran = run.run();
+    run_failures(run.study(), run.store(), ran, folder, options, stopper.flag(),
+                 watcher_of(console, bar));
+    const auto tables = run_tables(run.study(), run.store(), ran, folder);
     write_results(folder, run.store(), tables);  // first, for who reads what is printed may leave
     const int code = ended(run, folder, stopper, console);
     print_answer(console, format, tables.answer);

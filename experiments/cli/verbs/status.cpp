@@ -6,6 +6,7 @@
 #include <gyrostat/experiments/cli/answer.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/findings/failures.hpp>
 #include <gyrostat/experiments/run/stopping.hpp>
 #include <gyrostat/experiments/run/study_store.hpp>
 #include <gyrostat/experiments/study/address.hpp>
@@ -85,6 +86,30 @@ Table stops_table(const Store& store) {
   return table;
 }
 
+/// How far the searches for failures are, where there are any.
+Table searches_table(const Store& store, const std::filesystem::path& folder) {
+  Table table{
+      .title = "searches for failures",
+      .columns = {
+          {"cell", ""}, {"method", ""}, {"trials", ""}, {"levels", ""}, {"runs ended", ""}}};
+  const auto study = stored_study(store);
+  for (std::uint32_t c = 0; c < study.cells.size(); ++c) {
+    if (!study.cells[c].failure) continue;
+    for (const auto& f : failure_findings(study, store, c, folder)) {
+      if (!f.search) continue;
+      std::size_t levels = 0, ended = 0;
+      for (const auto& run : f.search->runs()) {
+        levels = std::max(levels, run.levels().size());
+        ended += run.asked().empty();
+      }
+      table.rows.push_back({study.cells[c].name, f.method, std::int64_t{f.search->trials()},
+                            static_cast<std::int64_t>(levels),
+                            out_of(ended, f.search->runs().size())});
+    }
+  }
+  return table;
+}
+
 /// "ramp: 10/40, 3 trials/s, 10 s left, widest ± 0.01 (kf)", of what a session noted last.
 std::string last_words(const Session& session) {
   const auto p = Json::parse(session.progress, nullptr, false);
@@ -155,6 +180,9 @@ int run(const StatusArguments& arguments, Console& console) {
     tables = {cells_table(store, manifest), sessions_table(store)};
   if (!arguments.failures && manifest.source.find("\"stop\"") != std::string::npos)
     tables.insert(tables.begin() + 1, stops_table(store));
+  if (!arguments.failures && manifest.source.find("\"failure\"") != std::string::npos)
+    if (auto searches = searches_table(store, arguments.folder); !searches.rows.empty())
+      tables.push_back(std::move(searches));
   if (!arguments.failures) print_answer(console, format, status_answer(store, manifest));
   console.out << render(tables, format);
   return complete;

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gyrostat/core/table.hpp>
+#include <gyrostat/experiments/run/failure_signal.hpp>
+
+namespace gyrostat {
+
+/// How likely a method fails as its cell asks for.
+struct FailureFinding {
+  std::string method;
+  PlainFailures plain;
+  std::optional<FailureSearch> search;  ///< where plain trials do not tell it
+  std::optional<RareProbability> rare;  ///< once every run of the search has reached the threshold
+};
+
+/// What a run's folder tells of the failure of a cell, number `index` of `study`; one finding a
+/// method of its rule. `plain` is the run's store.
+std::vector<FailureFinding> failure_findings(const Study& study, const Store& plain,
+                                             std::uint32_t index,
+                                             const std::filesystem::path& folder);
+
+/// One row a method, with a sentence for each as notes.
+Table failure_table(const Cell& cell, const std::vector<FailureFinding>& findings);
+
+/// The levels of the searches: thresholds, shares and acceptance, means over the runs.
+Table failure_levels(const Cell& cell, const std::vector<FailureFinding>& findings);
+
+/// The place of a method of a cell in failure_study(study).
+std::uint32_t failure_index(const Study& study, std::uint32_t index, std::size_t method);
+
+/// How a method of a cell fails, from a run's folder; nothing where the search has not ended at
+/// its threshold or failing trials have nothing in common.
+std::optional<FailureSignal> found_signal(const Study& study, std::uint32_t index,
+                                          std::size_t method, const PreparedCell& prepared,
+                                          const std::filesystem::path& folder);
+
+/// What drives it: the share of each noise in the design point. The note compares its distance with
+/// the reliability index: they are the same where the failure is a half-space, or two of them.
+Table driver_table(const Study& study, const Cell& cell, const FailureFinding& finding,
+                   const FailureSignal& signal);
+
+}  // namespace gyrostat
