@@ -20,6 +20,8 @@ struct ThermalParameters : ThermalDrift<T> {
   T initial_c_std_dps{0.05};
   T bias_measurement_std_dps{0.01};
   T update_interval_s{10.0};
+  T follows_temperature{0.0};
+  T keeps_bias{0.0};
 
   static constexpr auto fields() {
     using P = ThermalParameters;
@@ -36,6 +38,12 @@ struct ThermalParameters : ThermalDrift<T> {
                   "standard deviation of one bias measurement M"},
             Field{"update_interval_s", &P::update_interval_s, "s", ranges::positive,
                   "time between compass updates"},
+            Field{
+                "follows_temperature", &P::follows_temperature, "1", ranges::flag,
+                "between updates, 1: a, b, c are held and the bias follows T; 0: the bias is held"},
+            Field{"keeps_bias", &P::keeps_bias, "1", ranges::flag,
+                  "where an update fails for want of a compass, 1: the last bias stays; 0: it "
+                  "follows T and T' by the last a, b, c"},
         });
   }
 

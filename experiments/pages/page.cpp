@@ -138,7 +138,9 @@ std::vector<NamedTable> source_tables(const Page& page, const Json& source,
     const auto name = object.text("name", "match");
     const Match wanted = read_match(beside(page, object.text("match", "")));
     auto made = match_tables(wanted, match(wanted));
-    tables = {{name + "_scenario", std::move(made[0])}, {name, std::move(made[1])}};
+    tables = {{name + "_scenario", std::move(made[0])},
+              {name, std::move(made[1])},
+              {name + "_summary", std::move(made[2])}};
   } else if (object.has("coverage")) {
     const auto wanted = read_coverage(beside(page, object.text("coverage", "")));
     tables = {{"coverage", coverage_table(wanted, measure_coverage(wanted, run))}};

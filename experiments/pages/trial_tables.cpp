@@ -7,38 +7,20 @@
 #include <gyrostat/analysis/error_series.hpp>
 #include <gyrostat/analysis/errors.hpp>
 #include <gyrostat/analysis/spectra/allan.hpp>
+#include <gyrostat/experiments/pages/played.hpp>
 
 namespace gyrostat::tabling {
 namespace {
 
-/// The tracks of one trial's methods.
-struct Played {
-  Series series;
-  std::vector<std::string> ids;
-  std::vector<Track> tracks;
-};
-
-Played play(const Request& request, Results& results, const Cell& plain) {
-  const auto& result = results.of(plain);
-  const Cell cell = with_tuned(plain, result.tuned);
-  Played played;
-  Series buffer;
-  make_trial(cell, results.study().seed, request.trial, played.series);
-  for (const std::size_t m : methods_of(request, cell)) {
-    const auto& method = cell.methods[m];
-    played.ids.push_back(method.id);
-    track_method(method, told_parameters(cell, method, result.calibration, played.series),
-                 played.series, played.tracks.emplace_back());
-  }
-  return played;
+Played played_for(const Request& request, Results& results, const Cell& cell) {
+  return play(cell, results.of(cell), results.study().seed, request.trial,
+              methods_of(request, cell));
 }
 
-std::vector<double> traced(const Request& request, const Series& series, const Track& track) {
-  if (request.quantity == "heading") return heading_errors_deg(series, track);
-  if (request.quantity == "estimate") return track.estimate_dps;
-  std::vector<double> values(series.size());
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = rate_error_dps(series, track, i);
-  return values;
+std::vector<double> traced(const Request& request, const Played& played, std::size_t m) {
+  if (request.quantity == "heading") return heading_errors_deg(played.series, played.tracks[m]);
+  if (request.quantity == "estimate") return played.tracks[m].estimate_dps;
+  return played.rate_errors_dps(m);
 }
 
 void add_binned(Table& table, const std::string& name, const std::string& unit, bool spread,
@@ -57,7 +39,7 @@ void add_binned(Table& table, const std::string& name, const std::string& unit, 
 
 Table traces(const Request& request, Results& results) {
   const Cell& cell = *request.cells.front();
-  const auto played = play(request, results, cell);
+  const auto played = played_for(request, results, cell);
   const std::size_t points = std::min(request.points, played.series.size());
   Table table{.title = request.title, .columns = {}};
   table.rows.resize(points);
@@ -72,8 +54,8 @@ Table traces(const Request& request, Results& results) {
     add_binned(table, "truth", "dps", false, truth, points);
   }
   for (std::size_t m = 0; m < played.ids.size(); ++m)
-    add_binned(table, played.ids[m], heading ? "deg" : "dps", rate,
-               traced(request, played.series, played.tracks[m]), points);
+    add_binned(table, played.ids[m], heading ? "deg" : "dps", rate, traced(request, played, m),
+               points);
   table.notes.push_back(fmt::format("{}, trial {}: {} of each of {} intervals", cell.name,
                                     request.trial, rate ? "mean and standard deviation" : "mean",
                                     points));
@@ -82,13 +64,11 @@ Table traces(const Request& request, Results& results) {
 
 Table allan(const Request& request, Results& results) {
   const Cell& cell = *request.cells.front();
-  const auto played = play(request, results, cell);
+  const auto played = played_for(request, results, cell);
   Table table{.title = request.title, .columns = {{"tau", "s"}}};
   for (std::size_t m = 0; m < played.ids.size(); ++m) {
-    std::vector<double> error(played.series.size());
-    for (std::size_t i = 0; i < error.size(); ++i)
-      error[i] = rate_error_dps(played.series, played.tracks[m], i);
-    const auto points = overlapping_allan_deviation(error, played.series.rate_hz());
+    const auto points =
+        overlapping_allan_deviation(played.rate_errors_dps(m), played.series.rate_hz());
     table.rows.resize(points.size());
     for (const char* prefix : {"", "lower ", "upper "})
       table.columns.push_back({prefix + played.ids[m], "dps"});

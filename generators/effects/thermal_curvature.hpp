@@ -10,10 +10,12 @@
 
 namespace gyrostat::effects {
 
-/// Quadratic bias over temperature: B += curvature (T - reference)^2.
+/// Bias that is no line over temperature:
+///   B += curvature (T - reference)^2 + cubic (T - reference)^3.
 struct ThermalCurvature {
   double curvature_dps_per_C2 = 1e-4;
   double reference_C = 40.0;
+  double cubic_dps_per_C3 = 0.0;
 
   static constexpr std::string_view title = "bias curves with temperature";
   static constexpr Stage stage = Stage::sensing;
@@ -25,15 +27,18 @@ struct ThermalCurvature {
         Field{"curvature_dps_per_C2", &P::curvature_dps_per_C2, "dps/°C²", ranges::any,
               "quadratic coefficient"},
         Field{"reference_C", &P::reference_C, "°C", ranges::any, "temperature without effect"},
+        Field{"cubic_dps_per_C3", &P::cubic_dps_per_C3, "dps/°C³", ranges::any,
+              "cubic coefficient"},
     };
   }
 
-  static constexpr ThermalCurvature absent() { return {.curvature_dps_per_C2 = 0.0}; }
+  static constexpr ThermalCurvature absent() { return {.curvature_dps_per_C2 = 0.0, .cubic_dps_per_C3 = 0.0}; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
       const double difference = series.temperature_C[i] - reference_C;
-      series.thermal_bias_dps[i] += curvature_dps_per_C2 * difference * difference;
+      series.thermal_bias_dps[i] +=
+          (curvature_dps_per_C2 + cubic_dps_per_C3 * difference) * difference * difference;
     }
   }
 };

@@ -231,6 +231,52 @@ TYPED_TEST(ThermalFilter, HoldsItsBiasBetweenEpochs) {
   }
 }
 
+TYPED_TEST(ThermalFilter, FollowsTheTemperatureBetweenEpochsOnRequest) {
+  auto p = vague<typename TypeParam::Parameters>();
+  p.follows_temperature = 1.0;
+  TypeParam follows(p), holds(vague<typename TypeParam::Parameters>());
+  const auto samples = record(20, 0.0, 0.05);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double estimate = follows.step(samples[i]).estimate_dps;
+    const double held = holds.step(samples[i]).estimate_dps;
+    // What is learnt does not depend on what is compensated meanwhile, but for rounding.
+    const auto& learnt = follows.rule().coefficients().mean;
+    EXPECT_LT((learnt - holds.rule().coefficients().mean).norm(), 1e-9);
+    if (i % steps_per_epoch == 0)
+      EXPECT_NEAR(estimate, held, 1e-9);
+    else
+      EXPECT_NEAR(
+          estimate - held,
+          learnt(0) * (samples[i].temperature_C - samples[i - i % steps_per_epoch].temperature_C),
+          1e-9);
+  }
+}
+
+/// Until the rule has learnt again, which a Kalman filter on three successive M does two intervals
+/// after the first that is valid; MLR, which learns nothing, is back with the compass.
+TYPED_TEST(ThermalFilter, KeepsItsBiasWithoutACompassOnRequest) {
+  auto samples = record(100, 5.0, 0.05);
+  for (std::size_t i = 40 * steps_per_epoch; i < 70 * steps_per_epoch; ++i)
+    samples[i].heading_deg = no_value;
+  constexpr bool is_kalman =
+      std::is_same_v<TypeParam, ThermalKf<double>> || std::is_same_v<TypeParam, ThermalStf<double>>;
+  const std::size_t back = (is_kalman ? 73 : 71) * steps_per_epoch;
+  for (const double follows_temperature : {0.0, 1.0}) {
+    auto p = vague<typename TypeParam::Parameters>();
+    static_cast<ThermalDrift<double>&>(p) = truth;
+    p.keeps_bias = 1.0;
+    p.follows_temperature = follows_temperature;
+    TypeParam filter(p);
+    double before = 0.0;
+    for (std::size_t i = 0; i <= back; ++i) {
+      const double estimate = filter.step(samples[i]).estimate_dps;
+      if (i == 40 * steps_per_epoch - 1) before = estimate;
+      if (i >= 40 * steps_per_epoch && i < back) EXPECT_EQ(estimate, before) << i;
+      if (i == back) EXPECT_NE(estimate, before);
+    }
+  }
+}
+
 TEST(ThermalMlr, KeepsItsCoefficientsWhateverTheData) {
   ThermalParameters<double> p;
   static_cast<ThermalDrift<double>&>(p) = {

@@ -41,6 +41,15 @@ TEST(ThermalCurvature, IsTheParabolaAboutItsReference) {
   EXPECT_DOUBLE_EQ(bias[3], 2e-4);
 }
 
+TEST(ThermalCurvature, AddsACubicAboutTheSameReference) {
+  const auto bias = drift(
+      ThermalCurvature{.curvature_dps_per_C2 = 2e-4, .reference_C = 40.0, .cubic_dps_per_C3 = 1e-5},
+      {40.0, 30.0, 50.0});
+  EXPECT_EQ(bias[0], 0.0);
+  EXPECT_DOUBLE_EQ(bias[1], 0.01);
+  EXPECT_DOUBLE_EQ(bias[2], 0.03);
+}
+
 TEST(ThermalHysteresis, ALongMoveOneWayEndsOnThePlusOrMinusBranch) {
   const ThermalHysteresis hysteresis{.amplitude_dps = 0.01, .width_C = 3.0};
   EXPECT_DOUBLE_EQ(drift(hysteresis, moves({20.0, 40.0})).back(), 0.01);

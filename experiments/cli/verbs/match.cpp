@@ -13,13 +13,14 @@ constexpr const char* match_examples = R"(Examples:
 struct MatchArguments {
   std::string match;
   std::string study_out;
+  int threads = 0;
   FormatOption format;
 };
 
 int run(const MatchArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const Match match = read_match(arguments.match);
-  const auto result = run_match(match, console.log);
+  const auto result = run_match(match, console.log, arguments.threads);
   if (!arguments.study_out.empty())
     write_atomically(arguments.study_out, result.study.dump(2) + '\n');
   console.out << render(match_tables(match, result), format);
@@ -34,6 +35,8 @@ void add_match(CLI::App& program, Console& console, int& exit_code) {
   auto arguments = std::make_shared<MatchArguments>();
   verb->add_option("match", arguments->match, "match file (JSON)")->required();
   verb->add_option("--study", arguments->study_out, "write the study at the scenario found");
+  verb->add_option("--threads", arguments->threads, "threads (default: all)")
+      ->check(CLI::Range(1, 1024));
   arguments->format.add_to(verb);
   verb->footer(match_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

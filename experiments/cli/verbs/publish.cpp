@@ -51,7 +51,7 @@ std::vector<NamedTable> made(const PublishArguments& arguments, const Page& page
       wanted.evaluations = 5;
       for (auto& cell : wanted.study["cells"]) cell["tuning"] = {{"trials", 2}, {"evaluations", 5}};
     }
-    return run_match(wanted, console.log);
+    return run_match(wanted, console.log, arguments.threads);
   };
   return page_tables(page, run, match);
 }

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <gyrostat/tests/program.hpp>
 
@@ -30,23 +33,37 @@ Ended ledger(const std::string& claim) {
   return run_program(folder, {"ledger", "ledger.json", "--format", "csv"});
 }
 
-/// The first row of the claims: its last cell is the verdict.
-std::string verdict(const std::string& claim) {
-  const auto ended = ledger(claim);
+/// Claim, source, measured, difference, verdict and most favourable reading of the first claim of
+/// a ledger with these claims, the empty ones empty.
+std::vector<std::string> judged(const std::string& claims) {
+  const TestFolder folder;
+  folder.write("study.json", study);
+  folder.write("ledger.json", R"({"title": "t", "claims": [)" + claims + "]}");
+  const auto ended = run_program(folder, {"ledger", "ledger.json", "--format", "json"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  const auto start = ended.out.find("\nc,");
-  const auto row = ended.out.substr(start + 1, ended.out.find('\n', start + 1) - start - 1);
-  return row.substr(row.find_last_of(row.ends_with('"') ? "\"" : ",", row.size() - 2) + 1);
+  std::vector<std::string> cells;
+  for (const auto& cell : nlohmann::json::parse(ended.out)[0]["rows"][0])
+    cells.push_back(cell.is_string() ? cell.get<std::string>() : "");
+  return cells;
 }
 
+std::string claim_of(const std::string& keys) {
+  return R"({"claim": "c", "study": "study.json", )" + keys + "}";
+}
+
+std::string verdict(const std::string& keys) { return judged(claim_of(keys))[4]; }
+
 TEST(Ledger, DecidesWhatIsKnown) {
-  EXPECT_EQ(verdict(R"("method": "oracle", "than": "none", "metric": "bias_rmse")"), "holds");
+  EXPECT_EQ(verdict(R"("method": "oracle", "than": "none", "metric": "bias_rmse")"),
+            "holds in these 2 scenarios");
   EXPECT_EQ(verdict(R"("method": "none", "than": "oracle", "metric": "bias_rmse")"),
-            "does not hold");
+            "does not hold in these 2 scenarios");
   EXPECT_EQ(verdict(R"("method": "none", "than": "oracle", "metric": "bias_rmse", "above": 1)"),
-            "holds");
-  EXPECT_EQ(verdict(R"("method": "kf", "than": "again", "metric": "bias_rmse")"), "equal");
-  EXPECT_EQ(verdict(R"("method": "none", "metric": "rate_std", "value": 1)"), "holds");
+            "holds in these 2 scenarios");
+  EXPECT_EQ(verdict(R"("method": "kf", "than": "again", "metric": "bias_rmse")"),
+            "equal in these 2 scenarios");
+  EXPECT_EQ(verdict(R"("method": "none", "metric": "rate_std", "value": 0.05, "cells": ["quiet"])"),
+            "holds in this scenario");
   EXPECT_EQ(verdict(R"("method": "oracle", "metric": "rate_std", "value": 0.05)"),
             "holds only in quiet");
 }
@@ -54,11 +71,48 @@ TEST(Ledger, DecidesWhatIsKnown) {
 TEST(Ledger, ComparesCellsByTheirTrials) {
   EXPECT_EQ(
       verdict(R"("method": "kf", "metric": "bias_rmse", "cells": ["quiet"], "than_cell": "loud")"),
-      "holds");
+      "holds in this scenario");
   EXPECT_EQ(
       verdict(
           R"("method": "none", "metric": "bias_rmse", "cells": ["quiet"], "than_cell": "loud")"),
-      "equal");  // the random error is the same, draw by draw
+      "equal in this scenario");  // the random error is the same, draw by draw
+}
+
+/// White noise of 0.1 dps has an Allan deviation of 0.1 sqrt(0.05 s / tau) dps, that of the walk in
+/// "none" only adds to it: below 0.2 at every tau, above 0.05 at the shortest alone (0.1; at 4 s
+/// the two come to 0.03 dps). Thirty trials, so that a mean is known to 3 %.
+TEST(Ledger, JudgesAllanDeviationsAtEachTau) {
+  const std::string none = R"("method": "none", "cells": ["loud"], "allan_tau_s": [0.05, 4], )";
+  EXPECT_EQ(verdict(none + R"("value": 0.2)"), "holds in these 2 scenarios");
+  EXPECT_EQ(verdict(none + R"("value": 0.05, "above": 1)"), "holds only in loud at 0.05 s");
+  EXPECT_EQ(verdict(R"("method": "kf", "than": "again", "allan_tau_s": [1])"),
+            "equal in these 2 scenarios");
+  EXPECT_EQ(verdict(R"("method": "none", "cells": ["loud"], "allan_tau_s": [100], "value": 1)"),
+            "not separable in this scenario");  // there is no such tau in ten seconds
+}
+
+TEST(Ledger, KeepsAnOrderUnderTheExponentialCost) {
+  EXPECT_EQ(verdict(R"("method": "oracle", "than": "none", "metric": "bias_rmse",
+                       "exponential_per_dps2": 100)"),
+            "holds in these 2 scenarios");
+}
+
+TEST(Ledger, TellsTheMostFavourableReadingOfWhatDoesNotHold) {
+  const auto wrong =
+      claim_of(R"("of": "A", "method": "none", "than": "oracle", "metric": "bias_rmse")");
+  const auto right = claim_of(
+      R"("of": "A", "method": "oracle", "than": "none", "metric": "bias_rmse", "cells": ["quiet"])");
+  const auto other = claim_of(R"("of": "B", "method": "none", "metric": "rate_std", "value": 1)");
+  EXPECT_THAT(judged(wrong + "," + other + "," + right)[5],
+              HasSubstr("bias_rmse of oracle below that of none in quiet: holds"));
+  EXPECT_THAT(judged(wrong + "," + other)[5], HasSubstr("does not hold"));
+  EXPECT_EQ(judged(right + "," + wrong)[5], "");
+}
+
+TEST(Ledger, SaysWhatItDoesNotJudge) {
+  const auto row = judged(R"({"claim": "c", "not_judged": "no sensor of that kind"})" +
+                          ("," + claim_of(R"("method": "kf", "than": "none", "metric": "nis")")));
+  EXPECT_EQ(row[4], "not judged: no sensor of that kind");
 }
 
 void expect_one_line(const Ended& ended, const std::string& naming) {
@@ -75,6 +129,7 @@ TEST(Ledger, NamesEveryMistakeInOneLine) {
   expect_one_line(ledger(R"("method": "kf", "metric": "bias_rmse", "cells": [1])"), "cells[0]");
   expect_one_line(ledger(R"("method": "kf", "metric": "bias_rmse", "than_cell": "lod")"), "loud");
   expect_one_line(ledger(R"("method": "kf", "metric": "bias_rmse", "absolut": 1)"), "absolute");
+  expect_one_line(ledger(R"("method": "kf", "value": 1, "allan_tau_s": [-1])"), "-1 s");
   const TestFolder folder;
   folder.write("ledger.json", R"({"claims": []})");
   expect_one_line(run_program(folder, {"ledger", "ledger.json"}), "claims");
@@ -104,6 +159,53 @@ TEST(Match, FindsTheNoiseBehindAPublishedNumber) {
   EXPECT_NEAR(std::stod(ended.out.substr(row + 26)), 0.19, 0.03);
 }
 
+/// As above, by the other search and the other loss.
+TEST(Match, FindsItByTheCovarianceSearchToo) {
+  const auto ended = match(std::string(R"("search": "covariance", "loss": "met", )") + target);
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("1 of 1 within their tolerance"));
+}
+
+/// One evaluation, in the middle of the bounds, finds nothing that the start does not beat.
+TEST(Match, GoesOnFromWhereAnEarlierSearchEnded) {
+  const std::string from_middle(target);
+  const auto at = from_middle.find("\"high\"");
+  const auto from_start = from_middle.substr(0, at) + "\"start\": 0.19, " + from_middle.substr(at);
+  const auto once = [](const std::string& keys) {
+    const TestFolder folder;
+    folder.write("study.json", study);
+    folder.write("match.json", R"({"study": "study.json", "trials": 4, "evaluations": 1,
+                                   "rounds": 1, )" +
+                                   keys + "}");
+    return run_program(folder, {"match", "match.json", "--format", "csv"}).out;
+  };
+  EXPECT_THAT(once(from_middle), HasSubstr("0 of 1 within their tolerance"));
+  EXPECT_THAT(once(from_start), HasSubstr("1 of 1 within their tolerance"));
+}
+
+/// A parameter of one cell leaves the other alone: its 0.1 dps of noise stay.
+TEST(Match, SetsAParameterInTheCellsThatItNames) {
+  const auto ended = match(R"("free": [{"path": "scenario.random_error.measurement_noise_std_dps",
+                                       "low": 0.001, "high": 1, "cells": ["quiet"]}],
+      "targets": [
+        {"cell": "quiet", "method": "none", "metric": "rate_std", "value": 0.2, "tolerance": 0.025},
+        {"cell": "loud", "method": "none", "metric": "rate_std", "value": 0.11, "tolerance": 0.02}])");
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("2 of 2 within their tolerance"));
+}
+
+/// Means of the noise beside what was published: in order for the oracle and none, not for two that
+/// are the same filter.
+TEST(Match, TellsWhetherTheMethodsStandInThePublishedOrder) {
+  const auto ended = match(R"("free": [], "targets": [
+        {"cell": "quiet", "method": "none", "metric": "bias_rmse", "value": 9, "tolerance": 1},
+        {"cell": "quiet", "method": "oracle", "metric": "bias_rmse", "value": 8, "tolerance": 1},
+        {"cell": "loud", "method": "kf", "metric": "bias_rmse", "value": 9, "tolerance": 1},
+        {"cell": "loud", "method": "again", "metric": "bias_rmse", "value": 8, "tolerance": 1}])");
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr(",0,4,bias_rmse quiet,2,"));
+}
+
 TEST(Match, IsTheSameEveryTime) { EXPECT_EQ(match(target).out, match(target).out); }
 
 TEST(Match, NamesEveryMistakeInOneLine) {
@@ -122,6 +224,11 @@ TEST(Match, NamesEveryMistakeInOneLine) {
   expect_one_line(match(R"("free": [{"path": "trials", "low": 2, "high": 1}], "targets": [])"),
                   "low");
   expect_one_line(match(std::string(target) + R"(, "tirals": 3)"), "trials");
+  expect_one_line(match(std::string(target) + R"(, "search": "covarance")"), "covariance");
+  expect_one_line(match(std::string(target) + R"(, "loss": "mets")"), "met");
+  expect_one_line(match(R"("free": [{"path": "trials", "low": 1, "high": 2, "cells": ["quit"]}],
+                           "targets": [])"),
+                  "quiet");
 }
 
 std::string tuned_study(const std::string& tune) {
