@@ -65,7 +65,7 @@ Ended run(const RunArguments& arguments, Work& work) {
                  work.tell(to_text(now), now.trials ? double(now.finished) / now.trials : 1.0);
                }});
   try {
-    const auto tables = run_tables(run.study(), run.store(), run.run());
+    const auto tables = run_tables(run.study(), run.store(), run.run(), arguments.folder);
     write_results(arguments.folder, run.store(), tables);
     const bool over = run.over_budget();
     run.log().write("end", {{"stopped", stopper.flag().load()}, {"failed", run.failed()}});

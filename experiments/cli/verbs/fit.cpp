@@ -57,8 +57,7 @@ int run(const FitArguments& arguments, Console& console) {
         allan_picture(found.left, recording.file + ": Allan deviation without drift"),
         found.tables);
   json.update(Json::parse(found.json));
-  if (!arguments.json.empty()) write_atomically(arguments.json, json.dump(1) + '
-');
+  if (!arguments.json.empty()) write_atomically(arguments.json, json.dump(1) + '\n');
   console.out << render(found.tables, format);
   return found.converged ? complete : error;
 }
