@@ -82,9 +82,13 @@ constexpr const char* not_told = "phi and delta2 cannot be told and are held at 
 /// A memory of samples is told by a stretch in the middle, a walk by means over all of it.
 ArimaFit fit_of_long(std::span<const double> rate, FitMethod method) {
   const std::size_t first = (rate.size() - longest_fitted) / 2;
-  auto fit = fit_random_error(rate.subspan(first, longest_fitted), method);
-  const bool remembers = fit.parameters.phi != 0.0 || fit.parameters.delta2_dps != 0.0;
-  if (fit.cluster == 1 && remembers) {
+  const auto middle = rate.subspan(first, longest_fitted);
+  auto fit = fit_random_error(middle, method);
+  // Chi-squared of two parameters more than a walk's, at 1 %.
+  constexpr double clear = 9.21;
+  if (fit.cluster == 1 && 2.0 * (arima_log_likelihood(fit.parameters, middle) -
+                                 fit_walk_likelihood(middle).objective) >
+                              clear) {
     fit.first = first;
     fit.message += "; fitted to the " + std::to_string(longest_fitted) +
                    " samples in the middle, which tell a memory as short as that";

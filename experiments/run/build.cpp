@@ -27,12 +27,13 @@ constexpr std::string_view before_plugins = " with ";
 
 Build build_for(const Study& study) {
   std::set<std::string> plugins;
-  const auto note = [&](const auto& type) {
-    if (!type.code.empty()) plugins.insert(fmt::format("{} {}", type.id, type.code));
+  const auto note = [&](const auto* type) {
+    if (type != nullptr && !type->code.empty())
+      plugins.insert(fmt::format("{} {}", type->id, type->code));
   };
   for (const auto& cell : study.cells) {
-    for (const auto& method : cell.methods) note(method.type());
-    for (const auto& effect : cell.scenario.effects) note(effect.type());
+    for (const auto& method : cell.methods) note(filter_types().find(method.filter));
+    for (const auto& effect : cell.scenario.effects) note(&effect.type());
   }
   auto build = this_build();
   if (!plugins.empty())

@@ -52,7 +52,7 @@ class Studies(InAFolder):
     def test_rankings_pictures_and_the_report_are_shown(self):
         run = gyrostat.run(small(), "shown", progress=False)
         ranked = gyrostat.rank(run)
-        self.assertEqual(repr(ranked[0]).strip(), program("rank", "shown")[0].strip())
+        self.assertIn(repr(ranked[0]).strip(), program("rank", "shown")[0])  # beneath the answer
         self.assertEqual(set(ranked[0]["method"]), {"none", "kf", "oracle"})
         self.assertIn("rate_rmse", gyrostat.rank("shown", cell="still", metric="rate_rmse")[0].title)
         html = run._repr_html_()

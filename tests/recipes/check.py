@@ -72,7 +72,7 @@ try:
     build = copy / BUILD.relative_to(SOURCE)
     build.mkdir(parents=True)
     for name in ("CMakeLists.txt", "cmake", "core", "generators", "analysis", "results", "recordings", "diagnosis",
-                 "experiments", "package.json", "package-lock.json", "node_modules"):
+                 "experiments", "python", "package.json", "package-lock.json", "node_modules"):
         if (SOURCE / name).exists():
             run("cp", "-a", SOURCE / name, copy)
     kept = [entry for entry in BUILD.iterdir()

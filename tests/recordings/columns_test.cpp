@@ -20,8 +20,8 @@ ColumnTable table() {
 
 TEST(RecordingOfColumns, HasTheNamesAndUnitsOfFiles) {
   RecordingLayout layout;
-  layout.columns = {{"t", "Time[ms]"}};
-  const auto recording = recording_of_columns(table(), "memory", "z", layout);
+  layout.columns = {{"t", "Time[ms]"}, {"gyro", "gyro_z_mdps[mdps]"}};
+  const auto recording = recording_of_columns(table(), "memory", "", layout);
   EXPECT_THAT(recording.series.t_s, ElementsAre(0.0, 0.01, 0.02));
   EXPECT_THAT(recording.series.gyro_dps, ElementsAre(0.001, 0.002, 0.003));
   EXPECT_THAT(recording.ignored_columns, ElementsAre("comment"));

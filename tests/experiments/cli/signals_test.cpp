@@ -39,6 +39,8 @@ std::vector<Call> calls() {
           {{"replay", "long:long:0:kf", "--study", "long.json"}},
           {{"rank", "runs/small", "--figures", "."}},
           {{"consistency", "runs/small"}},
+          {{"failure", "runs/rare", "--how"}},
+          {{"check-plugin", GYROSTAT_TEST_PLUGINS "/sound.so"}},
           {{"merge", "merged", "runs/small"}},
           {{"repair", "runs/small"}},
           {{"slurm", "long.json"}},
@@ -86,6 +88,11 @@ void write_inputs(const TestFolder& folder) {
       {"path": "scenario.random_error.phi", "low": 0.1, "high": 0.9}], "targets": [
       {"cell": "long", "method": "none", "metric": "rate_std", "value": 0.2}]})");
   ASSERT_EQ(run_program(folder, {"run", "small.json"}).exit_code, 0);
+  folder.write("rare.json",
+               R"({"cells": [{"name": "rare", "trials": 120, "filters": ["none"],
+      "failure": {"metric": "bias_rmse", "above": 0},
+      "scenario": {"duration_s": 20, "rate_hz": 50}}]})");
+  ASSERT_EQ(run_program(folder, {"run", "rare.json"}).exit_code, 0);
   folder.write("rec_study.json", study("rec", 1, 4000, R"(["none"])"));
   ASSERT_EQ(run_program(folder, {"simulate", "rec_study.json", "--out", "rec.csv"}).exit_code, 0);
 }

@@ -42,7 +42,8 @@ std::vector<std::string> judged(const std::string& claims) {
   const auto ended = run_program(folder, {"ledger", "ledger.json", "--format", "json"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   std::vector<std::string> cells;
-  for (const auto& cell : nlohmann::json::parse(ended.out)[0]["rows"][0])
+  const auto tables = nlohmann::json::parse(ended.out);
+  for (const auto& cell : tables[0]["rows"][0])
     cells.push_back(cell.is_string() ? cell.get<std::string>() : "");
   return cells;
 }
