@@ -63,7 +63,7 @@ TEST(Ledger, DecidesWhatIsKnown) {
             "holds in these 2 scenarios");
   EXPECT_EQ(verdict(R"("method": "kf", "than": "again", "metric": "bias_rmse")"),
             "equal in these 2 scenarios");
-  EXPECT_EQ(verdict(R"("method": "none", "metric": "rate_std", "value": 0.05, "cells": ["quiet"])"),
+  EXPECT_EQ(verdict(R"("method": "none", "metric": "rate_std", "value": 1, "cells": ["quiet"])"),
             "holds in this scenario");
   EXPECT_EQ(verdict(R"("method": "oracle", "metric": "rate_std", "value": 0.05)"),
             "holds only in quiet");
