@@ -88,8 +88,7 @@ void copy_without_gaps(const std::vector<double>& from, std::vector<double>& to)
   to.resize(first == from.end() ? 0 : from.size());
   if (to.empty()) return;
   double last = *first;
-  for (std::size_t i = 0; i < to.size(); ++i)
-    to[i] = last = is_there(from[i]) ? from[i] : last;
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] = last = is_there(from[i]) ? from[i] : last;
 }
 
 void copy_gaps(const std::vector<double>& from, std::vector<double>& to) {

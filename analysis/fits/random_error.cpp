@@ -86,9 +86,9 @@ ArimaFit fit_of_long(std::span<const double> rate, FitMethod method) {
   auto fit = fit_random_error(middle, method);
   // Chi-squared of two parameters more than a walk's, at 1 %.
   constexpr double clear = 9.21;
-  if (fit.cluster == 1 && 2.0 * (arima_log_likelihood(fit.parameters, middle) -
-                                 fit_walk_likelihood(middle).objective) >
-                              clear) {
+  if (fit.cluster == 1 &&
+      2.0 * (arima_log_likelihood(fit.parameters, middle) - fit_walk_likelihood(middle).objective) >
+          clear) {
     fit.first = first;
     fit.message += "; fitted to the " + std::to_string(longest_fitted) +
                    " samples in the middle, which tell a memory as short as that";

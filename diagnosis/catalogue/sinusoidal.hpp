@@ -91,8 +91,8 @@ struct Diagnosed<effects::Sinusoidal> {
   /// frequencies near by are told.
   class NearLine {
    public:
-    NearLine(const std::vector<double>& values, const std::vector<Span>& spans,
-             double frequency_hz, double interval_s)
+    NearLine(const std::vector<double>& values, const std::vector<Span>& spans, double frequency_hz,
+             double interval_s)
         : frequency_hz_(frequency_hz), interval_s_(interval_s) {
       const double angle = -2.0 * std::numbers::pi * frequency_hz * interval_s;
       const double c = std::cos(angle), s = std::sin(angle);

@@ -48,9 +48,10 @@ std::vector<Resonance> Beside::lines() const {
     }
     if (best < 4.0 || variance <= 0.0) continue;
     const auto bins = static_cast<double>(width);
-    found.push_back({1.3 * variance,
-                     (static_cast<double>(at) + 0.5 * (bins - 1.0)) * reduced.grid().resolution_hz(),
-                     0.6 * bins * reduced.grid().resolution_hz()});
+    found.push_back(
+        {1.3 * variance,
+         (static_cast<double>(at) + 0.5 * (bins - 1.0)) * reduced.grid().resolution_hz(),
+         0.6 * bins * reduced.grid().resolution_hz()});
   }
   return found;
 }

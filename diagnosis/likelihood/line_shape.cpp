@@ -43,10 +43,9 @@ std::vector<std::vector<double>> squared_envelopes(const Conditions& conditions,
         im = re * s + im * c;
         re = turned;
       }
-      all.back().push_back(
-          2 * there < block
-              ? no_value
-              : 4.0 * (sum_re * sum_re + sum_im * sum_im) / static_cast<double>(there * there));
+      all.back().push_back(2 * there < block ? no_value
+                                             : 4.0 * (sum_re * sum_re + sum_im * sum_im) /
+                                                   static_cast<double>(there * there));
     }
   }
   return all;

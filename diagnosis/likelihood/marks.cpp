@@ -103,12 +103,12 @@ Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<doubl
           look(z[i], z[i] - z[i - 1], reference[i] - reference[i - 1]);
   };
   std::vector<double> errors;
-  each([&](double /*z*/, double step, double turned) {
-    errors.push_back(std::abs(step - turned));
-  });
+  each(
+      [&](double /*z*/, double step, double turned) { errors.push_back(std::abs(step - turned)); });
   if (errors.empty()) return apart;
   constexpr double beyond_noise = 5.0;
-  const double far = marks.lsb_dps + beyond_noise * quantile(std::move(errors), 0.5) / normal_quartile;
+  const double far =
+      marks.lsb_dps + beyond_noise * quantile(std::move(errors), 0.5) / normal_quartile;
   each([&](double value, double step, double turned) {
     // About zero, a dead zone may hold them together.
     if (std::abs(turned) <= far || std::abs(value) <= far) return;

@@ -89,8 +89,7 @@ double fast_ratio(const ReducedRate& reduced, const NoiseLaw& law) {
 RateTerms rate_terms(const ReducedRate& reduced, Part part, const NoiseLaw& law,
                      const Eigen::MatrixXd& regressors, const Eigen::VectorXd& prior_std) {
   RateTerms terms;
-  const double interval_s =
-      law.interval_s * std::round(reduced.cluster_s() / law.interval_s);
+  const double interval_s = law.interval_s * std::round(reduced.cluster_s() / law.interval_s);
   const auto bands = bands_of(law, interval_s);
   auto density = density_of(bands.fast, reduced.grid().angles());
   const auto& slow = reduced.slow(part);

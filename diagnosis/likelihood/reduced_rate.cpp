@@ -94,7 +94,8 @@ double ReducedRate::white_std_dps() const {
     return std::sqrt(0.5 * squares / static_cast<double>(count));
   }
   double sum = 0.0, bins = 0.0;
-  for (std::size_t k = grid_->first_fast_bin(); k + 1 < density.size(); ++k) sum += density[k], bins += 1.0;
+  for (std::size_t k = grid_->first_fast_bin(); k + 1 < density.size(); ++k)
+    sum += density[k], bins += 1.0;
   const double nyquist_hz = grid_->resolution_hz() * static_cast<double>(density.size() - 1);
   return std::sqrt(sum / bins * nyquist_hz / std::max(grid_->kept(), 0.05));
 }

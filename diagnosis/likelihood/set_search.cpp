@@ -175,10 +175,10 @@ double Search::least_gain(const Standing& standing, Band band) const {
   // Where nothing of the motion is left, its effects have nature's form.
   if (band != Band::motion && of_motion > of_band)
     of_motion = std::min(
-        of_motion, std::max(0.0, log_gain_of_motion(conditions_,
-                                                    bench_.rate_left_by(standing.scenario,
-                                                                        bench_.masked()))) /
-                       share_of_band);
+        of_motion,
+        std::max(0.0, log_gain_of_motion(conditions_,
+                                         bench_.rate_left_by(standing.scenario, bench_.masked()))) /
+            share_of_band);
   return share_of_band * std::max(of_band, of_motion);
 }
 

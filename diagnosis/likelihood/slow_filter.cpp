@@ -12,7 +12,7 @@ namespace gyrostat::gap {
 namespace {
 
 constexpr int most_states = 16;
-constexpr int few_states = 2;   ///< enough for a level and one decaying error
+constexpr int few_states = 2;  ///< enough for a level and one decaying error
 constexpr int some_states = 4;
 constexpr std::size_t most_histories = 12;
 const double log_two_pi = std::log(2.0 * std::numbers::pi);
@@ -169,8 +169,8 @@ SlowTerms gaussian_terms(const SlowLaw& law, std::span<const std::size_t> points
   }
   terms.innovations.assign(left.begin(), left.end());
   terms.log_variances.erase(terms.log_variances.begin());
-  terms.log_likelihood = -0.5 * (logs + left.squaredNorm() +
-                                 static_cast<double>(rows) * log_two_pi);
+  terms.log_likelihood =
+      -0.5 * (logs + left.squaredNorm() + static_cast<double>(rows) * log_two_pi);
   return terms;
 }
 
@@ -287,9 +287,8 @@ SlowTerms slow_terms(const SlowLaw& law, std::span<const std::size_t> points,
   if (!law.jumps) return terms;
   Eigen::VectorXd left = values;
   if (regressors.cols() > 0) left -= regressors * terms.coefficients;
-  terms.log_likelihood = with_room_for(law, [&](auto states) {
-    return jump_log_likelihood<states.value>(law, points, left);
-  });
+  terms.log_likelihood = with_room_for(
+      law, [&](auto states) { return jump_log_likelihood<states.value>(law, points, left); });
   terms.log_likelihood -= terms.cost_of_coefficients;
   return terms;
 }

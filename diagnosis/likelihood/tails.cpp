@@ -176,7 +176,8 @@ std::vector<char> samples_beside_jumps(const std::vector<double>& left_dps,
   if (present.empty()) return flags;
   // Cut, so that no single sample makes two levels.
   const double deviation = robust_deviation(std::move(present)), most = 3.0 * deviation;
-  constexpr double clear = 25.0, fewest = 4.0;  // of squares, in variances; of samples, on each side
+  constexpr double clear = 25.0,
+                   fewest = 4.0;  // of squares, in variances; of samples, on each side
   for (const auto& [first, last] : blocks) {
     double total = 0.0, all = 0.0;
     const auto value = [&](std::size_t i) { return std::clamp(left_dps[i], -most, most); };

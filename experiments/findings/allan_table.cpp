@@ -111,7 +111,8 @@ Picture allan_picture(const AllanFindings& findings, const std::string& title) {
   fitted.colour = "m0";
   fitted.dashed = true;
   fitted.x = measured.x;
-  for (const double tau_s : fitted.x) fitted.y.push_back(allan_deviation(*findings.coefficients, tau_s));
+  for (const double tau_s : fitted.x)
+    fitted.y.push_back(allan_deviation(*findings.coefficients, tau_s));
   picture.marks.push_back(std::move(fitted));
   picture.note += " Dashed: what the five coefficients of the table amount to.";
   return picture;

@@ -17,8 +17,8 @@ struct FitTables {
   std::vector<Table> tables;
   std::vector<Calibration> fits;  ///< one a method, in the order asked for
   bool converged = true;          ///< all of them
-  AllanFindings left;             ///< of the rate without its drift; empty where samples are missing
-  std::string json;               ///< an object: values and intervals under their names
+  AllanFindings left;  ///< of the rate without its drift; empty where samples are missing
+  std::string json;    ///< an object: values and intervals under their names
 };
 
 /// What is done, and which share of all that is.

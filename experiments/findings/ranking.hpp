@@ -39,7 +39,7 @@ struct CellRanking {
       not_separable;                   ///< maximal groups, as indices into `methods`
   std::vector<std::string> sentences;  ///< plain ones, the most important first
   std::vector<RankedPair> pairs;
-  double friedman_p = no_value;  ///< of mean ranks so different where all methods are alike
+  double friedman_p = no_value;   ///< of mean ranks so different where all methods are alike
   std::string winner{};           ///< best mean of those that are no bound and no floor
   bool winner_is_shared = false;  ///< not separable from another of those
   double share_worse =

@@ -86,7 +86,8 @@ struct NoiseBandwidth {
     }
     const double pole = std::exp(-2.0 * std::numbers::pi * cutoff_hz * interval_s);
     for (std::size_t k = 0; k < gain.size(); ++k) {
-      const double of_one = (1.0 - pole) * (1.0 - pole) / (1.0 - 2.0 * pole * cosines[k] + pole * pole);
+      const double of_one =
+          (1.0 - pole) * (1.0 - pole) / (1.0 - 2.0 * pole * cosines[k] + pole * pole);
       gain[k] *= poles == 1.0 ? of_one : std::pow(of_one, poles);
     }
   }

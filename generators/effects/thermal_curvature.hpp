@@ -32,7 +32,9 @@ struct ThermalCurvature {
     };
   }
 
-  static constexpr ThermalCurvature absent() { return {.curvature_dps_per_C2 = 0.0, .cubic_dps_per_C3 = 0.0}; }
+  static constexpr ThermalCurvature absent() {
+    return {.curvature_dps_per_C2 = 0.0, .cubic_dps_per_C3 = 0.0};
+  }
 
   void apply(Series& series, const Noise& /*noise*/) const {
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {

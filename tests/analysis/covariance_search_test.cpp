@@ -42,7 +42,8 @@ TEST(CovarianceSearch, FindsAMinimumOnTheEdge) {
   EXPECT_NEAR(found.values[1], 1.0, 1e-3);
 }
 
-/// The middle lies in a wide basin, which ends at 0; only a run from elsewhere meets the narrow one.
+/// The middle lies in a wide basin, which ends at 0; only a run from elsewhere meets the narrow
+/// one.
 TEST(CovarianceSearch, BeginsAnewWhereABasinHasCaughtIt) {
   const auto found = covariance_search({{0, 1}, {0, 1}}, 4000, [](const auto& x) {
     const auto to = [&](double a, double b) { return std::hypot(x[0] - a, x[1] - b); };

@@ -149,11 +149,10 @@ TEST(CatalogueContract, StartsAreTheEffectWithSoundParameters) {
   const auto& conditions = simulator.conditions();
   const auto baseline = fit_baseline(simulator, recording).scenario;
   const Evidence evidence{simulator, recording, Scene(conditions, recording), baseline};
-  const SetFitter fitter(
-      conditions, std::make_shared<const ReducedRate>(
-                      conditions, evidence.scene.rate_error_dps,
-                      std::make_shared<const RateGrid>(
-                          conditions, std::vector<char>(recording.size(), 0))));
+  const SetFitter fitter(conditions, std::make_shared<const ReducedRate>(
+                                         conditions, evidence.scene.rate_error_dps,
+                                         std::make_shared<const RateGrid>(
+                                             conditions, std::vector<char>(recording.size(), 0))));
   SetFit fit;
   fit.scenario = baseline;
   const Beside beside{conditions, fitter, fit};

@@ -44,12 +44,12 @@ int run(const FitArguments& arguments, Console& console) {
                {"rate_hz", series.rate_hz()}};
 
   const auto& recording = arguments.recording;
-  const auto found = fit_tables(
-      series, methods, recording.file,
-      recording.file + (recording.axis.empty() ? "" : " axis " + recording.axis),
-      [&](const std::string& phase, double share) {
-        if (progress) progress->set(phase, "", share);
-      });
+  const auto found =
+      fit_tables(series, methods, recording.file,
+                 recording.file + (recording.axis.empty() ? "" : " axis " + recording.axis),
+                 [&](const std::string& phase, double share) {
+                   if (progress) progress->set(phase, "", share);
+                 });
   progress.reset();
   if (arguments.picture.wanted())
     arguments.picture.write(
