@@ -219,6 +219,9 @@ double jump_log_likelihood(const SlowLaw& law, std::span<const std::size_t> poin
   still.jumps.reset();
   const bool two = jumps.to == Jumps::To::the_other_level;
   const Recursion<N> fresh(still);
+  // A change between two levels leaves what is known of them as it is: one recursion for all.
+  Recursion<N> common = fresh;
+  const auto of = [&](History<N>& h) -> Recursion<N>& { return two ? common : h.recursion; };
   std::vector<History<N>> histories;
   for (const double side : two ? std::vector<double>{-1.0, 1.0} : std::vector<double>{0.0})
     histories.push_back({two ? std::log(0.5) : 0.0, fresh, {}, side * jumps.size_dps});
@@ -228,9 +231,10 @@ double jump_log_likelihood(const SlowLaw& law, std::span<const std::size_t> poin
       const std::size_t steps = points[k] - points[k - 1];
       const double mean = jumps.per_s * law.interval_s * static_cast<double>(steps);
       const double jump = two ? 0.5 * -std::expm1(-2.0 * mean) : -std::expm1(-mean);
+      if (two) common.predict(steps);
       for (auto& h : histories) {
-        h.recursion.predict(steps);
-        h.estimate.predict(h.recursion, steps);
+        if (!two) h.recursion.predict(steps);
+        h.estimate.predict(of(h), steps);
       }
       std::vector<History<N>> born;
       for (const double side : two ? std::vector<double>{-1.0, 1.0} : std::vector<double>{0.0}) {
@@ -247,13 +251,15 @@ double jump_log_likelihood(const SlowLaw& law, std::span<const std::size_t> poin
       histories.insert(histories.end(), born.begin(), born.end());
     }
     const double value = values[static_cast<Eigen::Index>(k)];
+    if (two) common.update();
     for (auto& h : histories) {
-      h.recursion.update();
-      const double innovation = value - h.level - h.estimate.expected(h.recursion.states());
-      h.estimate.update(h.recursion, innovation);
+      if (!two) h.recursion.update();
+      const auto& recursion = of(h);
+      const double innovation = value - h.level - h.estimate.expected(recursion.states());
+      h.estimate.update(recursion, innovation);
       if (k > 0)
-        h.log_weight -= 0.5 * (log_two_pi + h.recursion.log_variance() +
-                               innovation * innovation / h.recursion.variance());
+        h.log_weight -= 0.5 * (log_two_pi + recursion.log_variance() +
+                               innovation * innovation / recursion.variance());
     }
     normalise(histories, total);
     while (histories.size() > most_histories) {
