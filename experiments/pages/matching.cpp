@@ -123,6 +123,8 @@ Match read_match(const std::string& path) {
   Match match;
   match.title = object.text("title", path);
   const auto file = object.text("study", "");
+  if (file.empty())
+    throw InputError(object.place_of("study"), "is missing; required: the path of a study file");
   match.study_path = (std::filesystem::path(path).parent_path() / file).lexically_normal().string();
   match.study = read_json(match.study_path);
   const Study study = parse_study(match.study, match.study_path);

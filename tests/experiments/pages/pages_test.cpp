@@ -54,6 +54,15 @@ std::string claim_of(const std::string& keys) {
 
 std::string verdict(const std::string& keys) { return judged(claim_of(keys))[4]; }
 
+TEST(Match, AsksForItsStudy) {
+  const TestFolder folder;
+  folder.write("match.json", R"({"trials": 5})");
+  const auto ended = run_program(folder, {"match", "match.json"});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("match.json:"));
+  EXPECT_THAT(ended.err, HasSubstr("study: is missing; required: the path of a study file"));
+}
+
 TEST(Ledger, DecidesWhatIsKnown) {
   EXPECT_EQ(verdict(R"("method": "oracle", "than": "none", "metric": "bias_rmse")"),
             "holds in these 2 scenarios");
