@@ -13,6 +13,7 @@
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/gap/ensemble.hpp>
 #include <gyrostat/diagnosis/gap/scoring.hpp>
+#include <gyrostat/diagnosis/lens_band.hpp>
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
 #include <gyrostat/diagnosis/model_fit.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
@@ -444,20 +445,8 @@ void Work::keep_bands() {
   const auto& last = rungs_.empty() ? baseline_replicas_[1] : rungs_.back().replicas[1];
   const Ensemble after(instrument, last, {});
   for (const auto& lens : instrument.lenses()) {
-    Band band{.lens = std::string(lens.id),
-              .title = std::string(lens.title),
-              .channel = std::string(lens.channel),
-              .coordinate = std::string(lens.coordinate),
-              .unit = std::string(lens.unit),
-              .at = {},
-              .observed = {},
-              .before = {},
-              .before_spread = {},
-              .after = {},
-              .after_spread = {}};
+    auto band = band_of(instrument, lens);
     for (Eigen::Index i = lens.first; i < lens.first + lens.count; ++i) {
-      const auto& at = instrument.at()[static_cast<std::size_t>(i)];
-      band.at.push_back(at.is_open() ? at.from : 0.5 * (at.from + at.to));
       band.observed.push_back(observed_[1][i]);
       band.before.push_back(held_out_->mean()[i]);
       band.before_spread.push_back(held_out_->spread()[i]);

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/diagnosis/lens_band.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
 
 namespace gyrostat::gap {
@@ -115,21 +116,12 @@ std::vector<Band> SegmentedSides::bands(const Addition& addition) const {
   const auto after = addition.is_nothing() ? simulated_ : train(addition);
   std::vector<Band> all;
   for (const auto& lens : whole_.instrument().lenses()) {
-    Band band{.lens = std::string(lens.id),
-              .title = std::string(lens.title),
-              .channel = std::string(lens.channel),
-              .coordinate = std::string(lens.coordinate),
-              .unit = std::string(lens.unit),
-              .at = {},
-              .observed = mean_of(real_, lens),
-              .before = mean_of(simulated_, lens),
-              .before_spread = spread_of(simulated_, lens),
-              .after = mean_of(after, lens),
-              .after_spread = spread_of(after, lens)};
-    for (Eigen::Index i = lens.first; i < lens.first + lens.count; ++i) {
-      const auto& at = whole_.instrument().at()[static_cast<std::size_t>(i)];
-      band.at.push_back(at.is_open() ? at.from : 0.5 * (at.from + at.to));
-    }
+    auto band = band_of(whole_.instrument(), lens);
+    band.observed = mean_of(real_, lens);
+    band.before = mean_of(simulated_, lens);
+    band.before_spread = spread_of(simulated_, lens);
+    band.after = mean_of(after, lens);
+    band.after_spread = spread_of(after, lens);
     all.push_back(std::move(band));
   }
   return all;
