@@ -9,8 +9,8 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <ceres/jet.h>
 
-#include <gyrostat/analysis/fits/arima_innovations.hpp>
 #include <gyrostat/analysis/fits/arima_likelihood.hpp>
+#include <gyrostat/analysis/fits/arima_sums.hpp>
 #include <gyrostat/analysis/statistics/distributions.hpp>
 
 namespace gyrostat {
@@ -77,22 +77,22 @@ struct Misfit {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
 };
 
-double misfit_of(std::span<const double> z, const Arima111<double>& arima) {
-  double sum = 0.0;
-  arima_innovations(arima, z, [&](double nu, double s) { sum += std::log(s) + nu * nu / s; });
-  return std::isfinite(sum) ? 0.5 * sum : std::numeric_limits<double>::infinity();
+double misfit_of(const ArimaSums& sums) {
+  const double misfit = sums.misfit();
+  return std::isfinite(misfit) ? misfit : std::numeric_limits<double>::infinity();
 }
 
 Misfit misfit_about(std::span<const double> z, Parameter held, double value, const Free& u) {
   using Jet = ceres::Jet<double, 3>;
   const std::array<Jet, 3> jets = {Jet(u[0], 0), Jet(u[1], 1), Jet(u[2], 2)};
-  Misfit misfit{.value = 0.0};
-  arima_innovations(model(held, value, jets.data()), z, [&](const Jet& nu, const Jet& s) {
-    misfit.value += 0.5 * (std::log(s.a) + nu.a * nu.a / s.a);
-    misfit.gradient += nu.a / s.a * nu.v + (0.5 / s.a) * (1.0 - nu.a * nu.a / s.a) * s.v;
-    misfit.information.noalias() +=
-        nu.v * nu.v.transpose() / s.a + s.v * s.v.transpose() * (0.5 / (s.a * s.a));
-  });
+  const auto at = model(held, value, jets.data());
+  Eigen::Matrix<double, 4, 3> chain;
+  chain << at.phi.v.transpose(), at.delta1_dps.v.transpose(), at.delta2_dps.v.transpose(),
+      at.measurement_noise_std_dps.v.transpose();
+  const auto found = arima_derivatives(model(held, value, u.data()), z);
+  const Misfit misfit{.value = found.sums.misfit(),
+                      .gradient = chain.transpose() * found.gradient(),
+                      .information = chain.transpose() * found.information * chain};
   if (!std::isfinite(misfit.value) || !misfit.gradient.allFinite() ||
       !misfit.information.allFinite())
     return {};
@@ -135,11 +135,15 @@ Lowest descend(std::span<const double> z, Parameter held, double value, Free u) 
 Lowest least_misfit(std::span<const double> z, Parameter held, double value,
                     std::span<const Arima111<double>> starts) {
   constexpr std::size_t descents = 3;
-  std::vector<std::pair<double, Free>> from;
+  std::vector<Free> at;
+  std::vector<Arima111<double>> models;
   for (const auto& start : starts) {
-    const auto u = coordinates(held, start);
-    from.emplace_back(misfit_of(z, model(held, value, u.data())), u);
+    at.push_back(coordinates(held, start));
+    models.push_back(model(held, value, at.back().data()));
   }
+  const auto sums = arima_sums(models, z);
+  std::vector<std::pair<double, Free>> from;
+  for (std::size_t i = 0; i < at.size(); ++i) from.emplace_back(misfit_of(sums[i]), at[i]);
   std::sort(from.begin(), from.end());
   from.resize(std::min(from.size(), descents));
   Lowest least;
@@ -151,20 +155,19 @@ Lowest least_misfit(std::span<const double> z, Parameter held, double value,
 /// The likeliest of models all over what is possible, each at the scale that suits the signal best.
 std::vector<Arima111<double>> likely_models(std::span<const double> z) {
   constexpr std::size_t kept = 12;
-  std::vector<std::pair<double, std::array<double, 4>>> models;
+  std::vector<Arima111<double>> grid;
   for (const double phi : {-0.6, 0.0, 0.6, 0.9})
     for (const double theta : {-0.9, -0.5, 0.0, 0.5, 0.9})
-      for (const double noise : {0.01, 0.3, 1.0, 3.0, 10.0, 100.0, 1000.0}) {
-        double squares = 0.0, logs = 0.0, count = 0.0;
-        arima_innovations(Arima111<double>{phi, 1.0, theta, noise}, z, [&](double nu, double s) {
-          squares += nu * nu / s;
-          logs += std::log(s);
-          count += 1.0;
-        });
-        const double scale = std::sqrt(squares / count);
-        models.push_back(
-            {logs + count * std::log(squares), {phi, scale, theta * scale, noise * scale}});
-      }
+      for (const double noise : {0.01, 0.3, 1.0, 3.0, 10.0, 100.0, 1000.0})
+        grid.push_back({phi, 1.0, theta, noise});
+  const auto sums = arima_sums(grid, z);
+  std::vector<std::pair<double, std::array<double, 4>>> models;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const double scale = std::sqrt(sums[i].squares / sums[i].count);
+    const auto& [phi, one, theta, noise] = grid[i];
+    models.push_back({sums[i].logs + sums[i].count * std::log(sums[i].squares),
+                      {phi, scale, theta * scale, noise * scale}});
+  }
   std::sort(models.begin(), models.end());
   std::vector<Arima111<double>> likely;
   for (std::size_t k = 0; k < kept; ++k) {
@@ -183,8 +186,8 @@ ArimaIntervals::ArimaIntervals(const ArimaFit& fit, std::span<const double> rate
       starts_(likely_models(rate_dps)) {
   const auto whole = fit_whole_arima_likelihood(rate_dps).parameters;
   starts_.push_back(whole);
-  least_ = misfit_of(z_, whole);
-  needed_ = 2.0 * (misfit_of(z_, reported_) - least_);
+  least_ = misfit_of(arima_sums(whole, z_));
+  needed_ = 2.0 * (misfit_of(arima_sums(reported_, z_)) - least_);
   find_other_modes();
 }
 

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <ceres/ceres.h>
 
-#include <gyrostat/analysis/fits/arima_innovations.hpp>
+#include <gyrostat/analysis/fits/arima_sums.hpp>
 #include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/core/error.hpp>
 
@@ -33,74 +34,57 @@ Arima111<T> unit_model(const T* shape) {
   return {phi, T(1.0), theta, exp(shape[2])};
 }
 
-/// What concentrating out the scale leaves: sum nu^2 / s and sum log s over the terms.
-struct Concentrated {
-  double squares = 0.0;
-  double logs = 0.0;
-  double count = 0.0;
-
-  double objective() const { return std::log(squares / count) + logs / count; }
-};
-
-Concentrated concentrate(const Shape& shape, std::span<const double> z) {
-  Concentrated sums;
-  arima_innovations(unit_model(shape.data()), z, [&](double nu, double s) {
-    sums.squares += nu * nu / s;
-    sums.logs += std::log(s);
-    sums.count += 1.0;
-  });
-  return sums;
+/// What concentrating out the scale leaves of the deviance of each term.
+double concentrated(const ArimaSums& sums) {
+  return std::log(sums.squares / sums.count) + sums.logs / sums.count;
 }
 
-class PredictionErrors final : public ceres::CostFunction {
+/// The prediction errors, whitened and scaled so that half of their sum of squares is what the
+/// concentrated likelihood leaves to be minimised. Their number is that of the samples, but a
+/// least-squares step knows them by their squares and products alone: four residuals with the same
+/// squares and products stand for all.
+class PredictionErrors final : public ceres::SizedCostFunction<4, 3> {
  public:
-  PredictionErrors(std::span<const double> z, int terms) : z_(z) {
-    set_num_residuals(terms);
-    mutable_parameter_block_sizes()->push_back(3);
-  }
+  explicit PredictionErrors(std::span<const double> z) : z_(z) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
-    return jacobians && jacobians[0]
-               ? evaluate<ceres::Jet<double, 3>>(parameters[0], residuals, jacobians[0])
-               : evaluate<double>(parameters[0], residuals, nullptr);
+    return jacobians && jacobians[0] ? evaluate(parameters[0], residuals, jacobians[0])
+                                     : evaluate(parameters[0], residuals);
   }
 
  private:
-  template <class T>
-  bool evaluate(const double* parameters, double* residuals, double* jacobian) const {
-    using std::exp;
-    using std::log;
-    using std::sqrt;
-    std::array<T, 3> shape;
-    for (int i = 0; i < 3; ++i) {
-      if constexpr (std::is_same_v<T, double>)
-        shape[i] = parameters[i];
-      else
-        shape[i] = T(parameters[i], i);
-    }
-    std::vector<T> whitened;
-    whitened.reserve(num_residuals());
-    T logs(0.0);
-    arima_innovations(unit_model(shape.data()), z_, [&](const T& nu, const T& s) {
-      whitened.push_back(nu / sqrt(s));
-      logs += log(s);
-    });
-    if (static_cast<int>(whitened.size()) != num_residuals()) return false;
-    const T scale = exp(logs / T(2.0 * num_residuals()));
-    bool is_sound = true;
-    for (std::size_t k = 0; k < whitened.size(); ++k) {
-      const T r = whitened[k] * scale;
-      if constexpr (std::is_same_v<T, double>) {
-        residuals[k] = r;
-      } else {
-        residuals[k] = r.a;
-        std::copy_n(r.v.data(), 3, jacobian + 3 * k);
-        is_sound = is_sound && r.v.allFinite();
-      }
-      is_sound = is_sound && std::isfinite(residuals[k]);
-    }
-    return is_sound;  // numbers that are none Ceres would print
+  static double scale_of(const ArimaSums& sums) { return std::exp(0.5 * sums.logs / sums.count); }
+
+  bool evaluate(const double* shape, double* residuals) const {
+    const auto sums = arima_sums(unit_model(shape), z_);
+    std::fill_n(residuals, 4, 0.0);
+    residuals[0] = std::sqrt(sums.squares) * scale_of(sums);
+    return std::isfinite(residuals[0]);  // numbers that are none Ceres would print
+  }
+
+  bool evaluate(const double* at, double* residuals, double* jacobian) const {
+    using Jet = ceres::Jet<double, 3>;
+    const std::array<Jet, 3> shape = {Jet(at[0], 0), Jet(at[1], 1), Jet(at[2], 2)};
+    const auto model = unit_model(shape.data());
+    const auto found = arima_derivatives(unit_model(at), z_);
+    Eigen::Matrix<double, 5, 4> chain = Eigen::Matrix<double, 5, 4>::Zero();
+    chain.block<1, 3>(0, 0) = model.phi.v;
+    chain.block<1, 3>(1, 0) = model.delta1_dps.v;
+    chain.block<1, 3>(2, 0) = model.delta2_dps.v;
+    chain.block<1, 3>(3, 0) = model.measurement_noise_std_dps.v;
+    chain.block<1, 3>(4, 0) =
+        0.5 / found.sums.count * found.logs.transpose() * chain.topLeftCorner<4, 3>();  // the scale
+    chain(4, 3) = 1.0;
+    chain *= scale_of(found.sums);
+    const Eigen::Matrix4d products = chain.transpose() * found.products * chain;
+    if (!products.allFinite()) return false;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> root(products);
+    const Eigen::Matrix4d rows =
+        root.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() * root.eigenvectors().transpose();
+    Eigen::Map<Eigen::Matrix<double, 4, 3, Eigen::RowMajor>>{jacobian} = rows.leftCols<3>();
+    Eigen::Map<Eigen::Vector4d>{residuals} = rows.col(3);
+    return true;
   }
 
   std::span<const double> z_;
@@ -130,33 +114,25 @@ struct Start {
 
 /// The most promising points of a coarse grid, best first.
 std::vector<Start> starting_points(std::span<const double> z, const Variant& variant) {
-  std::vector<Start> starts;
+  std::vector<Shape> shapes;
   for (const double phi : {-0.6, 0.0, 0.6, 0.9})
     for (const double theta : {-0.6, 0.0, 0.7, 0.95})
       for (const double log_ratio : {-log_ratio_limit, -1.0, 1.0, 2.5, 4.5, 6.5}) {
         if ((!variant.phi && phi != 0.0) || (!variant.theta && theta != 0.0) ||
             (variant.noise == (log_ratio == -log_ratio_limit)))
           continue;
-        const Shape shape = {std::atanh(phi), std::atanh(theta), log_ratio};
-        starts.push_back({shape, concentrate(shape, z).objective()});
+        shapes.push_back({std::atanh(phi), std::atanh(theta), log_ratio});
       }
+  std::vector<Arima111<double>> models;
+  for (const auto& shape : shapes) models.push_back(unit_model(shape.data()));
+  const auto sums = arima_sums(models, z);
+  std::vector<Start> starts;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    starts.push_back({shapes[i], concentrated(sums[i])});
   std::sort(starts.begin(), starts.end(),
             [](const Start& a, const Start& b) { return a.objective < b.objective; });
   starts.resize(std::min<std::size_t>(starts.size(), 3));
   return starts;
-}
-
-/// Expected information of (phi, delta1, delta2, sqrt R) given the innovations
-/// (Durbin and Koopman 2012, sec. 7.3.5): sum of d nu d nu^T / S + dS dS^T / (2 S^2).
-Eigen::Matrix4d information(const Arima111<double>& arima, std::span<const double> z) {
-  using Jet = ceres::Jet<double, 4>;
-  const Arima111<Jet> jets{Jet(arima.phi, 0), Jet(arima.delta1_dps, 1), Jet(arima.delta2_dps, 2),
-                           Jet(arima.measurement_noise_std_dps, 3)};
-  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
-  arima_innovations(jets, z, [&](const Jet& nu, const Jet& s) {
-    sum += nu.v * nu.v.transpose() / s.a + s.v * s.v.transpose() / (2.0 * s.a * s.a);
-  });
-  return sum;
 }
 
 /// Covariance of the free ones of (phi, delta1, delta2, sqrt R); empty where they are not
@@ -171,7 +147,7 @@ std::optional<Eigen::Matrix4d> covariance_of(const Arima111<double>& arima, cons
   for (int i = 0; i < 4; ++i)
     if (is_free[i]) index.push_back(i);
   // Scaled to a unit diagonal, so that definiteness does not depend on units.
-  const Eigen::MatrixXd info = information(arima, z)(index, index);
+  const Eigen::MatrixXd info = arima_derivatives(arima, z).information(index, index);
   const Eigen::VectorXd scale = info.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
   const Eigen::LDLT<Eigen::MatrixXd> factor(scale.asDiagonal() * info * scale.asDiagonal());
   if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 1e-8)) return std::nullopt;
@@ -195,11 +171,8 @@ void check(std::span<const double> z) {
 }  // namespace
 
 double arima_log_likelihood(const Arima111<double>& arima, std::span<const double> rate_dps) {
-  double sum = 0.0;
-  arima_innovations(arima, rate_dps, [&](double nu, double s) {
-    sum += std::log(2.0 * std::numbers::pi * s) + nu * nu / s;
-  });
-  return -0.5 * sum;
+  const auto sums = arima_sums(arima, rate_dps);
+  return -sums.misfit() - 0.5 * sums.count * std::log(2.0 * std::numbers::pi);
 }
 
 namespace {
@@ -207,7 +180,6 @@ namespace {
 /// The best of a few descents from the grid, with the held parameters at zero.
 ArimaFit descend(std::span<const double> z, const Variant& variant) {
   const auto starts = starting_points(z, variant);
-  const int terms = static_cast<int>(concentrate(starts.front().shape, z).count);
   ArimaFit fit;
   double best = std::numeric_limits<double>::infinity();
   Shape shape = starts.front().shape;
@@ -219,7 +191,7 @@ ArimaFit descend(std::span<const double> z, const Variant& variant) {
   for (const auto& start : starts) {
     Shape candidate = start.shape;
     ceres::Problem problem;
-    problem.AddResidualBlock(new PredictionErrors(z, terms), nullptr, candidate.data());
+    problem.AddResidualBlock(new PredictionErrors(z), nullptr, candidate.data());
     if (!held.empty()) problem.SetManifold(candidate.data(), new ceres::SubsetManifold(3, held));
     for (int i = 0; i < 3; ++i) {
       const double limit = i < 2 ? shape_limit : log_ratio_limit;
@@ -227,7 +199,7 @@ ArimaFit descend(std::span<const double> z, const Variant& variant) {
       problem.SetParameterUpperBound(candidate.data(), i, limit);
     }
     ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+    options.linear_solver_type = ceres::DENSE_QR;
     options.max_num_iterations = 100;
     options.function_tolerance = 1e-12;
     options.parameter_tolerance = 1e-9;
@@ -241,7 +213,7 @@ ArimaFit descend(std::span<const double> z, const Variant& variant) {
     fit.converged = summary.termination_type == ceres::CONVERGENCE;
     fit.message = fit.converged ? variant.message : "did not converge: " + summary.message;
   }
-  const auto sums = concentrate(shape, z);
+  const auto sums = arima_sums(unit_model(shape.data()), z);
   const double delta1 = std::sqrt(sums.squares / sums.count);
   const auto unit = unit_model(shape.data());
   fit.parameters = {unit.phi, delta1, unit.delta2_dps * delta1,
