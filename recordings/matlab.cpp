@@ -8,12 +8,12 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <matio.h>
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
 #include <gyrostat/recordings/column_table.hpp>
 #include <gyrostat/recordings/matlab_integrity.hpp>
+#include <gyrostat/recordings/matlab_library.hpp>
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/recordings/temporary_folder.hpp>
 
@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Closed {
-  void operator()(mat_t* file) const { Mat_Close(file); }
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+  void operator()(mat_t* file) const { matlab_library().close(file); }
+  void operator()(matvar_t* variable) const { matlab_library().free(variable); }
 };
 using File = std::unique_ptr<mat_t, Closed>;
 using Variable = std::unique_ptr<matvar_t, Closed>;
@@ -104,8 +104,8 @@ void add_variable(matvar_t& variable, const std::string& within, ColumnTable& co
   const bool is_one_struct = variable.class_type == MAT_C_STRUCT && variable.rank == 2 &&
                              variable.dims[0] == 1 && variable.dims[1] == 1;
   if (!is_one_struct) return;
-  for (unsigned k = 0; k < Mat_VarGetNumberOfFields(&variable); ++k)
-    if (auto* field = Mat_VarGetStructFieldByIndex(&variable, k, 0))
+  for (unsigned k = 0; k < matlab_library().number_of_fields(&variable); ++k)
+    if (auto* field = matlab_library().field(&variable, k, 0))
       add_variable(*field, within + variable.name + ".", columns);
 }
 
@@ -120,19 +120,20 @@ std::string variable_name(const std::string& column) {
 
 Variable column_of(const std::string& name, std::vector<double>& values) {
   std::array<std::size_t, 2> shape = {values.size(), 1};
-  return Variable(
-      Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, shape.data(), values.data(), 0));
+  return Variable(matlab_library().variable(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2,
+                                            shape.data(), values.data(), 0));
 }
 
 Variable names_of(const std::string& name, const std::vector<std::string_view>& texts) {
   std::array<std::size_t, 2> shape = {texts.size(), 1};
-  Variable list(Mat_VarCreate(name.c_str(), MAT_C_CELL, MAT_T_CELL, 2, shape.data(), nullptr, 0));
+  Variable list(
+      matlab_library().variable(name.c_str(), MAT_C_CELL, MAT_T_CELL, 2, shape.data(), nullptr, 0));
   for (std::size_t i = 0; list && i < texts.size(); ++i) {
     std::array<std::size_t, 2> length = {1, texts[i].size()};
     std::string text(texts[i]);
-    Mat_VarSetCell(
-        list.get(), static_cast<int>(i),
-        Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UINT8, 2, length.data(), text.data(), 0));
+    matlab_library().set_cell(list.get(), static_cast<int>(i),
+                              matlab_library().variable(nullptr, MAT_C_CHAR, MAT_T_UINT8, 2,
+                                                        length.data(), text.data(), 0));
   }
   return list;
 }
@@ -142,7 +143,7 @@ void write_variables(mat_t* file, std::span<const CsvColumn> columns) {
   const auto write = [&](const Variable& variable) {
     const auto packing = variable && variable->class_type == MAT_C_CELL ? MAT_COMPRESSION_NONE
                                                                         : MAT_COMPRESSION_ZLIB;
-    if (!variable || Mat_VarWrite(file, variable.get(), packing) != 0)
+    if (!variable || matlab_library().write(file, variable.get(), packing) != 0)
       throw std::runtime_error("the MATLAB file cannot be written");
   };
   std::vector<std::string> used;
@@ -174,10 +175,11 @@ ColumnTable read_mat(const fs::path& path) {
   if (!fs::exists(path)) throw InputError(place, "cannot be read: No such file or directory");
   if (!fs::is_regular_file(path)) throw InputError(place, "is no file");
   require_whole_mat(path);
-  const File file(Mat_Open(place.c_str(), MAT_ACC_RDONLY));
+  const File file(matlab_library().open(place.c_str(), MAT_ACC_RDONLY));
   if (!file) throw InputError(place, "cannot be read as a MATLAB file");
   ColumnTable columns;
-  while (Variable variable{Mat_VarReadNext(file.get())}) add_variable(*variable, "", columns);
+  while (Variable variable{matlab_library().read_next(file.get())})
+    add_variable(*variable, "", columns);
   if (columns.names.empty())
     throw InputError(place,
                      "has no numeric vector; required: t_s and gyro_dps as variables, or as fields "
@@ -189,8 +191,8 @@ void write_mat(const fs::path& path, std::span<const CsvColumn> columns) {
   const TemporaryFolder folder;
   const auto temporary = folder.path() / "variables.mat";
   {
-    const File file(
-        Mat_CreateVer(temporary.c_str(), "MATLAB 5.0 MAT-file, written by gyrostat", MAT_FT_MAT5));
+    const File file(matlab_library().create(
+        temporary.c_str(), "MATLAB 5.0 MAT-file, written by gyrostat", MAT_FT_MAT5));
     if (!file) throw InputError(path.string(), "cannot be written");
     write_variables(file.get(), columns);
   }

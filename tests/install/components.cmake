@@ -56,6 +56,6 @@ says("found: core generators analysis results recordings diagnosis experiments;"
 configure(FALSE analysis Eigen3 Boost)
 says("gyrostat::analysis needs Ceres 2.1.")
 configure(FALSE recordings Eigen3 fmt ZLIB BZip2 SQLite3)
-says("gyrostat::recordings needs matio, found by pkg-config, liblz4, found by pkg-config, libzstd, found by pkg-config.")
+says("gyrostat::recordings needs liblz4, found by pkg-config, libzstd, found by pkg-config.")
 configure(FALSE filters ${packages})
 says("gyrostat has no component 'filters'; it has core, generators, analysis, results, recordings, diagnosis, experiments.")
