@@ -144,13 +144,16 @@ Worker::~Worker() {
 void Worker::end() {
   if (in_ < 0) return;
   ::close(std::exchange(in_, -1));
-  if (wait_status_.wait_for(grace) != std::future_status::ready) {
-    ::kill(-process_, SIGKILL);  // with whatever it has started
-    ::kill(process_, SIGKILL);
-  }
+  if (wait_status_.wait_for(grace) != std::future_status::ready) kill();
   wait_status_.wait();
   keeper_.join();
-  ::waitpid(process_, nullptr, 0);
+  ::waitpid(std::exchange(process_, -1), nullptr, 0);
+}
+
+void Worker::kill() {
+  if (process_ < 0) return;
+  ::kill(-process_, SIGKILL);
+  ::kill(process_, SIGKILL);
 }
 
 void Worker::fail_as_it_ended() {

@@ -37,6 +37,8 @@ class Worker {
   std::string read_line();
   /// Sends all of the question and waits for all of the answer.
   void exchange(std::span<const double> question, std::span<double> answer);
+  /// Ends it, with whatever it has started, without waiting for it to end by itself.
+  void kill();
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -39,7 +39,12 @@ void Workers::with_one(const std::function<void(Worker&)>& ask) {
     }
   }
   if (!worker) worker = started();
-  ask(*worker);
+  try {
+    ask(*worker);
+  } catch (...) {
+    worker->kill();  // what it would say next belongs to no question
+    throw;
+  }
   const std::scoped_lock lock(mutex_);
   idle_.push_back(std::move(worker));
 }
