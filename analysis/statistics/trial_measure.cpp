@@ -53,11 +53,26 @@ TrialMeasure::Value TrialMeasure::of(std::span<const double> errors) const {
       std::count_if(errors.begin(), errors.end(), [](double x) { return std::isnan(x); }));
   if (sums.count < 1.0) return found;
   found.value = sums.mean;
-  if (kind == Kind::probability)
+  if (kind == Kind::probability) {
     std::tie(found.low, found.high) = wilson_interval(sums.mean * sums.count, sums.count, 0.95);
-  else if (sums.count >= 2.0 && (kind == Kind::mean || sums.count >= fewest_for_tail_interval))
+    // Rounding must not leave out the 0 or 1 that was seen.
+    if (found.value == 0.0) found.low = 0.0;
+    if (found.value == 1.0) found.high = 1.0;
+  }
+  if (kind != Kind::probability && sums.count >= 2.0 &&
+      (kind == Kind::mean || sums.count >= fewest_for_tail_interval))
     std::tie(found.low, found.high) = skewed_mean_interval(sums, 0.025);
   return found;
+}
+
+double TrialMeasure::objective(std::span<const double> errors) const {
+  const auto found = of(errors);
+  if (kind != Kind::probability) return found.missing > 0 ? no_value : found.value;
+  Running sums;
+  for (const double error : errors) sums.add(error);
+  const double size = std::abs(sums.mean) + limit;
+  const double below_a_trial = 0.25 / static_cast<double>(errors.size());
+  return found.value + (size > 0.0 ? below_a_trial * sums.mean / size : 0.0);
 }
 
 }  // namespace gyrostat

@@ -35,6 +35,10 @@ struct TrialMeasure {
   /// The measure of the trials that have a value, with its interval: of skewed values
   /// (`skewed_mean_interval`), or Wilson's of a probability; none of a CVaR of fewer than 200.
   Value of(std::span<const double> errors) const;
+
+  /// What a search makes small: the measure, none where a trial of a mean has no value. Between
+  /// equal probabilities, as where all trials are above the limit, the mean decides.
+  double objective(std::span<const double> errors) const;
 };
 
 }  // namespace gyrostat

@@ -161,13 +161,12 @@ MethodTuning tune_method(const Cell& cell, std::size_t m, std::uint64_t seed,
         progress.add(candidates.size() * (last - first));
         return errors;
       },
-      [&](std::span<const double> errors) {
-        const auto measured = goal.measure.of(errors);
-        return measured.missing > 0 && goal.measure.kind != TrialMeasure::Kind::probability
-                   ? no_value
-                   : measured.value;
-      });
-  found.on_search = searched.stages.back().objective;
+      [&](std::span<const double> errors) { return goal.measure.objective(errors); });
+  const auto& last = searched.stages.back();
+  const auto of_search = static_cast<double>(last.trials);
+  found.on_search = goal.measure.kind == TrialMeasure::Kind::probability
+                        ? std::round(last.objective * of_search) / of_search
+                        : last.objective;
 
   Values tuned = searched.values;
   for (std::size_t i = 0; i < tuned.size(); ++i) tuned[i] = rounded(tuned[i], ranges[i]);
