@@ -5,12 +5,6 @@
 #include <gyrostat/analysis/statistics/skewed_mean.hpp>
 
 namespace gyrostat {
-namespace {
-
-constexpr double tail_share = 0.05;
-constexpr std::size_t fewest_for_interval = 200;  // ten in the tail
-
-}  // namespace
 
 void StreamedTailMean::add(double value) {
   if (std::isnan(value)) return;
@@ -36,7 +30,7 @@ bool StreamedTailMean::another_pass() {
   const double second = sums_[1] / n - mean * mean;
   const double third = sums_[2] / n - 3.0 * mean * sums_[1] / n + 2.0 * mean * mean * mean;
   tail_.value = quantile_ + mean;
-  if (order_.count() < fewest_for_interval || !(second > 0.0)) return false;
+  if (n < fewest_for_tail_interval || !(second > 0.0)) return false;
   const auto [low, high] = skewed_mean_interval({n, tail_.value, n * second, n * third}, 0.025);
   tail_.low = low;
   tail_.high = high;

@@ -5,6 +5,9 @@
 
 namespace gyrostat {
 
+inline constexpr double tail_share = 0.05;
+inline constexpr double fewest_for_tail_interval = 200;  ///< ten in the tail
+
 /// The mean of the worst 5 % (conditional value at risk, expected shortfall) with its 95 %
 /// interval.
 struct TailMean {

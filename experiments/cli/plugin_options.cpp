@@ -8,9 +8,10 @@ namespace gyrostat::cli {
 namespace {
 
 /// The verbs that read a study or a store, or name a filter or an effect.
-constexpr std::array with_plugins = {
-    "run",    "plan",  "sensitivity", "status",   "report", "replay", "rank",     "consistency",
-    "repair", "slurm", "apply",       "simulate", "list",   "schema", "validate", "publish"};
+constexpr std::array with_plugins = {"run",     "plan",     "sensitivity", "status", "report",
+                                     "replay",  "rank",     "consistency", "repair", "slurm",
+                                     "apply",   "simulate", "list",        "schema", "validate",
+                                     "publish", "tune"};
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <gyrostat/analysis/error_metric.hpp>
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/analysis/statistics/all_pairs.hpp>
 #include <gyrostat/analysis/statistics/mean_ranks.hpp>
@@ -33,14 +34,8 @@ RankedMetric metric_of(const Cell& cell, const std::string& name) {
                       .id = name.empty() ? std::string(judging_metric(cell)) : name,
                       .unit = "",
                       .by_size = false};
-  metric.index = metric_named(metric.id, "--metric");
+  metric.index = error_metric_named(metric.id, "--metric");
   metric.unit = std::string(metric_types()[metric.index].unit);
-  std::vector<std::string> allowed;
-  for (const auto& type : metric_types())
-    if (type.goal == Goal::small || type.goal == Goal::near_zero) allowed.push_back(type.id);
-  if (std::find(allowed.begin(), allowed.end(), metric.id) == allowed.end())
-    throw InputError("--metric", fmt::format("small is not good of '{}'; allowed: {}", metric.id,
-                                             fmt::join(allowed, ", ")));
   metric.by_size = metric_types()[metric.index].goal == Goal::near_zero;
   return metric;
 }

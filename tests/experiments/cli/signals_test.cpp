@@ -49,6 +49,7 @@ std::vector<Call> calls() {
           {{"simulate", "long.json", "--out", "simulated.csv"}},
           {{"allan", "rec.csv"}},
           {{"export-model", "rec.csv", "--for", "all", "--out", "models"}},
+          {{"tune", "tuned.json", "--out", "tuned_out.json", "--json", "tuning.json"}},
           {{"match", "match.json", "--study", "matched.json"}},
           {{"ledger", "ledger.json"}},
           {{"coverage", studies + "coverage.json"}},
