@@ -130,6 +130,13 @@ double SubsetSimulation::probability() const {
   return product;
 }
 
+double SubsetSimulation::bound() const {
+  double product = 1.0;
+  for (const auto& level : levels_)
+    if (level.share > 0.0) product *= level.share;
+  return product;
+}
+
 double RareProbability::reliability_index() const { return normal_upper_quantile(probability); }
 
 double RareProbability::plain_trials() const {
@@ -150,6 +157,8 @@ RareProbability rare_probability(std::span<const double> runs) {
   return {values.mean, std::min(values.mean, std::exp(centre - reach)),
           std::clamp(std::exp(centre + reach), values.mean, 1.0), values.error() / values.mean};
 }
+
+double rarer_than(std::span<const double> bounds) { return rare_probability(bounds).high; }
 
 void complete(SubsetSimulation& run, std::uint64_t seed, std::size_t dimension,
               const std::function<double(std::span<const double>)>& function) {

@@ -83,6 +83,9 @@ class SubsetSimulation {
   /// the function has one value at all the samples of a level.
   bool reached() const { return reached_; }
   double probability() const;  ///< once it has ended; 0 where the threshold was not reached
+  /// The probability beyond the highest threshold that samples were found beyond: the failure's
+  /// own once the threshold was reached, else that of something no rarer. Never 0.
+  double bound() const;
   const std::vector<SubsetLevel>& levels() const { return levels_; }
   std::uint32_t trials() const { return trials_; }  ///< that it was told of
   /// The trials above the threshold, each as often as a chain stayed there.
@@ -125,6 +128,11 @@ struct RareProbability {
 /// sqrt(s^2 / n + s^4 / (2 (n - 1))) about it in the logarithm (after Cox, in Land, Technometrics
 /// 14, 1972; with t by Olsson, J. Stat. Educ. 13, 2005). Its coverage is measured by the tests.
 RareProbability rare_probability(std::span<const double> runs);
+
+/// The 97.5 % upper bound of a failure's probability that runs leave which did not all reach the
+/// threshold, of their `bound`s: the upper end of `rare_probability`'s interval for the mean of
+/// what is no rarer.
+double rarer_than(std::span<const double> bounds);
 
 /// Lets every run end by values of `function` of `dimension` deviates, of stream "z".
 void complete(SubsetSimulation& run, std::uint64_t seed, std::size_t dimension,

@@ -5,21 +5,6 @@
 namespace gyrostat {
 namespace {
 
-/// In each trial, the mean over those points that have it.
-std::vector<double> trial_levels(const Outputs& outputs) {
-  std::vector<double> levels(outputs.trials());
-  for (std::size_t t = 0; t < levels.size(); ++t) {
-    double sum = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < outputs.points(); ++i)
-      if (!std::isnan(outputs.at(i, t))) {
-        sum += outputs.at(i, t);
-        count += 1.0;
-      }
-    levels[t] = sum / count;
-  }
-  return levels;
-}
-
 /// Two points of each row, held against each other.
 class Comparison {
  public:

@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include <gyrostat/analysis/sensitivity/estimators.hpp>
+#include <gyrostat/analysis/sensitivity/surrogate.hpp>
 #include <gyrostat/analysis/sensitivity/test_functions.hpp>
 #include <gyrostat/core/random.hpp>
 
@@ -99,21 +100,28 @@ std::vector<Tally> named(const char* format, const std::vector<double>& truths) 
   return tallies;
 }
 
-void saltelli(Table& table, const Case& c, const TrueIndices& truth, std::size_t rows,
-              std::uint32_t repeats, std::uint64_t seed) {
+/// Sobol' indices by rows alone, or with a surrogate.
+void sobol(Table& table, const Case& c, const TrueIndices& truth, std::size_t rows,
+           bool with_surrogate, std::uint32_t repeats, std::uint64_t seed) {
   const std::size_t parameters = truth.total.size();
   auto tallies = named("S_{}", truth.first_order);
   for (auto& tally : named("T_{}", truth.total)) tallies.push_back(tally);
   repeat(tallies, repeats, [&](std::uint32_t r) {
     const auto points = saltelli_rows(rows, parameters, {seed + r, "coverage"});
     Resampler resampler(seed + r, "coverage");
-    const auto indices = sobol_indices(parameters, simulate(c, points, seed, r), resampler);
+    const auto outputs = simulate(c, points, seed, r);
+    const auto indices =
+        with_surrogate
+            ? surrogate_of(points, std::vector<std::size_t>(parameters, 0), outputs, resampler)
+                  .indices
+            : sobol_indices(parameters, outputs, resampler);
     std::vector<Estimate> estimates;
     for (std::size_t p = 0; p < parameters; ++p) estimates.push_back(indices[p].first_order);
     for (std::size_t p = 0; p < parameters; ++p) estimates.push_back(indices[p].total);
     return estimates;
   });
-  add_rows(table, fmt::format("saltelli, {} rows", rows), c, repeats, tallies);
+  add_rows(table, fmt::format("{}, {} rows", with_surrogate ? "surrogate" : "saltelli", rows), c,
+           repeats, tallies);
 }
 
 /// mu* and sigma over all steps of the grid, by going through them.
@@ -184,7 +192,8 @@ void one_at_a_time_case(Table& table, const Case& c, std::uint32_t repeats, std:
   add_rows(table, "one_at_a_time", c, repeats, tallies);
 }
 
-std::string kind_of(const std::string& quantity) {
+std::string kind_of(const std::string& design, const std::string& quantity) {
+  if (design.starts_with("surrogate")) return "Sobol' indices, surrogate";
   if (quantity.starts_with("elasticity")) return "elasticities";
   if (quantity.starts_with("sigma")) return "σ";
   return quantity.starts_with("mu*") ? "μ*" : "Sobol' indices";
@@ -198,7 +207,7 @@ Table groups_of(const Table& intervals) {
   };
   std::vector<Group> groups;
   for (const auto& row : intervals.rows) {
-    const auto kind = kind_of(std::get<std::string>(row[4]));
+    const auto kind = kind_of(std::get<std::string>(row[0]), std::get<std::string>(row[4]));
     const auto& noise = std::get<std::string>(row[2]);
     auto at = std::find_if(groups.begin(), groups.end(),
                            [&](const Group& g) { return g.kind == kind && g.noise == noise; });
@@ -252,17 +261,22 @@ std::vector<NamedTable> sensitivity_coverage(std::uint32_t repeats, std::uint64_
   const auto fresh = [&] { return next += repeats; };
   for (const auto& noise : noises) {
     const Case ishi{"Ishigami", ishigami, 3.72, 20, noise};
-    saltelli(table, ishi, ishigami_indices(), 128, repeats, fresh());
-    saltelli(table, ishi, ishigami_indices(), 512, repeats, fresh());
-    const Case sobol{"Sobol' g", g, 0.75, 20, noise};
-    saltelli(table, sobol, sobol_g_indices(a), 256, repeats, fresh());
-    morris(table, sobol, 4, 20, 4, repeats, fresh());
-    morris(table, sobol, 4, 50, 8, repeats, fresh());
+    sobol(table, ishi, ishigami_indices(), 128, false, repeats, fresh());
+    sobol(table, ishi, ishigami_indices(), 512, false, repeats, fresh());
+    const Case product{"Sobol' g", g, 0.75, 20, noise};
+    sobol(table, product, sobol_g_indices(a), 256, false, repeats, fresh());
+    morris(table, product, 4, 20, 4, repeats, fresh());
+    morris(table, product, 4, 50, 8, repeats, fresh());
     morris(table, ishi, 3, 50, 8, repeats, fresh());
     if (noise.own > 0.0) {
       one_at_a_time_case(table, {"x1 x2^2 + x3", polynomial, 1.0, 20, noise}, repeats, fresh());
       one_at_a_time_case(table, {"x1 x2^2 + x3", polynomial, 1.0, 200, noise}, repeats, fresh());
     }
+  }
+  for (const auto& noise : noises) {
+    sobol(table, {"Ishigami", ishigami, 3.72, 20, noise}, ishigami_indices(), 51, true, repeats,
+          fresh());
+    sobol(table, {"Sobol' g", g, 0.75, 20, noise}, sobol_g_indices(a), 51, true, repeats, fresh());
   }
   table.notes.push_back(
       "standard error: of the coverage, binomial; truth below: share of intervals that lie "

@@ -34,16 +34,28 @@ std::string plain_text(const PlainFailures& plain) {
                                           plain.trials, probability(low), probability(high));
 }
 
-std::string unfinished(const FailureRule& rule, const FailureSearch& search) {
+/// Nothing while it goes on, and where its runs found nothing that is rare at all.
+std::optional<double> bound_of(const FailureSearch& search) {
+  if (!search.asked().empty()) return {};
+  std::vector<double> bounds;
+  for (const auto& run : search.runs()) bounds.push_back(run.bound());
+  const double bound = rarer_than(bounds);
+  return bound < 1.0 ? std::optional(bound) : std::nullopt;
+}
+
+std::string unfinished(const FailureRule& rule, const FailureFinding& f) {
+  const auto& search = *f.search;
   if (!search.asked().empty())
     return fmt::format("the search goes on: {} trials so far", search.trials());
   std::size_t reached = 0;
   for (const auto& run : search.runs()) reached += run.reached();
+  const auto runs = fmt::format("{} of {} runs reached the threshold within {} levels", reached,
+                                search.runs().size(), rule.levels);
+  if (!f.rarer_than) return "too rare to tell, or beyond what the metric can be: " + runs;
   return fmt::format(
-      "too rare to tell, or beyond what the metric can be: {} of {} runs reached the threshold "
-      "within {} "
-      "levels",
-      reached, search.runs().size(), rule.levels);
+      "{} is rarer than {} (97.5 % sure, by {} trials), or beyond what the metric can be: {}; more "
+      "\"levels\" go further",
+      event(rule), probability(*f.rarer_than), search.trials(), runs);
 }
 
 std::string sentence(const FailureRule& rule, const FailureFinding& f) {
@@ -62,7 +74,7 @@ std::string sentence(const FailureRule& rule, const FailureFinding& f) {
           "show it";
     return text;
   }
-  if (f.search) return f.method + ": " + unfinished(rule, *f.search) + "; " + plain_text(f.plain);
+  if (f.search) return f.method + ": " + unfinished(rule, f) + "; " + plain_text(f.plain);
   return f.method + ": " + event(rule) + ": " + plain_text(f.plain);
 }
 
@@ -98,11 +110,14 @@ std::vector<FailureFinding> failure_findings(const Study& study, const Store& pl
   if (store && store->manifest().digest != failure_study(study).digest) store.reset();
   std::vector<FailureFinding> findings;
   for (const auto m : rule.methods) {
-    auto& f = findings.emplace_back(FailureFinding{
-        cell.methods[m].id, plain_failures(plain, index, cell, m), std::nullopt, std::nullopt});
+    auto& f = findings.emplace_back(
+        FailureFinding{cell.methods[m].id, plain_failures(plain, index, cell, m), {}, {}, {}});
     if (f.plain.is_enough() || !store) continue;
     f.search.emplace(rule, *store, failure_index(study, index, m));
-    if (!f.search->reached()) continue;
+    if (!f.search->reached()) {
+      f.rarer_than = bound_of(*f.search);
+      continue;
+    }
     std::vector<double> runs;
     for (const auto& run : f.search->runs()) runs.push_back(run.probability());
     f.rare = rare_probability(runs);
@@ -140,9 +155,9 @@ Table failure_table(const Cell& cell, const std::vector<FailureFinding>& finding
       table.rows.push_back({f.method,
                             {},
                             {},
+                            f.rarer_than ? TableCell(*f.rarer_than) : TableCell(),
                             {},
-                            {},
-                            "not told",
+                            f.rarer_than ? "subset simulation, rarer than" : "not told",
                             f.search ? TableCell(std::int64_t{f.search->trials()}) : TableCell(),
                             {},
                             plain});

@@ -16,6 +16,7 @@ struct FailureFinding {
   PlainFailures plain;
   std::optional<FailureSearch> search;  ///< where plain trials do not tell it
   std::optional<RareProbability> rare;  ///< once every run of the search has reached the threshold
+  std::optional<double> rarer_than;     ///< where the search has ended and not every run did
 };
 
 /// What a run's folder tells of the failure of a cell, number `index` of `study`; one finding a

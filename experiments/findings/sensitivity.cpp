@@ -94,8 +94,15 @@ void estimate(const Design& design, const Outputs& outputs, Resampler& resampler
       s.elementary_effects[p].parameter = s.parameters[p];
     s.noise.value = elementary_noise(design.points, outputs, step);
   }
-  if (design.kind == DesignKind::saltelli) {
-    s.indices = sobol_indices(parameters, outputs, resampler);
+  if (design.kind == DesignKind::saltelli || design.kind == DesignKind::surrogate) {
+    if (design.kind == DesignKind::surrogate) {
+      std::vector<std::size_t> levels;
+      for (const auto& p : design.parameters) levels.push_back(p.level_count());
+      s.surrogate = surrogate_of(design.points, levels, outputs, resampler);
+      s.indices.swap(s.surrogate->indices);
+    } else {
+      s.indices = sobol_indices(parameters, outputs, resampler);
+    }
     s.noise = s.indices.back().first_order;
     s.indices.pop_back();
     for (std::size_t p = 0; p < parameters; ++p) s.indices[p].parameter = s.parameters[p];

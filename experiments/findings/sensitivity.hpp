@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <gyrostat/analysis/sensitivity/indices.hpp>
+#include <gyrostat/analysis/sensitivity/surrogate.hpp>
 #include <gyrostat/core/table.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 #include <gyrostat/results/store.hpp>
@@ -28,6 +30,8 @@ struct Sensitivity {
   /// the metric's unit), for Sobol' indices the variance of a point's mean as a share of the
   /// output's variance.
   Estimate noise{};
+  std::optional<Surrogate>
+      surrogate{};                    ///< of a design of that kind, its indices moved to `indices`
   std::vector<std::string> labels{};  ///< by point: what it is in the design
   std::vector<std::vector<double>>
       coordinates{};  ///< by point, by parameter; NaN where it is no number

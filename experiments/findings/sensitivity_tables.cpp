@@ -156,7 +156,7 @@ TableCell value_cell(const std::string& text) {
 
 bool has_sensitivities(DesignKind kind) {
   return kind == DesignKind::one_at_a_time || kind == DesignKind::morris ||
-         kind == DesignKind::saltelli;
+         kind == DesignKind::saltelli || kind == DesignKind::surrogate;
 }
 
 std::size_t Sensitivity::failed_trials() const {
@@ -181,6 +181,8 @@ std::vector<Table> sensitivity_tables(const std::vector<Sensitivity>& all, const
     }
     std::vector<std::string> sentences;
     for (const auto* s : methods) sentences.push_back(sensitivity_sentence(*s));
+    for (const auto* s : methods)
+      if (s->surrogate) sentences.push_back(surrogate_verdict(*s));
     notes.insert(notes.begin(), sentences.begin(), sentences.end());
   }
   return tables;

@@ -62,4 +62,29 @@ std::string sensitivity_sentence(const Sensitivity& s) {
   return sentence + fmt::format(", then {} ({})", second.parameter, shown(second));
 }
 
+std::string surrogate_verdict(const Sensitivity& s) {
+  const double value = s.surrogate->unexplained.value, high = s.surrogate->unexplained.high;
+  if (std::isnan(value))
+    return fmt::format(
+        "{}: too few rows to fit a surrogate or to check it: the indices are those of the rows "
+        "alone",
+        s.method);
+  const auto percent = [](double share) { return fmt::format("{:.2g}", 100.0 * share); };
+  const auto interval =
+      std::isnan(high) ? "" : fmt::format(" (up to {} %)", percent(std::max(0.0, high)));
+  const auto left =
+      fmt::format("{}: a chaos of {} terms leaves {} %{} of the variance unexplained", s.method,
+                  s.surrogate->chaos.terms.size(), percent(std::max(0.0, value)), interval);
+  const auto allowed = percent(Surrogate::most_unexplained);
+  if (s.surrogate->is_trusted)
+    return left + fmt::format(
+                      ", {} % allowed: it is trusted, and takes what it explains out of "
+                      "the indices' sampling error",
+                      allowed);
+  return left + fmt::format(
+                    ", {} % allowed: it is not trusted, and the indices are those of the "
+                    "rows alone; more rows make either better",
+                    allowed);
+}
+
 }  // namespace gyrostat

@@ -193,7 +193,7 @@ Table sensitivity(const Request& request, Results& results) {
   auto tables = sensitivity_tables(found, study);
   if (tables.empty())
     throw InputError(request.name,
-                     "the chosen cells are no one_at_a_time, morris or saltelli design");
+                     "the chosen cells are no one_at_a_time, morris, saltelli or surrogate design");
   tables.front().title = request.title;
   return tables.front();
 }

@@ -19,6 +19,10 @@ double DesignParameter::coordinate(double value) const {
   return logarithmic ? std::log(value / from) / std::log(to / from) : (value - from) / (to - from);
 }
 
+std::size_t DesignParameter::level_count() const {
+  return range.whole ? static_cast<std::size_t>(to - from) + 1 : 0;
+}
+
 bool Design::is_sampled() const {
   constexpr std::size_t few = 20;
   return (kind != DesignKind::grid && kind != DesignKind::list) || values.size() > few;
@@ -26,7 +30,8 @@ bool Design::is_sampled() const {
 
 std::string name_of(DesignKind kind) {
   constexpr std::array<std::string_view, all_design_kinds.size()> names = {
-      "grid", "list", "latin_hypercube", "sobol", "one_at_a_time", "morris", "saltelli"};
+      "grid",          "list",   "latin_hypercube", "sobol",
+      "one_at_a_time", "morris", "saltelli",        "surrogate"};
   return std::string(names[static_cast<std::size_t>(kind)]);
 }
 

@@ -14,10 +14,20 @@ namespace gyrostat {
 
 struct Cell;
 
-enum class DesignKind { grid, list, latin_hypercube, sobol, one_at_a_time, morris, saltelli };
+enum class DesignKind {
+  grid,
+  list,
+  latin_hypercube,
+  sobol,
+  one_at_a_time,
+  morris,
+  saltelli,
+  surrogate
+};
 inline constexpr std::array all_design_kinds = {
-    DesignKind::grid,          DesignKind::list,   DesignKind::latin_hypercube, DesignKind::sobol,
-    DesignKind::one_at_a_time, DesignKind::morris, DesignKind::saltelli};
+    DesignKind::grid,     DesignKind::list,          DesignKind::latin_hypercube,
+    DesignKind::sobol,    DesignKind::one_at_a_time, DesignKind::morris,
+    DesignKind::saltelli, DesignKind::surrogate};
 
 /// A parameter that a design varies.
 struct DesignParameter {
@@ -32,6 +42,8 @@ struct DesignParameter {
   double at(double coordinate) const;
   /// The coordinate of a value.
   double coordinate(double value) const;
+  /// How many values it takes between its ends, each as likely; 0 where it is continuous.
+  std::size_t level_count() const;
 };
 
 /// Many cells from one: the points of a design over parameters of a cell.

@@ -8,7 +8,7 @@
 namespace gyrostat {
 
 /// Fills points, values and labels of a design whose kind and parameters are read. `count` is of
-/// points, trajectories (morris) or rows (saltelli).
+/// points, trajectories (morris) or rows (saltelli, surrogate).
 void place_points(std::size_t count, std::uint64_t seed, Design& design);
 
 }  // namespace gyrostat

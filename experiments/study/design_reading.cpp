@@ -218,6 +218,9 @@ PointCount read_count(JsonObject& object, Design& design) {
                         fmt::format("{} is odd; allowed: even numbers", design.levels));
       count.sound = count.sound && design.levels % 2 == 0;
       break;
+    case DesignKind::surrogate:
+      read("rows", 32, parameters + 2);
+      break;
     default:
       read("rows", 128, parameters + 2);
   }

@@ -202,9 +202,9 @@ Json design() {
       "a parameter's span");
   const Json values = {{"type", "array"}, {"minItems", 1}};
   const Json properties = {
-      {"kind",
-       one_of({"grid", "list", "latin_hypercube", "sobol", "one_at_a_time", "morris", "saltelli"},
-              "how the points are placed")},
+      {"kind", one_of({"grid", "list", "latin_hypercube", "sobol", "one_at_a_time", "morris",
+                       "saltelli", "surrogate"},
+                      "how the points are placed")},
       {"parameters",
        {{"type", "object"},
         {"minProperties", 1},
@@ -219,7 +219,7 @@ Json design() {
         {"else", number(study_ranges::points, "number of points")}}},
       {"trajectories", number(study_ranges::points, 20, "morris: number of trajectories")},
       {"levels", number(study_ranges::levels, 4, "morris: levels of each parameter, even")},
-      {"rows", number(study_ranges::points, 128, "saltelli: rows of A and B")}};
+      {"rows", number(study_ranges::points, 128, "saltelli, surrogate (32): rows of A and B")}};
   auto schema = object(properties,
                        "many cells from one: the points of a design over its parameters", {"kind"});
   schema["if"] = kind("list");

@@ -164,11 +164,39 @@ TEST(SubsetSimulation, WhereTheFunctionEndsBelowTheThresholdItEnds) {
   EXPECT_FALSE(bounded.reached());
   EXPECT_EQ(bounded.probability(), 0.0);
   EXPECT_LE(bounded.levels().size(), 4U);
+  EXPECT_GT(bounded.bound(), 0.0);
 
   SubsetSimulation constant({.threshold = 2.0}, 0);
   complete(constant, 1, 2, [](auto) { return 1.0; });
   EXPECT_FALSE(constant.reached());
   EXPECT_EQ(constant.trials(), 380U);
+  EXPECT_EQ(constant.bound(), 1.0);  // nothing was found to be rare
+}
+
+TEST(SubsetSimulation, OutOfLevelsItBoundsTheProbability) {
+  // Four levels of a tenth end near 1e-4, where a failure of 1e-9 is not reached. Each bound is an
+  // estimate of what lies beyond the level's threshold, so their upper end is above 1e-4 but for
+  // one in forty, and is far above 1e-9 always; a factor of ten is some eight standard errors.
+  const SubsetPlan plan{.threshold = 6.0, .most_levels = 4};
+  std::vector<double> bounds;
+  for (std::uint32_t r = 0; r < 8; ++r) {
+    SubsetSimulation run(plan, r * plan.numbers());
+    complete(run, 21, 3, sum);
+    EXPECT_FALSE(run.reached());
+    EXPECT_EQ(run.probability(), 0.0);
+    // The threshold that it ended at has this probability, within its own spread of some 40 %.
+    EXPECT_NEAR(std::log(run.bound() / normal_upper_tail(run.levels().back().threshold)), 0.0, 2.0);
+    bounds.push_back(run.bound());
+  }
+  EXPECT_GT(rarer_than(bounds), normal_upper_tail(6.0));
+  EXPECT_LT(rarer_than(bounds), 1e-3);
+}
+
+TEST(SubsetSimulation, TheBoundOfARunThatReachedItIsItsProbability) {
+  SubsetSimulation run({.threshold = 3.0}, 0);
+  complete(run, 5, 2, sum);
+  ASSERT_TRUE(run.reached());
+  EXPECT_EQ(run.bound(), run.probability());
 }
 
 /// A function of few values: levels are where the steps are.

@@ -8,6 +8,9 @@ noise are computed again from the exported outcomes, every square as the mean of
 different trials; they must agree to 1e-9. With one trial a point nothing is taken out, and the indices are
 held against OpenTURNS' Martinez estimator (python3-openturns), the correlation about each sample's own mean
 where ours is about the common one: they differ by the order of 1/rows, and 5/rows are allowed.
+
+A surrogate of as many parameters is computed from its JSON by NumPy's Legendre polynomials; it must foretell means at points of another design to within twice the error
+of OpenTURNS' sparse chaos (LARS, corrected leave-one-out) of the same points.
 """
 import csv
 import json
@@ -108,6 +111,75 @@ def compare(what, ours, theirs, tolerance):
     return good
 
 
+def held_out(folder, binary, name):
+    """Coordinates in [-1, 1] and means of kf over trials at the points of a design."""
+    rows = call(binary, folder, "sensitivity", f"runs/{name}", "--points", "--method", "kf", "--format", "csv")
+    lines = [line for line in rows.splitlines() if line.startswith(("row_", "point_"))]
+    values = np.array([[float(v) for v in line.split(",")[1:5]] for line in lines])
+    x = values[:, :3].copy()
+    spans = STUDY["cells"][0]["design"]["parameters"].values()
+    for p, span in enumerate(spans):
+        scale = np.log if span.get("scale") == "log" else (lambda v: v)
+        low, high = scale(span["from"]), scale(span["to"])
+        x[:, p] = 2.0 * (scale(x[:, p]) - low) / (high - low) - 1.0
+    return x, values[:, 3]
+
+
+def by_terms(surrogate, x):
+    """The surrogate of the JSON, by NumPy."""
+    from numpy.polynomial.legendre import legval
+    y = np.zeros(len(x))
+    for term in surrogate["terms"]:
+        product = np.full(len(x), term["coefficient"])
+        for p, degree in enumerate(term["degrees"]):
+            product *= np.sqrt(2.0 * degree + 1.0) * legval(x[:, p], [0.0] * degree + [1.0])
+        y += product
+    return y
+
+
+def chaos_of_openturns(x, y):
+    import openturns as ot
+    law = ot.ComposedDistribution([ot.Uniform(-1.0, 1.0)] * PARAMETERS)
+    enumeration = ot.HyperbolicAnisotropicEnumerateFunction(PARAMETERS, 0.75)
+    basis = ot.OrthogonalProductPolynomialFactory([ot.LegendreFactory()] * PARAMETERS, enumeration)
+    size = enumeration.getBasisSizeFromTotalDegree(8)
+    sparse = ot.LeastSquaresMetaModelSelectionFactory(ot.LARS(), ot.CorrectedLeaveOneOut())
+    algorithm = ot.FunctionalChaosAlgorithm(ot.Sample(x.tolist()), ot.Sample([[v] for v in y]), law,
+                                            ot.FixedStrategy(basis, size), ot.LeastSquaresStrategy(sparse))
+    algorithm.run()
+    model = algorithm.getResult().getMetaModel()
+    return lambda points: np.array(model(ot.Sample(points.tolist()))).ravel()
+
+
+def check_surrogate(binary, folder):
+    cell = STUDY["cells"][0]
+    verdicts, designs = [], {}
+    cell["trials"] = 6
+    for name, kind, size in (("tenth", "surrogate", {"rows": 30}), ("others", "latin_hypercube", {"points": 100})):
+        cell["design"] = {"kind": kind, **size, "parameters": cell["design"]["parameters"]}
+        with open(os.path.join(folder, f"{name}.json"), "w") as file:
+            json.dump(STUDY, file)
+        call(binary, folder, "run", f"{name}.json")
+        designs[name] = held_out(folder, binary, name)
+    call(binary, folder, "sensitivity", "runs/tenth", "--method", "kf", "--json", "function.json")
+    with open(os.path.join(folder, "function.json")) as file:
+        surrogate = json.load(file)["surrogates"][0]
+    x, y = designs["others"]
+    error = np.mean((by_terms(surrogate, x) - y) ** 2) / np.var(y)
+    told = surrogate["unexplained"]["value"] + surrogate["trial_noise"]["value"]
+    print(f"surrogate: {len(surrogate['terms'])} terms, trusted {surrogate['trusted']}, error {error:.2e} at new points, "
+          f"{told:.2e} told")
+    verdicts.append(bool(surrogate["trusted"]) and error < 0.05)
+    try:
+        theirs = np.mean((chaos_of_openturns(*designs["tenth"])(x) - y) ** 2) / np.var(y)
+        good = bool(error <= 2.0 * theirs)
+        print(f"{'ok  ' if good else 'FAIL'} surrogate against OpenTURNS: {error:.2e} and {theirs:.2e} at new points")
+        verdicts.append(good)
+    except ImportError:
+        pass
+    return verdicts
+
+
 def main(binary, folder):
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
@@ -121,6 +193,7 @@ def main(binary, folder):
         for method, values in outputs.items():
             verdicts.append(compare(f"{name} {method} against its definition", indices[method],
                                     derived(values), 1e-9))
+    verdicts += check_surrogate(binary, folder)
     try:
         for method, values in outputs.items():
             verdicts.append(compare(f"single {method} against OpenTURNS", indices[method],

@@ -2,6 +2,7 @@
 
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/findings/surrogate_json.hpp>
 #include <gyrostat/experiments/run/study_store.hpp>
 
 namespace gyrostat::cli {
@@ -10,22 +11,30 @@ namespace {
 constexpr const char* sensitivity_examples = R"(Examples:
   gyrostat sensitivity runs/STUDY                         which parameter matters, for each method
   gyrostat sensitivity runs/STUDY --metric heading_end --method kf
-  gyrostat sensitivity runs/STUDY --points --format csv   the mean at every point of the design)";
+  gyrostat sensitivity runs/STUDY --points --format csv   the mean at every point of the design
+  gyrostat sensitivity runs/STUDY --json F.json           surrogates as functions of the parameters)";
 
 struct SensitivityArguments {
   std::string folder;
   SensitivityChoice choice;
   bool points = false;
+  std::string json;
   FormatOption format;
 };
 
 int run(const SensitivityArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
+  if (!arguments.json.empty()) require_writable(arguments.json, "");
   const Store store = Store::open(arguments.folder);
   const Study study = stored_study(store);
   if (study.designs.empty())
     throw InputError(arguments.folder, "the study has no \"design\", so nothing was varied by one");
   const auto found = sensitivities(study, store, arguments.choice);
+  if (!arguments.json.empty()) {
+    if (std::none_of(found.begin(), found.end(), [](const auto& s) { return s.surrogate; }))
+      throw InputError("--json", "the study has no design of kind surrogate, so there is none");
+    write_atomically(arguments.json, surrogate_json(found, study));
+  }
   auto tables = sensitivity_tables(found, study);
   if (arguments.points || tables.empty()) tables = point_tables(found, study);
   console.out << render(tables, format);
@@ -43,6 +52,8 @@ void add_sensitivity(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--method", arguments->choice.method,
                    "method, by its id (default: all but the oracle)");
   verb->add_flag("--points", arguments->points, "the points and their means instead");
+  verb->add_option("--json", arguments->json, "write surrogates as functions of the parameters")
+      ->type_name("FILE");
   arguments->format.add_to(verb);
   verb->footer(sensitivity_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

@@ -148,6 +148,17 @@ TEST(FailureRun, IsToldByTheProgramAndReplayed) {
   EXPECT_THAT(again.err, HasSubstr("the search before is kept as"));
 }
 
+TEST(FailureRun, OutOfLevelsItIsToldWhatItIsRarerThan) {
+  const TestFolder folder;
+  folder.write("s.json", R"({"seed": 1, "cells": [{"name": "c", "trials": 50,
+    "parameters_from": "truth", "scenario": {"duration_s": 2, "rate_hz": 50}, "filters": ["none"],
+    "failure": {"metric": "heading_end", "above": 1, "levels": 2, "samples": 100, "runs": 4}}]})");
+  const auto ran = run_program(folder, {"run", "s.json", "--format", "md"});
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("subset simulation, rarer than"));
+  EXPECT_THAT(ran.out, HasSubstr("none: heading_end above 1 deg is rarer than 0.01"));
+}
+
 TEST(FailureRun, AFailureThatCannotBeIsAMistakeWithItsPlace) {
   const auto mistake = [](const std::string& failure) {
     const auto text = R"({"cells": [{"name": "c", "trials": 5, "parameters_from": "truth",

@@ -239,6 +239,32 @@ TEST(Plan, MeasuresAFewPointsOfADesignAndSaysSo) {
   EXPECT_THAT(ended.out, HasSubstr("measured at 3 of its 1000 points"));
 }
 
+TEST(Surrogate, IsWrittenAsAFunctionThatNeedsNothingElse) {
+  const TestFolder folder;
+  auto study = study_json({{"kind", "surrogate"}, {"rows", 12}, {"parameters", both}});
+  folder.write("s.json", study.dump());
+  ASSERT_EQ(run_program(folder, {"run", "s.json"}).exit_code, 0);
+  const auto told =
+      run_program(folder, {"sensitivity", "runs/s", "--json", "f.json", "--format", "md"});
+  ASSERT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("of the variance unexplained"));
+  const auto json = Json::parse(folder.read("f.json"));
+  ASSERT_FALSE(json.at("surrogates").empty());
+  for (const auto& s : json.at("surrogates")) {
+    ASSERT_EQ(s.at("parameters").size(), both.size());
+    EXPECT_EQ(s.at("parameters")[0].at("first_order").size(), 3U);
+    EXPECT_EQ(s.at("points"), 12 * (both.size() + 2));
+    for (const auto& term : s.at("terms")) EXPECT_EQ(term.at("degrees").size(), both.size());
+    EXPECT_GT(s.at("terms")[0].at("coefficient"), 0.0);  // the mean of an error over the cube
+  }
+  folder.write("t.json",
+               study_json({{"kind", "saltelli"}, {"rows", 2}, {"parameters", both}}).dump());
+  ASSERT_EQ(run_program(folder, {"run", "t.json"}).exit_code, 0);
+  const auto none = run_program(folder, {"sensitivity", "runs/t", "--json", "none.json"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("no design of kind surrogate"));
+}
+
 TEST(SensitivitySentence, NamesWhatMattersMost) {
   Sensitivity s{.method = "kf", .metric = "bias_rmse", .unit = "dps"};
   EXPECT_EQ(sensitivity_sentence(s), "");
@@ -254,6 +280,22 @@ TEST(SensitivitySentence, NamesWhatMattersMost) {
   s.elementary_effects.clear();
   s.indices = {{"phi", {}, {0.2, 0.0, 0.9}}, {"noise", {}, {no_value, no_value, no_value}}};
   EXPECT_EQ(sensitivity_sentence(s), "kf: no parameter's effect on bias_rmse is told from none");
+}
+
+TEST(SurrogateVerdict, SaysWhetherItIsTrustedAndWhatStandsInItsPlace) {
+  Sensitivity s{.method = "kf", .surrogate = Surrogate{}};
+  EXPECT_THAT(surrogate_verdict(s), HasSubstr("too few rows"));
+  s.surrogate->unexplained = {0.02, 0.01, 0.03};
+  s.surrogate->is_trusted = true;
+  EXPECT_THAT(
+      surrogate_verdict(s),
+      HasSubstr("kf: a chaos of 0 terms leaves 2 % (up to 3 %) of the variance unexplained, "
+                "10 % allowed: it is trusted"));
+  s.surrogate->unexplained = {0.2, no_value, no_value};
+  s.surrogate->is_trusted = false;
+  EXPECT_THAT(surrogate_verdict(s), HasSubstr("leaves 20 % of the variance unexplained, 10 % "
+                                              "allowed: it is not trusted, and the indices are "
+                                              "those of the rows alone"));
 }
 
 }  // namespace
