@@ -192,6 +192,14 @@ void study(benchmark::State& state) {
   per(state, "s_per_trial", cell.trials);
 }
 
+/// `use(kernels, kernel)` for every packed filter that this machine can run.
+template <class Use>
+void for_each_kernel(const Use& use) {
+  for (const auto* kernels : available_kernels())
+    for (const auto* unit : kernels->filters)
+      for (const auto& kernel : *unit) use(*kernels, kernel);
+}
+
 /// What is compiled for one instruction set here.
 struct Compiled {
   double (*peak)(std::size_t, double, double);
@@ -234,19 +242,19 @@ const bool registered = [] {
     if constexpr (requires { F::packs_trials; }) {
       RegisterBenchmark(("filter/" + std::string(plugin.id) + "/one").c_str(),
                         one_trial<F, typename decltype(plugin)::template on<Counted>>);
-      for (const auto* kernels : available_kernels())
-        for (const auto& kernel : kernels->filters)
-          if (kernel.filter == plugin.id)
-            RegisterBenchmark(
-                named("filter/" + std::string(plugin.id), kernels->target, kernel.lanes).c_str(),
-                packed, kernel, default_parameters<F>(static_cast<std::size_t>(kernel.lanes)));
+      for_each_kernel([&](const Kernels& kernels, const PackedFilter& kernel) {
+        if (kernel.filter == plugin.id)
+          RegisterBenchmark(
+              named("filter/" + std::string(plugin.id), kernels.target, kernel.lanes).c_str(),
+              packed, kernel, default_parameters<F>(static_cast<std::size_t>(kernel.lanes)));
+      });
     }
   });
-  for (const auto* kernels : available_kernels())
-    for (const auto& kernel : kernels->filters)
-      if (kernel.filter == "sr_ukf" && kernel.lanes == 8)
-        RegisterBenchmark(named("simulate_and_sr_ukf", kernels->target, 8).c_str(),
-                          simulate_and_filter, kernel);
+  for_each_kernel([&](const Kernels& kernels, const PackedFilter& kernel) {
+    if (kernel.filter == "sr_ukf")
+      RegisterBenchmark(named("simulate_and_sr_ukf", kernels.target, kernel.lanes).c_str(),
+                        simulate_and_filter, kernel);
+  });
   for (const int threads : {1, 2})
     for (const int lanes : {1, 8})
       RegisterBenchmark("study", study)

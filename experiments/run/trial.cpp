@@ -1,5 +1,6 @@
 #include <gyrostat/experiments/run/trial.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <new>
 
@@ -8,7 +9,8 @@
 #include <gyrostat/analysis/spectra/shrinkage.hpp>
 #include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/core/packed/kernels.hpp>
-#include <gyrostat/experiments/run/packed_track.hpp>
+#include <gyrostat/experiments/run/method_in_lanes.hpp>
+#include <gyrostat/experiments/run/stretch.hpp>
 #include <gyrostat/generators/true_parameters.hpp>
 
 namespace gyrostat {
@@ -21,6 +23,17 @@ double uncompensated_rmse(const Series& series) {
              series.size(),
              [&](std::size_t i) { return series.thermal_bias_dps[i] + series.random_error_dps[i]; })
       .rmse;
+}
+
+std::vector<double> numbers_of(const TrackErrors& errors, double uncompensated_dps) {
+  std::vector<double> numbers;
+  for (const auto& metric : metric_types()) {
+    const double value = metric(errors);
+    numbers.push_back(std::isnan(value) ? no_value : value);
+  }
+  numbers.insert(numbers.end(), errors.steps.begin(), errors.steps.end());
+  numbers.push_back(errors.bias.rmse > divergence_ratio * uncompensated_dps);
+  return numbers;
 }
 
 }  // namespace
@@ -53,15 +66,7 @@ void track_method(const Method& method, const ParameterMap& told, const Series& 
 }
 
 std::vector<double> judge_track(const Series& series, const Series& judged, const Track& track) {
-  std::vector<double> numbers;
-  const TrackErrors errors = track_errors(judged, track);
-  for (const auto& metric : metric_types()) {
-    const double value = metric(errors);
-    numbers.push_back(std::isnan(value) ? no_value : value);
-  }
-  for (const auto count : track.status_counts()) numbers.push_back(count);
-  numbers.push_back(errors.bias.rmse > divergence_ratio * uncompensated_rmse(series));
-  return numbers;
+  return numbers_of(track_errors(judged, track), uncompensated_rmse(series));
 }
 
 Noise calibration_noise(std::uint64_t seed, std::uint32_t trial) { return {~seed, trial}; }
@@ -129,6 +134,8 @@ void append_thrown(Record& record, const std::string& thrown) {
   append(record, nothing, thrown);
 }
 
+using Clock = std::chrono::steady_clock;
+
 class TrialsTogether {
  public:
   TrialsTogether(const Cell& cell, const Calibration& shared, std::span<const Noise> trials,
@@ -138,7 +145,6 @@ class TrialsTogether {
         trials_(trials),
         lanes_(lanes),
         own_(trials.size()),
-        judged_(trials.size()),
         records_(trials.size()) {
     lanes.front().seconds.resize(cell.methods.size());
     lanes.front().steps.resize(cell.methods.size());
@@ -152,37 +158,111 @@ class TrialsTogether {
         own_[l] = calibrate_cell(cell_, trials_[l], w.calibration_series);
         records_[l].calibration_converged = own_[l].random_error.converged;
       }
-      judged_[l] = &judged_series(cell_, w.series, w.denoised);
+      signals_.push_back({&w.series, &judged_series(cell_, w.series, w.denoised)});
+      uncompensated_.push_back(uncompensated_rmse(w.series));
     }
   }
 
-  void run(std::size_t m) {
-    const auto& method = cell_.methods[m];
-    auto& clock = lanes_.front();
-    const auto start = std::chrono::steady_clock::now();
-    std::vector<ParameterMap> told;
-    for (std::size_t l = 0; l < trials_.size(); ++l)
-      told.push_back(told_parameters(
-          cell_, method, cell_.calibration.each_trial ? own_[l] : shared_, lanes_[l].series));
-    track_together(method, told, lanes_);
-    for (std::size_t l = 0; l < trials_.size(); ++l) {
-      append(records_[l], judge_track(lanes_[l].series, *judged_[l], lanes_[l].track), "");
-      clock.steps[m] += static_cast<double>(lanes_[l].series.size());
+  /// Methods `first` and on, `count` of them.
+  void run(std::size_t first, std::size_t count) {
+    numbers_.resize(cell_.methods.size());
+    const int together = lanes_for(trials_.size());
+    if (Stretch::are_alike(signals_) && judge_kernel(together) != nullptr) {
+      run(first, count, 0, trials_.size(), together);
+    } else {
+      for (std::size_t l = 0; l < trials_.size(); ++l) run(first, count, l, 1, 1);
     }
-    clock.seconds[m] +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (std::size_t m = first; m < first + count; ++m) {
+      for (std::size_t l = 0; l < trials_.size(); ++l) append(records_[l], numbers_[m][l], "");
+      numbers_[m].clear();
+    }
   }
 
   std::vector<Record> records_of_all() { return std::move(records_); }
   Record& only() { return records_.front(); }
 
  private:
+  static int lanes_for(std::size_t trials) {
+    return static_cast<int>(*std::find_if(possible_lanes.begin(), possible_lanes.end() - 1,
+                                          [&](std::uint32_t lanes) { return lanes >= trials; }));
+  }
+
+  /// The methods over `trials` trials from `from` on.
+  void run(std::size_t first, std::size_t count, std::size_t from, std::size_t trials, int lanes) {
+    Stretch stretch(std::span<const TrialSignal>(signals_).subspan(from, trials), lanes);
+    stretch.load(0);
+    std::vector<MethodInLanes> packed;
+    std::vector<std::size_t> which;
+    for (std::size_t m = first; m < first + count; ++m)
+      if (const auto* kernel = kernel_of(cell_.methods[m], stretch)) {
+        which.push_back(m);
+        packed.emplace_back(cell_.methods[m], *kernel, told(m, from, trials));
+      } else {
+        run_tracks(m, from, trials, stretch);
+      }
+    run(which, packed, stretch);
+  }
+
+  /// A method that does not pack: one trial at a time, and judged side by side.
+  void run_tracks(std::size_t m, std::size_t from, std::size_t trials, Stretch& stretch) {
+    const auto start = Clock::now();
+    const auto told_each = told(m, from, trials);
+    std::vector<const Track*> tracks;
+    for (std::size_t l = 0; l < trials; ++l) {
+      auto& w = lanes_[from + l];
+      track_method(cell_.methods[m], told_each[l], w.series, w.track);
+      tracks.push_back(&w.track);
+    }
+    lanes_.front().seconds[m] += since(start);
+    std::vector<MethodInLanes> made;
+    made.emplace_back(tracks, stretch.lanes());
+    run(std::array{m}, made, stretch);
+  }
+
+  /// All of them over one stretch after the other.
+  void run(std::span<const std::size_t> which, std::vector<MethodInLanes>& methods,
+           Stretch& stretch) {
+    auto& clock = lanes_.front();
+    const std::size_t samples = stretch.samples_of_all();
+    for (std::size_t first = 0; first < samples && !which.empty(); first += JudgedSteps::most) {
+      stretch.load(first);
+      auto before = Clock::now();
+      for (std::size_t i = 0; i < which.size(); ++i) {
+        methods[i].step(stretch);
+        const auto now = Clock::now();
+        clock.seconds[which[i]] += std::chrono::duration<double>(now - before).count();
+        before = now;
+      }
+    }
+    for (std::size_t i = 0; i < which.size(); ++i)
+      for (const auto& errors : methods[i].errors()) {
+        auto& done = numbers_[which[i]];
+        done.push_back(numbers_of(errors, uncompensated_[done.size()]));
+        clock.steps[which[i]] += static_cast<double>(samples);
+      }
+  }
+
+  static double since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
+  std::vector<ParameterMap> told(std::size_t m, std::size_t from, std::size_t trials) const {
+    std::vector<ParameterMap> told;
+    for (std::size_t l = from; l < from + trials; ++l)
+      told.push_back(told_parameters(cell_, cell_.methods[m],
+                                     cell_.calibration.each_trial ? own_[l] : shared_,
+                                     lanes_[l].series));
+    return told;
+  }
+
   const Cell& cell_;
   const Calibration& shared_;
   std::span<const Noise> trials_;
   std::span<Workspace> lanes_;
   std::vector<Calibration> own_;
-  std::vector<const Series*> judged_;
+  std::vector<TrialSignal> signals_;
+  std::vector<double> uncompensated_;
+  std::vector<std::vector<std::vector<double>>> numbers_;  ///< by method and trial
   std::vector<Record> records_;
 };
 
@@ -204,9 +284,10 @@ std::vector<Record> run_trials_together(const Cell& cell, const Calibration& sha
   const bool alone = trials.size() == 1;
   auto thrown = thrown_by([&] { together.prepare(); });
   const bool prepared = thrown.empty();
-  for (std::size_t m = 0; m < cell.methods.size() && (alone || thrown.empty()); ++m) {
-    if (prepared) thrown = thrown_by([&] { together.run(m); });
-    if (alone && !thrown.empty()) append_thrown(together.only(), thrown);
+  if (!alone && prepared) thrown = thrown_by([&] { together.run(0, cell.methods.size()); });
+  for (std::size_t m = 0; alone && m < cell.methods.size(); ++m) {  // each throws for itself
+    if (prepared) thrown = thrown_by([&] { together.run(m, 1); });
+    if (!thrown.empty()) append_thrown(together.only(), thrown);
   }
   if (alone || thrown.empty()) return together.records_of_all();
   std::vector<Record> records;  // one by one, so that each is told of its own
