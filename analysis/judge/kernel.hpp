@@ -23,7 +23,22 @@ struct Kernel {
     for (int l = 0; l < Lanes<T>::count; ++l)
       static_cast<const Judge<T>*>(state)->finish(l, errors[l]);
   }
-  static constexpr JudgeKernel all{Lanes<T>::count, sizeof(Judge<T>), &start, &add, &finish};
+  [[gnu::flatten]] static void uncompensated(const JudgedSteps& steps, double* sums) {
+    constexpr int lanes = Lanes<T>::count;
+    T count = Lanes<T>::load(sums), squares = Lanes<T>::load(sums + lanes);
+    for (std::size_t k = 0; k < steps.samples; ++k) {
+      const T error = Lanes<T>::load(steps.true_drift_dps + k * lanes) +
+                      Lanes<T>::load(steps.random_error_dps + k * lanes);
+      const auto missing = is_missing(error);
+      count += select(missing, T(0.0), T(1.0));
+      squares += select(missing, T(0.0), error * error);
+    }
+    Lanes<T>::store(count, sums);
+    Lanes<T>::store(squares, sums + lanes);
+  }
+
+  static constexpr JudgeKernel all{Lanes<T>::count, sizeof(Judge<T>), &start, &add,
+                                   &finish,         &uncompensated};
 };
 
 template <class Target, template <class, int> class Pack, int... N>

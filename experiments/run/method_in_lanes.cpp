@@ -5,9 +5,7 @@
 namespace gyrostat {
 
 const PackedFilter* kernel_of(const Method& method, const Stretch& stretch) {
-  if (method.type().needs.truth &&
-      (stretch.seen().true_rate_dps == nullptr || stretch.seen().true_drift_dps == nullptr))
-    return nullptr;
+  if (method.type().needs.truth && !stretch.tells_truth()) return nullptr;
   return packed_filter(method.filter, stretch.lanes());
 }
 
@@ -25,12 +23,23 @@ MethodInLanes::MethodInLanes(const Method& method, const PackedFilter& kernel,
   }
   kernel.start(filter_state_.bytes(kernel.bytes), parameters);
   learned_first_.resize(lanes);
-  if (kernel.learned != nullptr) kernel.learned(filter_state_.bytes(0), learned_first_.data());
+  if (kernel.learned != nullptr) kernel.learned(filter_state_.bytes(), learned_first_.data());
+  start_judge();
+}
+
+MethodInLanes::MethodInLanes(const Method& method, std::span<const ParameterMap> told, int lanes)
+    : judge_(judge_kernel(lanes)), trials_(told.size()) {
+  for (const auto& parameters : told) {
+    running_.push_back(
+        method.type().start(field_values(method.type(), parameters, method.overrides)));
+    learned_first_.push_back(running_.back()->learned());
+  }
   start_judge();
 }
 
 MethodInLanes::MethodInLanes(std::span<const Track* const> tracks, int lanes)
     : judge_(judge_kernel(lanes)), trials_(tracks.size()), tracks_(tracks) {
+  for (const Track* track : tracks) learned_first_.push_back(track->learned_first);
   start_judge();
 }
 
@@ -38,10 +47,24 @@ void MethodInLanes::start_judge() { judge_->start(judge_state_.bytes(judge_->byt
 
 void MethodInLanes::step(const Stretch& stretch) {
   if (kernel_ != nullptr)
-    kernel_->run(filter_state_.bytes(0), stretch.seen(), stretch.made(), stretch.samples());
+    kernel_->run(filter_state_.bytes(), stretch.seen(), stretch.made(), stretch.samples());
+  else if (!running_.empty())
+    run_one_by_one(stretch);
   else
     copy_steps(stretch);
-  judge_->add(judge_state_.bytes(0), stretch.judged());
+  judge_->add(judge_state_.bytes(), stretch.judged());
+}
+
+void MethodInLanes::run_one_by_one(const Stretch& stretch) {
+  const auto& to = stretch.made();
+  for (std::size_t l = 0; l < trials_; ++l)
+    running_[l]->run(stretch.seen_by(l),
+                     {.estimate_dps = to.estimate_dps + l,
+                      .estimate_variance = to.estimate_variance + l,
+                      .innovation_dps = to.innovation_dps + l,
+                      .innovation_variance = to.innovation_variance + l,
+                      .status = to.status + l},
+                     static_cast<std::size_t>(stretch.lanes()), stretch.samples());
 }
 
 void MethodInLanes::copy_steps(const Stretch& stretch) const {
@@ -62,13 +85,15 @@ void MethodInLanes::copy_steps(const Stretch& stretch) const {
 
 std::vector<TrackErrors> MethodInLanes::errors() {
   std::vector<TrackErrors> errors(static_cast<std::size_t>(judge_->lanes));
-  judge_->finish(judge_state_.bytes(0), errors.data());
+  judge_->finish(judge_state_.bytes(), errors.data());
   std::vector<LearnedParameters> learned(errors.size());
   if (kernel_ != nullptr && kernel_->learned != nullptr)
-    kernel_->learned(filter_state_.bytes(0), learned.data());
+    kernel_->learned(filter_state_.bytes(), learned.data());
+  for (std::size_t l = 0; l < running_.size(); ++l) learned[l] = running_[l]->learned();
+  for (std::size_t l = 0; l < tracks_.size(); ++l) learned[l] = tracks_[l]->learned_last;
   for (std::size_t l = 0; l < trials_; ++l) {
-    errors[l].learned_first = kernel_ != nullptr ? learned_first_[l] : tracks_[l]->learned_first;
-    errors[l].learned_last = kernel_ != nullptr ? learned[l] : tracks_[l]->learned_last;
+    errors[l].learned_first = learned_first_[l];
+    errors[l].learned_last = learned[l];
   }
   errors.resize(trials_);
   return errors;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,8 @@ class MethodInLanes {
   /// By its kernel; `told` is by trial.
   MethodInLanes(const Method& method, const PackedFilter& kernel,
                 std::span<const ParameterMap> told);
+  /// One trial after the other, stretch by stretch, where its type can start so.
+  MethodInLanes(const Method& method, std::span<const ParameterMap> told, int lanes);
   /// By tracks that it has made already, one a trial.
   MethodInLanes(std::span<const Track* const> tracks, int lanes);
 
@@ -30,11 +33,13 @@ class MethodInLanes {
 
  private:
   void start_judge();
+  void run_one_by_one(const Stretch& stretch);
   void copy_steps(const Stretch& stretch) const;
 
   const PackedFilter* kernel_ = nullptr;
   const JudgeKernel* judge_;
   std::size_t trials_;
+  std::vector<std::unique_ptr<RunningFilter>> running_;
   std::span<const Track* const> tracks_{};
   PackMemory filter_state_, judge_state_;
   std::vector<LearnedParameters> learned_first_;

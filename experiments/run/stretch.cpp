@@ -10,9 +10,20 @@ void* PackMemory::bytes(std::size_t count) {
   return lines_.data();
 }
 
-Stretch::Stretch(std::span<const TrialSignal> signals, int lanes)
-    : signals_(signals), lanes_(lanes) {
-  constexpr int channels_seen = 6, channels_made = 5;
+Stretch::Stretch(std::span<const TrialSignal> signals, int lanes) : Stretch(lanes) {
+  signals_ = signals;
+}
+
+Stretch::Stretch(SignalInLanes& made, bool heading) : Stretch(made.lanes()) {
+  made_in_lanes_ = &made;
+  heading_ = heading;
+  // The same in every stretch, or not there.
+  const auto& rate = made.conditions().rate_ref_dps;
+  still_ = std::all_of(rate.begin(), rate.end(), [](double one) { return one == 0.0; });
+}
+
+Stretch::Stretch(int lanes) : lanes_(lanes) {
+  constexpr int channels_seen = 7, channels_made = 5;
   memory_.doubles((channels_seen + channels_made) * static_cast<std::size_t>(lanes) *
                   JudgedSteps::most);
   made_ = {.estimate_dps = channel(channels_seen),
@@ -41,6 +52,7 @@ bool Stretch::are_alike(std::span<const TrialSignal> signals) {
 void Stretch::load(std::size_t first) {
   first_ = first;
   steps_.samples = std::min(JudgedSteps::most, samples_of_all() - first);
+  if (made_in_lanes_ != nullptr) return make();
   steps_.t_s = interleave(channel(0), &Series::t_s, &TrialSignal::series);
   seen_.gyro_dps = interleave(channel(1), &Series::gyro_dps, &TrialSignal::series);
   const auto& front = signals_.front();
@@ -52,6 +64,35 @@ void Stretch::load(std::size_t first) {
   steps_.random_error_dps = interleave(channel(5), &Series::random_error_dps, &TrialSignal::series);
   seen_.true_rate_dps = steps_.true_rate_dps;
   seen_.true_drift_dps = steps_.true_drift_dps;
+}
+
+void Stretch::make() {
+  auto& made = *made_in_lanes_;
+  const auto& conditions = made.conditions();
+  const auto spread = [&](int number, const std::vector<double>& values) {
+    made.spread(values, first_, steps_.samples, channel(number));
+    return channel(number);
+  };
+  steps_.t_s = spread(0, conditions.t_s);
+  seen_.true_rate_dps = still_ && first_ > 0 && steps_.samples <= filled_
+                            ? channel(3)
+                            : spread(3, conditions.rate_ref_dps);
+  filled_ = std::max(filled_, steps_.samples);
+  steps_.true_rate_dps = still_ ? nullptr : channel(3);
+  steps_.true_drift_dps = seen_.true_drift_dps = spread(4, conditions.thermal_bias_dps);
+  made.gyro(first_, steps_.samples, channel(1), channel(5));
+  steps_.gyro_dps = seen_.gyro_dps = channel(1);
+  steps_.random_error_dps = channel(5);
+  if (heading_) made.heading(first_, steps_.samples, channel(6));
+}
+
+SampleColumns Stretch::seen_by(std::size_t l) const {
+  if (made_in_lanes_ == nullptr) return columns_of(*signals_[l].series, first_);
+  auto columns = columns_of(made_in_lanes_->conditions(), first_);
+  columns.gyro_dps = seen_.gyro_dps + l;
+  columns.heading_deg = heading_ ? channel(6) + l : nullptr;
+  columns.gyro_stride = columns.heading_stride = static_cast<std::size_t>(lanes_);
+  return columns;
 }
 
 const double* Stretch::interleave(double* to, const std::vector<double> Series::*channel,

@@ -16,19 +16,31 @@
 namespace gyrostat {
 namespace {
 
-/// RMS of what there is to compensate: drift and random error. NaN without the truth.
-double uncompensated_rmse(const Series& series) {
-  if (!has_truth(series)) return no_value;
-  return error_moments(
-             series.size(),
-             [&](std::size_t i) { return series.thermal_bias_dps[i] + series.random_error_dps[i]; })
-      .rmse;
+/// RMS of what there is to compensate, drift and random error, from a JudgeKernel's sums; NaN
+/// without the truth.
+double uncompensated_rmse(double count, double squares) {
+  return count > 0.0 ? std::sqrt(squares / count) : no_value;
 }
 
-std::vector<double> numbers_of(const TrackErrors& errors, double uncompensated_dps) {
+double uncompensated_rmse(const Series& series) {
+  double sums[2] = {0.0, 0.0};
+  const JudgedSteps all{.samples = series.size(),
+                        .true_drift_dps = series.thermal_bias_dps.data(),
+                        .random_error_dps = series.random_error_dps.data()};
+  if (has_truth(series)) judge_kernel(1)->uncompensated(all, sums);
+  return uncompensated_rmse(sums[0], sums[1]);
+}
+
+/// What a method made of a series, for metrics that need all of it.
+struct Made {
+  const Series* judged = nullptr;
+  const Track* track = nullptr;
+};
+
+std::vector<double> numbers_of(const TrackErrors& errors, double uncompensated_dps, Made made) {
   std::vector<double> numbers;
   for (const auto& metric : metric_types()) {
-    const double value = metric(errors);
+    const double value = metric.needs_track() ? metric(*made.judged, *made.track) : metric(errors);
     numbers.push_back(std::isnan(value) ? no_value : value);
   }
   numbers.insert(numbers.end(), errors.steps.begin(), errors.steps.end());
@@ -66,7 +78,7 @@ void track_method(const Method& method, const ParameterMap& told, const Series& 
 }
 
 std::vector<double> judge_track(const Series& series, const Series& judged, const Track& track) {
-  return numbers_of(track_errors(judged, track), uncompensated_rmse(series));
+  return numbers_of(track_errors(judged, track), uncompensated_rmse(series), {&judged, &track});
 }
 
 Noise calibration_noise(std::uint64_t seed, std::uint32_t trial) { return {~seed, trial}; }
@@ -98,6 +110,15 @@ Calibration calibrate_cell(const Cell& cell, const Noise& trial, Series& buffer)
   if (cell.calibration.duration_s > 0.0) scenario.sampling.duration_s = cell.calibration.duration_s;
   synthesise(scenario, calibration_noise(trial), buffer);
   return calibrate(buffer, cell.calibration.method);
+}
+
+void track_trial(const Cell& cell, const Method& method, const Calibration& shared,
+                 const Noise& trial, Workspace& workspace) {
+  make_trial(cell, trial, workspace.series);
+  const bool own = cell.calibration.each_trial && cell.needs_calibration();
+  const auto calibration = own ? calibrate_cell(cell, trial, workspace.calibration_series) : shared;
+  track_method(method, told_parameters(cell, method, calibration, workspace.series),
+               workspace.series, workspace.track);
 }
 
 std::uint32_t default_lanes() {
@@ -139,12 +160,15 @@ using Clock = std::chrono::steady_clock;
 class TrialsTogether {
  public:
   TrialsTogether(const Cell& cell, const Calibration& shared, std::span<const Noise> trials,
-                 std::span<Workspace> lanes)
+                 std::span<Workspace> lanes, const SharedConditions* conditions)
       : cell_(cell),
         shared_(shared),
         trials_(trials),
         lanes_(lanes),
+        conditions_(can_stay_in_lanes(conditions) ? conditions : nullptr),
         own_(trials.size()),
+        uncompensated_(trials.size(), no_value),
+        numbers_(cell.methods.size()),
         records_(trials.size()) {
     lanes.front().seconds.resize(cell.methods.size());
     lanes.front().steps.resize(cell.methods.size());
@@ -153,24 +177,32 @@ class TrialsTogether {
   void prepare() {
     for (std::size_t l = 0; l < trials_.size(); ++l) {
       auto& w = lanes_[l];
-      make_trial(cell_, trials_[l], w.series);
+      if (conditions_ == nullptr) make_trial(cell_, trials_[l], w.series);
       if (cell_.calibration.each_trial && cell_.needs_calibration()) {
         own_[l] = calibrate_cell(cell_, trials_[l], w.calibration_series);
         records_[l].calibration_converged = own_[l].random_error.converged;
       }
+      if (conditions_ != nullptr) continue;
       signals_.push_back({&w.series, &judged_series(cell_, w.series, w.denoised)});
-      uncompensated_.push_back(uncompensated_rmse(w.series));
+      uncompensated_[l] = uncompensated_rmse(w.series);
     }
   }
 
   /// Methods `first` and on, `count` of them.
   void run(std::size_t first, std::size_t count) {
-    numbers_.resize(cell_.methods.size());
     const int together = lanes_for(trials_.size());
-    if (Stretch::are_alike(signals_) && judge_kernel(together) != nullptr) {
-      run(first, count, 0, trials_.size(), together);
+    if (conditions_ != nullptr) {
+      SignalInLanes made(cell_.scenario, *conditions_, trials_, *signal_kernel(together));
+      Stretch stretch(made, needs_heading());
+      run(first, count, 0, trials_.size(), stretch);
+    } else if (Stretch::are_alike(signals_) && judge_kernel(together) != nullptr) {
+      Stretch stretch(signals_, together);
+      run(first, count, 0, trials_.size(), stretch);
     } else {
-      for (std::size_t l = 0; l < trials_.size(); ++l) run(first, count, l, 1, 1);
+      for (std::size_t l = 0; l < trials_.size(); ++l) {
+        Stretch stretch(std::span<const TrialSignal>(signals_).subspan(l, 1), 1);
+        run(first, count, l, 1, stretch);
+      }
     }
     for (std::size_t m = first; m < first + count; ++m) {
       for (std::size_t l = 0; l < trials_.size(); ++l) append(records_[l], numbers_[m][l], "");
@@ -187,23 +219,47 @@ class TrialsTogether {
                                           [&](std::uint32_t lanes) { return lanes >= trials; }));
   }
 
-  /// The methods over `trials` trials from `from` on.
-  void run(std::size_t first, std::size_t count, std::size_t from, std::size_t trials, int lanes) {
-    Stretch stretch(std::span<const TrialSignal>(signals_).subspan(from, trials), lanes);
-    stretch.load(0);
-    std::vector<MethodInLanes> packed;
-    std::vector<std::size_t> which;
-    for (std::size_t m = first; m < first + count; ++m)
-      if (const auto* kernel = kernel_of(cell_.methods[m], stretch)) {
-        which.push_back(m);
-        packed.emplace_back(cell_.methods[m], *kernel, told(m, from, trials));
-      } else {
-        run_tracks(m, from, trials, stretch);
-      }
-    run(which, packed, stretch);
+  /// Whether no more of these trials is needed at a time than a stretch.
+  bool can_stay_in_lanes(const SharedConditions* conditions) const {
+    const int lanes = lanes_for(trials_.size());
+    return conditions != nullptr && SignalInLanes::can_draw(trials_) &&
+           signal_kernel(lanes) != nullptr && judge_kernel(lanes) != nullptr &&
+           std::none_of(cell_.methods.begin(), cell_.methods.end(),
+                        [](const Method& method) { return needs_tracks(method); });
   }
 
-  /// A method that does not pack: one trial at a time, and judged side by side.
+  static bool needs_tracks(const Method& method) {
+    return method.type().start == nullptr ||
+           std::any_of(metric_types().begin(), metric_types().end(),
+                       [](const MetricType& metric) { return metric.needs_track(); });
+  }
+
+  bool needs_heading() const {
+    return std::any_of(cell_.methods.begin(), cell_.methods.end(),
+                       [](const Method& method) { return method.type().needs.heading; });
+  }
+
+  /// The methods over `trials` trials from `from` on.
+  void run(std::size_t first, std::size_t count, std::size_t from, std::size_t trials,
+           Stretch& stretch) {
+    std::vector<MethodInLanes> together;
+    std::vector<std::size_t> which;
+    for (std::size_t m = first; m < first + count; ++m) {
+      const auto& method = cell_.methods[m];
+      if (needs_tracks(method)) {
+        run_tracks(m, from, trials, stretch);
+        continue;
+      }
+      which.push_back(m);
+      if (const auto* kernel = kernel_of(method, stretch))
+        together.emplace_back(method, *kernel, told(m, from, trials));
+      else
+        together.emplace_back(method, told(m, from, trials), stretch.lanes());
+    }
+    run(which, together, from, trials, stretch);
+  }
+
+  /// A method that is given whole series, or judged by whole tracks: one trial after the other.
   void run_tracks(std::size_t m, std::size_t from, std::size_t trials, Stretch& stretch) {
     const auto start = Clock::now();
     const auto told_each = told(m, from, trials);
@@ -213,19 +269,24 @@ class TrialsTogether {
       track_method(cell_.methods[m], told_each[l], w.series, w.track);
       tracks.push_back(&w.track);
     }
-    lanes_.front().seconds[m] += since(start);
+    lanes_.front().seconds[m] += std::chrono::duration<double>(Clock::now() - start).count();
     std::vector<MethodInLanes> made;
     made.emplace_back(tracks, stretch.lanes());
-    run(std::array{m}, made, stretch);
+    run(std::array{m}, made, from, trials, stretch);
   }
 
   /// All of them over one stretch after the other.
   void run(std::span<const std::size_t> which, std::vector<MethodInLanes>& methods,
-           Stretch& stretch) {
+           std::size_t from, std::size_t trials, Stretch& stretch) {
+    if (which.empty()) return;
     auto& clock = lanes_.front();
     const std::size_t samples = stretch.samples_of_all();
-    for (std::size_t first = 0; first < samples && !which.empty(); first += JudgedSteps::most) {
+    const auto lanes = static_cast<std::size_t>(stretch.lanes());
+    std::vector<double> sums(2 * lanes);
+    for (std::size_t first = 0; first < samples; first += JudgedSteps::most) {
       stretch.load(first);
+      if (conditions_ != nullptr)
+        judge_kernel(stretch.lanes())->uncompensated(stretch.judged(), sums.data());
       auto before = Clock::now();
       for (std::size_t i = 0; i < which.size(); ++i) {
         methods[i].step(stretch);
@@ -234,24 +295,24 @@ class TrialsTogether {
         before = now;
       }
     }
-    for (std::size_t i = 0; i < which.size(); ++i)
-      for (const auto& errors : methods[i].errors()) {
-        auto& done = numbers_[which[i]];
-        done.push_back(numbers_of(errors, uncompensated_[done.size()]));
-        clock.steps[which[i]] += static_cast<double>(samples);
-      }
-  }
-
-  static double since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
+    for (std::size_t l = 0; conditions_ != nullptr && l < trials; ++l)
+      uncompensated_[from + l] = uncompensated_rmse(sums[l], sums[lanes + l]);
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      const auto errors = methods[i].errors();
+      for (std::size_t l = from; l < from + trials; ++l)
+        numbers_[which[i]].push_back(
+            numbers_of(errors[l - from], uncompensated_[l],
+                       {conditions_ != nullptr ? nullptr : signals_[l].judged, &lanes_[l].track}));
+      clock.steps[which[i]] += static_cast<double>(samples * trials);
+    }
   }
 
   std::vector<ParameterMap> told(std::size_t m, std::size_t from, std::size_t trials) const {
     std::vector<ParameterMap> told;
     for (std::size_t l = from; l < from + trials; ++l)
-      told.push_back(told_parameters(cell_, cell_.methods[m],
-                                     cell_.calibration.each_trial ? own_[l] : shared_,
-                                     lanes_[l].series));
+      told.push_back(
+          told_parameters(cell_, cell_.methods[m], cell_.calibration.each_trial ? own_[l] : shared_,
+                          conditions_ != nullptr ? conditions_->series : lanes_[l].series));
     return told;
   }
 
@@ -259,6 +320,7 @@ class TrialsTogether {
   const Calibration& shared_;
   std::span<const Noise> trials_;
   std::span<Workspace> lanes_;
+  const SharedConditions* conditions_;  ///< null: trials are made as series
   std::vector<Calibration> own_;
   std::vector<TrialSignal> signals_;
   std::vector<double> uncompensated_;
@@ -270,17 +332,19 @@ class TrialsTogether {
 
 std::vector<Record> run_trials_together(const Cell& cell, const Calibration& shared,
                                         std::uint64_t seed, std::span<const std::uint32_t> trials,
-                                        std::vector<Workspace>& workspaces) {
+                                        std::vector<Workspace>& workspaces,
+                                        const SharedConditions* conditions) {
   std::vector<Noise> noises;
   for (const auto trial : trials) noises.push_back({seed, trial});
-  return run_trials_together(cell, shared, noises, workspaces);
+  return run_trials_together(cell, shared, noises, workspaces, conditions);
 }
 
 std::vector<Record> run_trials_together(const Cell& cell, const Calibration& shared,
                                         std::span<const Noise> trials,
-                                        std::vector<Workspace>& workspaces) {
+                                        std::vector<Workspace>& workspaces,
+                                        const SharedConditions* conditions) {
   if (workspaces.size() < trials.size()) workspaces.resize(trials.size());
-  TrialsTogether together(cell, shared, trials, {workspaces.data(), trials.size()});
+  TrialsTogether together(cell, shared, trials, {workspaces.data(), trials.size()}, conditions);
   const bool alone = trials.size() == 1;
   auto thrown = thrown_by([&] { together.prepare(); });
   const bool prepared = thrown.empty();
