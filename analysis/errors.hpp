@@ -1,6 +1,6 @@
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -32,49 +32,33 @@ struct ErrorMoments {
   double rmse = no_value;
 };
 
-/// Moments of errors that come by twice, in the same order; NaN is left out.
-class MomentSums {
- public:
-  void add(double error) {
-    if (std::isnan(error)) return;
-    sum_ += error;
-    squares_ += error * error;
-    ++count_;
-  }
-  /// Ends the first pass.
-  void centre() { mean_ = sum_ / static_cast<double>(count_); }
-  void add_centred(double error) {
-    if (!std::isnan(error)) spread_ += (error - mean_) * (error - mean_);
-  }
-  ErrorMoments moments() const {
-    if (count_ == 0) return {};
-    const double n = static_cast<double>(count_);
-    return {count_, mean_, std::sqrt(spread_ / n), std::sqrt(squares_ / n)};
-  }
-
- private:
-  double sum_ = 0.0, squares_ = 0.0, mean_ = no_value, spread_ = 0.0;
-  std::size_t count_ = 0;
-};
-
 /// Moments over time of `error(i)`, i < samples; NaN samples are left out.
 template <class Error>
 ErrorMoments error_moments(std::size_t samples, const Error& error) {
-  MomentSums sums;
-  for (std::size_t i = 0; i < samples; ++i) sums.add(error(i));
-  sums.centre();
-  for (std::size_t i = 0; i < samples; ++i) sums.add_centred(error(i));
-  return sums.moments();
+  double sum = 0.0, squares = 0.0, spread = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double e = error(i);
+    if (std::isnan(e)) continue;
+    sum += e;
+    squares += e * e;
+    ++count;
+  }
+  if (count == 0) return {};
+  const double n = static_cast<double>(count), mean = sum / n;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double e = error(i);
+    if (!std::isnan(e)) spread += (e - mean) * (e - mean);
+  }
+  return {count, mean, std::sqrt(spread / n), std::sqrt(squares / n)};
 }
 
+/// Integral of the rate error, deg, from 0 at the first sample; a missing gyro value adds nothing.
 struct HeadingExcursion {
   double end_deg = 0.0;
   double min_deg = 0.0;
   double max_deg = 0.0;
 };
-
-/// Integral of the rate error, deg, from 0 at the first sample; a missing gyro value adds nothing.
-HeadingExcursion heading_excursion(const Series& series, const Track& track);
 
 /// How the bias error compares with the variance that the filter states, over time. No values for a
 /// filter that states none.
@@ -85,8 +69,6 @@ struct StatedCovariance {
   double within_3_sigma = no_value;
 };
 
-StatedCovariance covariance_statistics(const Series& series, const Track& track);
-
 /// Everything that metrics read of a track, computed once.
 struct TrackErrors {
   ErrorMoments rate;  ///< dps
@@ -94,6 +76,7 @@ struct TrackErrors {
   Innovations innovations;
   StatedCovariance covariance;  ///< empty without the truth
   HeadingExcursion heading;
+  std::array<double, status_names.size()> steps{};  ///< of each Status
   double first_breakdown_s = no_value;  ///< time of the first step that was left out, if any
   LearnedParameters learned_first, learned_last;
 };

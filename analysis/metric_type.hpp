@@ -10,6 +10,8 @@
 
 namespace gyrostat {
 
+struct Series;
+struct Track;
 struct TrackErrors;
 
 /// One number of a trial, without its C++ type.
@@ -23,7 +25,14 @@ struct MetricType {
   std::size_t member = 0;  ///< of a family
   double (*value)(const TrackErrors& errors, std::size_t member) = nullptr;
 
+  /// In the place of `value`: of all that a method made of a series, as it is judged.
+  double (*of_track)(const Series& series, const Track& track, std::size_t member) = nullptr;
+
+  bool needs_track() const { return of_track != nullptr; }
   double operator()(const TrackErrors& errors) const { return value(errors, member); }
+  double operator()(const Series& series, const Track& track) const {
+    return of_track(series, track, member);
+  }
 
   static void describe_all(std::deque<MetricType>& to);
 };
@@ -41,6 +50,14 @@ concept Metric = requires(const TrackErrors& errors) {
   { M::goal } -> std::convertible_to<Goal>;
 };
 
+/// A metric that sums do not tell asks for the whole track, by operator()(series, track): tracks
+/// are then made, which a study without such a metric is spared.
+template <class M>
+concept OfTrack = requires(const Series& series, const Track& track) {
+  M{}(series, track);
+}
+|| requires(const Series& series, const Track& track) { M{}(series, track, std::size_t{}); };
+
 /// Appends the metric, or the members of a family: `pit` as pit_0, pit_1, … with their number,
 /// from 1, in the place of {} in the title.
 template <Metric M>
@@ -49,7 +66,14 @@ void describe_metric(std::string_view id, std::deque<MetricType>& to) {
       .id = std::string(id), .title = std::string(M::title), .unit = M::unit, .goal = M::goal};
   if constexpr (requires { M::table; }) type.table = M::table;
   if constexpr (requires { M::members; }) {
-    type.value = [](const TrackErrors& errors, std::size_t member) { return M{}(errors, member); };
+    if constexpr (OfTrack<M>)
+      type.of_track = [](const Series& series, const Track& track, std::size_t member) {
+        return M{}(series, track, member);
+      };
+    else
+      type.value = [](const TrackErrors& errors, std::size_t member) {
+        return M{}(errors, member);
+      };
     const auto number = M::title.find("{}");
     for (; type.member < M::members; ++type.member) {
       type.id = std::string(id) + "_" + std::to_string(type.member);
@@ -57,7 +81,12 @@ void describe_metric(std::string_view id, std::deque<MetricType>& to) {
       to.push_back(type);
     }
   } else {
-    type.value = [](const TrackErrors& errors, std::size_t) { return M{}(errors); };
+    if constexpr (OfTrack<M>)
+      type.of_track = [](const Series& series, const Track& track, std::size_t) {
+        return M{}(series, track);
+      };
+    else
+      type.value = [](const TrackErrors& errors, std::size_t) { return M{}(errors); };
     to.push_back(std::move(type));
   }
 }

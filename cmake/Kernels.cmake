@@ -11,11 +11,29 @@ set(kernel_flags_sse2 "")
 set(kernel_flags_avx2 -mavx2)
 set(kernel_flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mfma -mprefer-vector-width=512)
 
-function(gyrostat_kernels variable)
-  set(targets sse2)
-  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    list(APPEND targets avx2 avx512)
+set(kernel_targets sse2)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  list(APPEND kernel_targets avx2 avx512)
+endif()
+
+# The sources kernels_<target>.cpp and kernels.cpp of a folder, each compiled for its target.
+function(gyrostat_kernels_in folder)
+  foreach(target sse2 avx2 avx512)
+    set(source ${folder}/kernels_${target}.cpp)
+    if(target IN_LIST kernel_targets)
+      set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON
+        COMPILE_OPTIONS "${kernel_options};${kernel_flags_${target}}")
+    else()
+      set_source_files_properties(${source} PROPERTIES HEADER_FILE_ONLY ON)
+    endif()
+  endforeach()
+  if(avx2 IN_LIST kernel_targets)
+    set_source_files_properties(${folder}/kernels.cpp PROPERTIES COMPILE_DEFINITIONS GYROSTAT_X86
+                                SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
+endfunction()
+
+function(gyrostat_kernels variable)
   file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/core/filters/*.hpp)
   list(SORT headers)
   set(count 0)
@@ -38,7 +56,7 @@ function(gyrostat_kernels variable)
   set(sources "")
   set(known "")
   math(EXPR last "${kernel_units} - 1")
-  foreach(target IN LISTS targets)
+  foreach(target IN LISTS kernel_targets)
     string(SUBSTRING ${target} 0 1 head)
     string(SUBSTRING ${target} 1 -1 tail)
     string(TOUPPER ${head} head)
@@ -69,17 +87,9 @@ constinit const std::span<const PackedFilter> ${name} = packed;
       set_source_files_properties(${generated}/kernels_${target}_${unit}.cpp PROPERTIES
         COMPILE_OPTIONS "${kernel_options};${kernel_flags_${target}}" SKIP_PRECOMPILE_HEADERS ON)
     endforeach()
-    set_source_files_properties(core/packed/kernels_${target}.cpp PROPERTIES
-      COMPILE_OPTIONS "${kernel_options};${kernel_flags_${target}}" SKIP_PRECOMPILE_HEADERS ON)
     list(JOIN pointers ", " pointers)
     string(APPEND known "static constexpr const std::span<const PackedFilter>* filters_${target}[] = {${pointers}};\n")
   endforeach()
-  if(NOT avx2 IN_LIST targets)
-    set_source_files_properties(core/packed/kernels_avx2.cpp core/packed/kernels_avx512.cpp
-                                PROPERTIES HEADER_FILE_ONLY ON)
-  else()
-    set_source_files_properties(core/packed/kernels.cpp PROPERTIES COMPILE_DEFINITIONS GYROSTAT_X86)
-  endif()
   file(CONFIGURE OUTPUT ${generated}/units.hpp @ONLY CONTENT "#pragma once
 
 #include <gyrostat/core/packed/kernels.hpp>

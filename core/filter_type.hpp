@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/parameter_map.hpp>
 #include <gyrostat/core/registry.hpp>
+#include <gyrostat/core/running_filter.hpp>
 #include <gyrostat/core/track.hpp>
 
 namespace gyrostat {
@@ -25,6 +27,8 @@ struct FilterType {
   /// Runs it from its start over every sample of a series; `parameters` are in the order of
   /// `fields`. Called from many threads at once.
   std::function<void(std::span<const double> parameters, const Series& series, Track& track)> run{};
+  /// The same stretch by stretch; null for a filter that is given whole series.
+  std::unique_ptr<RunningFilter> (*start)(std::span<const double> parameters) = nullptr;
   /// Tells its code from another under the same name; empty for code of the program itself.
   std::string code{};
 
@@ -32,6 +36,14 @@ struct FilterType {
 };
 
 inline Registry<FilterType>& filter_types() { return Registry<FilterType>::all(); }
+
+template <template <class> class F>
+std::unique_ptr<RunningFilter> start_filter(std::span<const double> values) {
+  typename F<double>::Parameters p;
+  std::size_t i = 0;
+  for (const auto& field : p.fields()) p.*(field.member) = values[i++];
+  return std::make_unique<RunningOf<F<double>>>(F<double>(p));
+}
 
 /// The description of a filter template under a name. A program that describes and adds one of its
 /// own has it in its studies, beside those of gyrostat.
@@ -73,12 +85,12 @@ requires Filter<F<double>> FilterType describe_filter(std::string_view id) {
           .role = F<double>::role,
           .draws_noise = draws_noise<F<double>>,
           .fields = field_infos_of<Parameters>,
-          .run = [](std::span<const double> values, const Series& series, Track& track) {
-            Parameters p;
-            std::size_t i = 0;
-            for (const auto& field : Parameters::fields()) p.*(field.member) = values[i++];
-            run_filter(F<double>(p), series, track);
-          }};
+          .run =
+              [](std::span<const double> values, const Series& series, Track& track) {
+                const auto filter = start_filter<F>(values);
+                run_to_the_end(*filter, series, track);
+              },
+          .start = &start_filter<F>};
 }
 
 /// A filter's parameters in the order of its fields: its defaults, but where `told` names one, and

@@ -42,6 +42,10 @@ struct Baseline;
 
 }  // namespace
 
+NormalAddress address_of(std::uint64_t seed, std::string_view stream) {
+  return address(seed, fnv1a(stream), 0);
+}
+
 NormalStream::NormalStream(std::uint64_t seed, std::uint32_t trial, std::string_view stream)
     : seed_(seed), stream_hash_(fnv1a(stream)), trial_(trial) {}
 

@@ -65,6 +65,11 @@ class NormalStream {
   std::vector<double>* tape_ = nullptr;
 };
 
+struct NormalAddress;
+
+/// Where the deviates of a stream stand, for kernels that draw those of several trials at once.
+NormalAddress address_of(std::uint64_t seed, std::string_view stream);
+
 /// All noise of one trial, or of a mixture of trials.
 struct Noise {
   std::uint64_t seed = 0;

@@ -6,11 +6,15 @@
 
 namespace gyrostat {
 
+double unexplained_difference_dps(const Arima111<double>& model) {
+  return std::abs(model.phi * model.delta1_dps - model.delta2_dps) /
+         std::sqrt(1.0 - model.phi * model.phi);
+}
+
 void add_random_error(const Arima111<double>& model, const Noise& noise, std::span<double> x) {
   const double phi = model.phi, delta1 = model.delta1_dps, delta2 = model.delta2_dps;
   if (delta1 == 0.0 && delta2 == 0.0) return;
-  // What a_0 does not explain of the stationary first difference: all that came before it.
-  const double unexplained = std::abs(phi * delta1 - delta2) / std::sqrt(1.0 - phi * phi);
+  const double unexplained = unexplained_difference_dps(model);
   double level = 0.0, difference = 0.0, previous = 0.0;
   Deviates white(noise.stream("random_error"));
   for (std::size_t k = 0; k < x.size(); ++k) {

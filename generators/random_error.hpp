@@ -11,6 +11,10 @@ namespace gyrostat {
 /// stationary distribution and x_{-1} = 0. Streams "random_error" and "random_error/initial".
 void add_random_error(const Arima111<double>& model, const Noise& noise, std::span<double> x);
 
+/// What a_0 does not explain of the stationary first difference, all that came before it: its
+/// standard deviation.
+double unexplained_difference_dps(const Arima111<double>& model);
+
 /// Adds white noise of the given standard deviation to `values`, from the named stream.
 void add_white_noise(double std, const NormalStream& stream, std::span<double> values);
 

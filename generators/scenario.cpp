@@ -48,11 +48,13 @@ void add_noise(const Scenario& scenario, const Noise& noise, Series& series) {
                   series.gyro_dps);
 }
 
-/// From the conditions in `series` to its gyro.
-void measure_rate(const Scenario& scenario, const Noise& noise, Series& series) {
+void drift(const Scenario& scenario, const Noise& noise, Series& series) {
   linear_drift(scenario.thermal_drift, series);
   apply_stage(Stage::sensing, scenario, noise, series);
+}
 
+/// From the conditions in `series`, drift included, to its gyro.
+void measure_rate(const Scenario& scenario, const Noise& noise, Series& series) {
   series.gyro_dps.resize(series.size());
   for (std::size_t i = 0; i < series.size(); ++i)
     series.gyro_dps[i] = series.rate_ref_dps[i] + series.thermal_bias_dps[i];
@@ -108,7 +110,7 @@ std::size_t Sampling::samples() const {
   return std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(duration_s * rate_hz)));
 }
 
-void synthesise(const Scenario& scenario, const Noise& noise, Series& series) {
+void synthesise_conditions(const Scenario& scenario, const Noise& noise, Series& series) {
   const std::size_t samples = scenario.sampling.samples();
   series.clear();
   series.t_s.resize(samples);
@@ -125,7 +127,11 @@ void synthesise(const Scenario& scenario, const Noise& noise, Series& series) {
     follow(*scenario.acceleration, series,
            std::array{&Series::acc_x_mps2, &Series::acc_y_mps2, &Series::acc_z_mps2});
   apply_stage(Stage::environment, scenario, noise, series);
+  drift(scenario, noise, series);
+}
 
+void synthesise(const Scenario& scenario, const Noise& noise, Series& series) {
+  synthesise_conditions(scenario, noise, series);
   measure_rate(scenario, noise, series);
   measure_heading(scenario.compass, scenario, noise, series);
 }
@@ -137,6 +143,7 @@ void synthesise_rate_under(const Scenario& scenario, const Series& conditions, c
   series.t_s = conditions.t_s;
   for (const auto channel : influences) copy_without_gaps(conditions.*channel, series.*channel);
   series.rate_ref_dps.resize(series.size(), 0.0);
+  drift(scenario, noise, series);
   measure_rate(scenario, noise, series);
   copy_gaps(conditions.gyro_dps, series.gyro_dps);
   for (const auto channel : influences) copy_gaps(conditions.*channel, series.*channel);

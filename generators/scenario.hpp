@@ -70,6 +70,10 @@ struct Scenario {
 /// scenario is only read.
 void synthesise(const Scenario& scenario, const Noise& noise, Series& series);
 
+/// What of it comes before any gyro or compass: its times, temperature, rates, acceleration and
+/// thermal drift.
+void synthesise_conditions(const Scenario& scenario, const Noise& noise, Series& series);
+
 /// The errors of `scenario` under the conditions of a recording: its times, even or not,
 /// temperature, rates (about its own axis 0 where it has none), acceleration, mag_valid, and its
 /// gaps in gyro and heading. The scenario's sampling, profiles, effects on the environment and

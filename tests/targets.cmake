@@ -1,6 +1,6 @@
-# cmake -DNM=<nm> -DLIBRARY=<libgyrostat_core.a> -P tests/targets.cmake
+# cmake -DNM=<nm> -DLIBRARY=<a library with kernels> -P tests/targets.cmake
 #
-# Code of the packed kernels that the linker could take for that of another instruction set: weak
+# Code of packed kernels that the linker could take for that of another instruction set: weak
 # functions of kernels_*.o without a target in their names. There must be none, or a machine without
 # AVX would run AVX code.
 cmake_minimum_required(VERSION 3.25)

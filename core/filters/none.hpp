@@ -14,6 +14,7 @@ class None {
   static constexpr std::string_view title = "no compensation";
   static constexpr Needs needs{};
   static constexpr Role role{.rank = Role::Rank::floor};
+  static constexpr bool packs_trials = true;
 
   explicit None(const Parameters& /*none*/) {}
 

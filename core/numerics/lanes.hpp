@@ -30,4 +30,21 @@ T select(bool mask, const T& yes, const T& no) {
   return mask ? yes : no;
 }
 
+/// How many numbers stand side by side in a T, and how they come from memory and go there.
+template <class T>
+struct Lanes {
+  static constexpr int count = 1;
+  static T load(const double* from) { return *from; }
+  static void store(const T& value, double* to) { *to = value; }
+  static double at(const T& value, int /*lane*/) { return value; }
+};
+template <class T>
+requires requires { T::lanes; }
+struct Lanes<T> {
+  static constexpr int count = T::lanes;
+  static T load(const double* from) { return T::load(from); }
+  static void store(const T& value, double* to) { value.store(to); }
+  static double at(const T& value, int lane) { return value[lane]; }
+};
+
 }  // namespace gyrostat

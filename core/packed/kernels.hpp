@@ -11,27 +11,36 @@ namespace gyrostat {
 
 struct NormalAddress;
 
-/// One trial in a lane: what the filter sees and where its steps go. Rate and drift are for filters
-/// that need the truth, and may be null for the others.
-struct Lane {
+/// What filters see of some trials in lanes: the value of lane l at sample k is at
+/// [k * lanes + l]. Rate and drift are for filters that need the truth, and may be null for the
+/// others.
+struct PackedSamples {
   const double* gyro_dps = nullptr;
   const double* true_rate_dps = nullptr;
   const double* true_drift_dps = nullptr;
+};
+
+/// Where steps go, in lanes as the samples are.
+struct PackedSteps {
   double* estimate_dps = nullptr;
   double* estimate_variance = nullptr;
   double* innovation_dps = nullptr;
   double* innovation_variance = nullptr;
-  Status* status = nullptr;
-  LearnedParameters* learned_first = nullptr;
-  LearnedParameters* learned_last = nullptr;
+  double* status = nullptr;  ///< the number of a Status
 };
 
-/// A filter over as many trials at once as `lanes` says. Field f of the parameters of lane l is at
-/// parameters[f * lanes + l].
+/// A filter over as many trials at once as `lanes` says. Its state is `bytes` long, at 64 bytes,
+/// and needs no destructor. Field f of the parameters of lane l is at parameters[f * lanes + l].
 struct PackedFilter {
   std::string_view filter;
   int lanes = 0;
-  void (*run)(const double* parameters, const Lane* lanes, std::size_t samples) = nullptr;
+  std::size_t bytes = 0;
+  void (*start)(void* state, const double* parameters) = nullptr;
+  /// The next `samples`, from where it stands.
+  void (*run)(void* state, const PackedSamples& in, const PackedSteps& out,
+              std::size_t samples) = nullptr;
+  /// How it holds phi, delta1 and delta2 now, one a lane; null for a filter that does not.
+  void (*learned)(const void* state, LearnedParameters* of_lanes) = nullptr;
 };
 
 /// What is compiled for one instruction set.

@@ -21,8 +21,7 @@ struct NormalAddress {
 template <class Target, int Blocks>
 class NormalBlocks {
  public:
-  /// The words of blocks first, first + 1, ...: word j of block i at words[j][i]. Philox4x32-10
-  /// (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC11).
+  /// The words of blocks first, first + 1, ...: word j of block i at words[j][i].
   [[gnu::always_inline]] static void philox(const NormalAddress& at, std::uint32_t first,
                                             std::uint32_t (&words)[4][Blocks]) {
     for (int i = 0; i < Blocks; ++i) {
@@ -31,6 +30,13 @@ class NormalBlocks {
       words[2][i] = at.stream[0];
       words[3][i] = at.stream[1];
     }
+    philox(at, words);
+  }
+
+  /// The words whose counters stand in `words`: Philox4x32-10 (Salmon et al., "Parallel random
+  /// numbers: as easy as 1, 2, 3", SC11).
+  [[gnu::always_inline]] static void philox(const NormalAddress& at,
+                                            std::uint32_t (&words)[4][Blocks]) {
     std::uint32_t key0 = at.key[0], key1 = at.key[1];
     for (int round = 0; round < 10; ++round) {
       for (int i = 0; i < Blocks; ++i) {
@@ -51,12 +57,41 @@ class NormalBlocks {
     normals(at, first, out);
   }
 
-  /// Box and Muller (1958): of each pair of words a radius and an angle.
   [[gnu::always_inline]] static void normals(const NormalAddress& at, std::uint32_t first,
                                              double* out) {
     std::uint32_t words[4][Blocks];
     philox(at, first, words);
     double made[4][Blocks];
+    transform(words, made);
+    for (int i = 0; i < Blocks; ++i)
+      for (int j = 0; j < 4; ++j) out[4 * i + j] = made[j][i];
+  }
+
+  /// Those of blocks first, first + 1, ... of `Lanes` trials side by side: deviate k of lane l is
+  /// at out[k * Lanes + l], without being moved there from elsewhere.
+  template <int Lanes>
+  [[gnu::always_inline]] static void side_by_side(const NormalAddress& at,
+                                                  const std::uint32_t* trials, std::uint32_t first,
+                                                  double* out) {
+    static_assert(Blocks % Lanes == 0);
+    std::uint32_t words[4][Blocks];
+    for (int i = 0; i < Blocks; ++i) {
+      words[0][i] = first + static_cast<std::uint32_t>(i / Lanes);
+      words[1][i] = trials[i % Lanes];
+      words[2][i] = at.stream[0];
+      words[3][i] = at.stream[1];
+    }
+    philox(at, words);
+    double made[4][Blocks];
+    transform(words, made);
+    for (int b = 0; b < Blocks / Lanes; ++b)
+      for (int j = 0; j < 4; ++j)
+        for (int l = 0; l < Lanes; ++l) out[(4 * b + j) * Lanes + l] = made[j][b * Lanes + l];
+  }
+
+  /// Box and Muller (1958): of each pair of words a radius and an angle.
+  [[gnu::always_inline]] static void transform(const std::uint32_t (&words)[4][Blocks],
+                                               double (&made)[4][Blocks]) {
     for (int pair = 0; pair < 4; pair += 2)
       for (int i = 0; i < Blocks; ++i) {
         const double r = radius(words[pair][i]);
@@ -64,8 +99,6 @@ class NormalBlocks {
         made[pair][i] = r * turn.cosine;
         made[pair + 1][i] = r * turn.sine;
       }
-    for (int i = 0; i < Blocks; ++i)
-      for (int j = 0; j < 4; ++j) out[4 * i + j] = made[j][i];
   }
 
  private:

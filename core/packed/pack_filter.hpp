@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <new>
+#include <type_traits>
 
 #include <gyrostat/core/packed/kernels.hpp>
 #include <gyrostat/core/packed/pack.hpp>
@@ -8,66 +10,58 @@
 
 namespace gyrostat {
 
-/// A filter's loop for one instruction set; included by the files that are compiled for it. All
-/// that it calls is inlined or has `Target` in its name: a function with neither might be linked
-/// into code that other machines run (tests/targets.cmake looks for such names).
-template <class Target>
+/// A filter's loop over packs for one instruction set; included by the files that are compiled for
+/// it. All that it calls is inlined or has `Target` in its name: a function with neither might be
+/// linked into code that other machines run (tests/targets.cmake looks for such names).
+template <class Target, template <class> class Filter, int N>
 struct FilterKernel {
-  template <class F, int N>
-  [[gnu::always_inline]] static void store_learned(const F& filter, const Lane* lanes,
-                                                   LearnedParameters* Lane::*to) {
-    if constexpr (requires { filter.learned(); }) {
-      const auto learned = filter.learned();
-      for (int l = 0; l < N; ++l) {
-        auto& out = *(lanes[l].*to);
-        out.phi = learned.phi[l];
-        out.phi_std = learned.phi_std[l];
-        out.delta1_dps = learned.delta1_dps[l];
-        out.delta2_dps = learned.delta2_dps[l];
-      }
-    }
-  }
+  using P = Pack<Target, N>;
+  using F = Filter<P>;
+  static_assert(std::is_trivially_destructible_v<F>);
 
-  template <template <class> class Filter, int N>
-  [[gnu::flatten]] static void run(const double* parameters, const Lane* lanes,
-                                   std::size_t samples) {
-    using P = Pack<Target, N>;
-    using F = Filter<P>;
-    const auto gather = [&](const double* Lane::*channel, std::size_t k) {
-      alignas(64) double values[N];
-      unrolled<N>([&]<int l>() { values[l] = (lanes[l].*channel)[k]; });
-      return P::load(values);
-    };
-    const auto scatter = [&](const P& pack, double* Lane::*channel, std::size_t k) {
-      alignas(64) double values[N];
-      pack.store(values);
-      unrolled<N>([&]<int l>() { (lanes[l].*channel)[k] = values[l]; });
-    };
-
+  [[gnu::flatten]] static void start(void* state, const double* parameters) {
     typename F::Parameters p;
     int f = 0;
     for (const auto& field : F::Parameters::fields())
       p.*(field.member) = P::load(parameters + N * f++);
-    F filter(p);
-    store_learned<F, N>(filter, lanes, &Lane::learned_first);
+    ::new (state) F(p);
+  }
+
+  [[gnu::flatten]] static void run(void* state, const PackedSamples& in, const PackedSteps& out,
+                                   std::size_t samples) {
+    F filter = *static_cast<const F*>(state);
     for (std::size_t k = 0; k < samples; ++k) {
       Sample<P> sample;
-      sample.gyro_dps = gather(&Lane::gyro_dps, k);
+      sample.gyro_dps = P::load(in.gyro_dps + N * k);
       if constexpr (F::needs.truth) {
-        sample.true_rate_dps = gather(&Lane::true_rate_dps, k);
-        sample.true_drift_dps = gather(&Lane::true_drift_dps, k);
+        sample.true_rate_dps = P::load(in.true_rate_dps + N * k);
+        sample.true_drift_dps = P::load(in.true_drift_dps + N * k);
       }
       const auto step = filter.step(sample);
-      scatter(step.estimate_dps, &Lane::estimate_dps, k);
-      scatter(step.estimate_variance, &Lane::estimate_variance, k);
-      scatter(step.innovation_dps, &Lane::innovation_dps, k);
-      scatter(step.innovation_variance, &Lane::innovation_variance, k);
-      alignas(64) double codes[N];
-      step.status.code.store(codes);
-      unrolled<N>(
-          [&]<int l>() { lanes[l].status[k] = static_cast<Status>(static_cast<int>(codes[l])); });
+      step.estimate_dps.store(out.estimate_dps + N * k);
+      step.estimate_variance.store(out.estimate_variance + N * k);
+      step.innovation_dps.store(out.innovation_dps + N * k);
+      step.innovation_variance.store(out.innovation_variance + N * k);
+      step.status.code.store(out.status + N * k);
     }
-    store_learned<F, N>(filter, lanes, &Lane::learned_last);
+    *static_cast<F*>(state) = filter;
+  }
+
+  [[gnu::flatten]] static void learned(const void* state, LearnedParameters* of_lanes) {
+    if constexpr (requires(const F& filter) { filter.learned(); }) {
+      const auto learned = static_cast<const F*>(state)->learned();
+      for (int l = 0; l < N; ++l) {
+        of_lanes[l].phi = learned.phi[l];
+        of_lanes[l].phi_std = learned.phi_std[l];
+        of_lanes[l].delta1_dps = learned.delta1_dps[l];
+        of_lanes[l].delta2_dps = learned.delta2_dps[l];
+      }
+    }
+  }
+
+  static constexpr PackedFilter named(std::string_view id) {
+    constexpr bool learns = requires(const F& filter) { filter.learned(); };
+    return {id, N, sizeof(F), &start, &run, learns ? &learned : nullptr};
   }
 };
 
@@ -75,8 +69,7 @@ struct FilterKernel {
 template <class Target, class... Plugins>
 constexpr auto pack_filters(PluginList<Plugins...> /*filters*/) {
   constexpr auto of = []<class Plugin, int... N>(Plugin, std::integer_sequence<int, N...>) {
-    return std::array{PackedFilter{Plugin::id, N,
-                                   &FilterKernel<Target>::template run<Plugin::template on, N>}...};
+    return std::array{FilterKernel<Target, Plugin::template on, N>::named(Plugin::id)...};
   };
   using Lanes = typename Target::Lanes;
   std::array<PackedFilter, sizeof...(Plugins) * Lanes::size()> all;

@@ -40,6 +40,7 @@ PreparedCell prepare_cell(const Cell& cell, std::uint64_t seed, int threads) {
   if (cell.needs_calibration()) prepared.calibration = calibrate_cell(cell, seed, 0, buffer);
   prepared.tuned = tune_methods(cell, prepared.calibration, seed);
   prepared.cell = with_tuned(cell, prepared.tuned);
+  if (!cell.recording && !cell.denoise) prepared.conditions = shared_conditions(cell.scenario);
   return prepared;
 }
 
@@ -61,7 +62,8 @@ std::vector<double> run_trials(const PreparedCell& prepared, std::uint64_t seed,
     if (options.stop && options.stop->load(std::memory_order_relaxed)) return;
     const auto pack = std::span(trials).subspan(
         first, std::min<std::size_t>(options.lanes, trials.size() - first));
-    auto records = run_trials_together(cell, prepared.calibration, seed, pack, workspaces.local());
+    auto records = run_trials_together(cell, prepared.calibration, seed, pack, workspaces.local(),
+                                       prepared.conditions ? &*prepared.conditions : nullptr);
     for (std::size_t l = 0; l < pack.size(); ++l) {
       take(pack[l], std::move(records[l]));
       const std::size_t done = ++finished;

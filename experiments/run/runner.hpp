@@ -34,6 +34,7 @@ struct PreparedCell {
   Cell cell;
   Calibration calibration;
   std::vector<TunedMethod> tuned;  ///< one a method, empty values where nothing was to be tuned
+  std::optional<SharedConditions> conditions;  ///< what its trials have in common, where they do
 };
 
 /// Calibrates, and tunes where methods ask for it.

@@ -1,5 +1,6 @@
 #include <gyrostat/experiments/run/trial.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <new>
 
@@ -8,19 +9,43 @@
 #include <gyrostat/analysis/spectra/shrinkage.hpp>
 #include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/core/packed/kernels.hpp>
-#include <gyrostat/experiments/run/packed_track.hpp>
+#include <gyrostat/experiments/run/method_in_lanes.hpp>
+#include <gyrostat/experiments/run/stretch.hpp>
 #include <gyrostat/generators/true_parameters.hpp>
 
 namespace gyrostat {
 namespace {
 
-/// RMS of what there is to compensate: drift and random error. NaN without the truth.
+/// RMS of what there is to compensate, drift and random error, from a JudgeKernel's sums; NaN
+/// without the truth.
+double uncompensated_rmse(double count, double squares) {
+  return count > 0.0 ? std::sqrt(squares / count) : no_value;
+}
+
 double uncompensated_rmse(const Series& series) {
-  if (!has_truth(series)) return no_value;
-  return error_moments(
-             series.size(),
-             [&](std::size_t i) { return series.thermal_bias_dps[i] + series.random_error_dps[i]; })
-      .rmse;
+  double sums[2] = {0.0, 0.0};
+  const JudgedSteps all{.samples = series.size(),
+                        .true_drift_dps = series.thermal_bias_dps.data(),
+                        .random_error_dps = series.random_error_dps.data()};
+  if (has_truth(series)) judge_kernel(1)->uncompensated(all, sums);
+  return uncompensated_rmse(sums[0], sums[1]);
+}
+
+/// What a method made of a series, for metrics that need all of it.
+struct Made {
+  const Series* judged = nullptr;
+  const Track* track = nullptr;
+};
+
+std::vector<double> numbers_of(const TrackErrors& errors, double uncompensated_dps, Made made) {
+  std::vector<double> numbers;
+  for (const auto& metric : metric_types()) {
+    const double value = metric.needs_track() ? metric(*made.judged, *made.track) : metric(errors);
+    numbers.push_back(std::isnan(value) ? no_value : value);
+  }
+  numbers.insert(numbers.end(), errors.steps.begin(), errors.steps.end());
+  numbers.push_back(errors.bias.rmse > divergence_ratio * uncompensated_dps);
+  return numbers;
 }
 
 }  // namespace
@@ -53,15 +78,7 @@ void track_method(const Method& method, const ParameterMap& told, const Series& 
 }
 
 std::vector<double> judge_track(const Series& series, const Series& judged, const Track& track) {
-  std::vector<double> numbers;
-  const TrackErrors errors = track_errors(judged, track);
-  for (const auto& metric : metric_types()) {
-    const double value = metric(errors);
-    numbers.push_back(std::isnan(value) ? no_value : value);
-  }
-  for (const auto count : track.status_counts()) numbers.push_back(count);
-  numbers.push_back(errors.bias.rmse > divergence_ratio * uncompensated_rmse(series));
-  return numbers;
+  return numbers_of(track_errors(judged, track), uncompensated_rmse(series), {&judged, &track});
 }
 
 Noise calibration_noise(std::uint64_t seed, std::uint32_t trial) { return {~seed, trial}; }
@@ -93,6 +110,15 @@ Calibration calibrate_cell(const Cell& cell, const Noise& trial, Series& buffer)
   if (cell.calibration.duration_s > 0.0) scenario.sampling.duration_s = cell.calibration.duration_s;
   synthesise(scenario, calibration_noise(trial), buffer);
   return calibrate(buffer, cell.calibration.method);
+}
+
+void track_trial(const Cell& cell, const Method& method, const Calibration& shared,
+                 const Noise& trial, Workspace& workspace) {
+  make_trial(cell, trial, workspace.series);
+  const bool own = cell.calibration.each_trial && cell.needs_calibration();
+  const auto calibration = own ? calibrate_cell(cell, trial, workspace.calibration_series) : shared;
+  track_method(method, told_parameters(cell, method, calibration, workspace.series),
+               workspace.series, workspace.track);
 }
 
 std::uint32_t default_lanes() {
@@ -129,16 +155,20 @@ void append_thrown(Record& record, const std::string& thrown) {
   append(record, nothing, thrown);
 }
 
+using Clock = std::chrono::steady_clock;
+
 class TrialsTogether {
  public:
   TrialsTogether(const Cell& cell, const Calibration& shared, std::span<const Noise> trials,
-                 std::span<Workspace> lanes)
+                 std::span<Workspace> lanes, const SharedConditions* conditions)
       : cell_(cell),
         shared_(shared),
         trials_(trials),
         lanes_(lanes),
+        conditions_(can_stay_in_lanes(conditions) ? conditions : nullptr),
         own_(trials.size()),
-        judged_(trials.size()),
+        uncompensated_(trials.size(), no_value),
+        numbers_(cell.methods.size()),
         records_(trials.size()) {
     lanes.front().seconds.resize(cell.methods.size());
     lanes.front().steps.resize(cell.methods.size());
@@ -147,42 +177,154 @@ class TrialsTogether {
   void prepare() {
     for (std::size_t l = 0; l < trials_.size(); ++l) {
       auto& w = lanes_[l];
-      make_trial(cell_, trials_[l], w.series);
+      if (conditions_ == nullptr) make_trial(cell_, trials_[l], w.series);
       if (cell_.calibration.each_trial && cell_.needs_calibration()) {
         own_[l] = calibrate_cell(cell_, trials_[l], w.calibration_series);
         records_[l].calibration_converged = own_[l].random_error.converged;
       }
-      judged_[l] = &judged_series(cell_, w.series, w.denoised);
+      if (conditions_ != nullptr) continue;
+      signals_.push_back({&w.series, &judged_series(cell_, w.series, w.denoised)});
+      uncompensated_[l] = uncompensated_rmse(w.series);
     }
   }
 
-  void run(std::size_t m) {
-    const auto& method = cell_.methods[m];
-    auto& clock = lanes_.front();
-    const auto start = std::chrono::steady_clock::now();
-    std::vector<ParameterMap> told;
-    for (std::size_t l = 0; l < trials_.size(); ++l)
-      told.push_back(told_parameters(
-          cell_, method, cell_.calibration.each_trial ? own_[l] : shared_, lanes_[l].series));
-    track_together(method, told, lanes_);
-    for (std::size_t l = 0; l < trials_.size(); ++l) {
-      append(records_[l], judge_track(lanes_[l].series, *judged_[l], lanes_[l].track), "");
-      clock.steps[m] += static_cast<double>(lanes_[l].series.size());
+  /// Methods `first` and on, `count` of them.
+  void run(std::size_t first, std::size_t count) {
+    const int together = lanes_for(trials_.size());
+    if (conditions_ != nullptr) {
+      SignalInLanes made(cell_.scenario, *conditions_, trials_, *signal_kernel(together));
+      Stretch stretch(made, needs_heading());
+      run(first, count, 0, trials_.size(), stretch);
+    } else if (Stretch::are_alike(signals_) && judge_kernel(together) != nullptr) {
+      Stretch stretch(signals_, together);
+      run(first, count, 0, trials_.size(), stretch);
+    } else {
+      for (std::size_t l = 0; l < trials_.size(); ++l) {
+        Stretch stretch(std::span<const TrialSignal>(signals_).subspan(l, 1), 1);
+        run(first, count, l, 1, stretch);
+      }
     }
-    clock.seconds[m] +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (std::size_t m = first; m < first + count; ++m) {
+      for (std::size_t l = 0; l < trials_.size(); ++l) append(records_[l], numbers_[m][l], "");
+      numbers_[m].clear();
+    }
   }
 
   std::vector<Record> records_of_all() { return std::move(records_); }
   Record& only() { return records_.front(); }
 
  private:
+  static int lanes_for(std::size_t trials) {
+    return static_cast<int>(*std::find_if(possible_lanes.begin(), possible_lanes.end() - 1,
+                                          [&](std::uint32_t lanes) { return lanes >= trials; }));
+  }
+
+  /// Whether no more of these trials is needed at a time than a stretch.
+  bool can_stay_in_lanes(const SharedConditions* conditions) const {
+    const int lanes = lanes_for(trials_.size());
+    return conditions != nullptr && SignalInLanes::can_draw(trials_) &&
+           signal_kernel(lanes) != nullptr && judge_kernel(lanes) != nullptr &&
+           std::none_of(cell_.methods.begin(), cell_.methods.end(),
+                        [](const Method& method) { return needs_tracks(method); });
+  }
+
+  static bool needs_tracks(const Method& method) {
+    return method.type().start == nullptr ||
+           std::any_of(metric_types().begin(), metric_types().end(),
+                       [](const MetricType& metric) { return metric.needs_track(); });
+  }
+
+  bool needs_heading() const {
+    return std::any_of(cell_.methods.begin(), cell_.methods.end(),
+                       [](const Method& method) { return method.type().needs.heading; });
+  }
+
+  /// The methods over `trials` trials from `from` on.
+  void run(std::size_t first, std::size_t count, std::size_t from, std::size_t trials,
+           Stretch& stretch) {
+    std::vector<MethodInLanes> together;
+    std::vector<std::size_t> which;
+    for (std::size_t m = first; m < first + count; ++m) {
+      const auto& method = cell_.methods[m];
+      if (needs_tracks(method)) {
+        run_tracks(m, from, trials, stretch);
+        continue;
+      }
+      which.push_back(m);
+      if (const auto* kernel = kernel_of(method, stretch))
+        together.emplace_back(method, *kernel, told(m, from, trials));
+      else
+        together.emplace_back(method, told(m, from, trials), stretch.lanes());
+    }
+    run(which, together, from, trials, stretch);
+  }
+
+  /// A method that is given whole series, or judged by whole tracks: one trial after the other.
+  void run_tracks(std::size_t m, std::size_t from, std::size_t trials, Stretch& stretch) {
+    const auto start = Clock::now();
+    const auto told_each = told(m, from, trials);
+    std::vector<const Track*> tracks;
+    for (std::size_t l = 0; l < trials; ++l) {
+      auto& w = lanes_[from + l];
+      track_method(cell_.methods[m], told_each[l], w.series, w.track);
+      tracks.push_back(&w.track);
+    }
+    lanes_.front().seconds[m] += std::chrono::duration<double>(Clock::now() - start).count();
+    std::vector<MethodInLanes> made;
+    made.emplace_back(tracks, stretch.lanes());
+    run(std::array{m}, made, from, trials, stretch);
+  }
+
+  /// All of them over one stretch after the other.
+  void run(std::span<const std::size_t> which, std::vector<MethodInLanes>& methods,
+           std::size_t from, std::size_t trials, Stretch& stretch) {
+    if (which.empty()) return;
+    auto& clock = lanes_.front();
+    const std::size_t samples = stretch.samples_of_all();
+    const auto lanes = static_cast<std::size_t>(stretch.lanes());
+    std::vector<double> sums(2 * lanes);
+    for (std::size_t first = 0; first < samples; first += JudgedSteps::most) {
+      stretch.load(first);
+      if (conditions_ != nullptr)
+        judge_kernel(stretch.lanes())->uncompensated(stretch.judged(), sums.data());
+      auto before = Clock::now();
+      for (std::size_t i = 0; i < which.size(); ++i) {
+        methods[i].step(stretch);
+        const auto now = Clock::now();
+        clock.seconds[which[i]] += std::chrono::duration<double>(now - before).count();
+        before = now;
+      }
+    }
+    for (std::size_t l = 0; conditions_ != nullptr && l < trials; ++l)
+      uncompensated_[from + l] = uncompensated_rmse(sums[l], sums[lanes + l]);
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      const auto errors = methods[i].errors();
+      for (std::size_t l = from; l < from + trials; ++l)
+        numbers_[which[i]].push_back(
+            numbers_of(errors[l - from], uncompensated_[l],
+                       {conditions_ != nullptr ? nullptr : signals_[l].judged, &lanes_[l].track}));
+      clock.steps[which[i]] += static_cast<double>(samples * trials);
+    }
+  }
+
+  std::vector<ParameterMap> told(std::size_t m, std::size_t from, std::size_t trials) const {
+    std::vector<ParameterMap> told;
+    for (std::size_t l = from; l < from + trials; ++l)
+      told.push_back(
+          told_parameters(cell_, cell_.methods[m], cell_.calibration.each_trial ? own_[l] : shared_,
+                          conditions_ != nullptr ? conditions_->series : lanes_[l].series));
+    return told;
+  }
+
   const Cell& cell_;
   const Calibration& shared_;
   std::span<const Noise> trials_;
   std::span<Workspace> lanes_;
+  const SharedConditions* conditions_;  ///< null: trials are made as series
   std::vector<Calibration> own_;
-  std::vector<const Series*> judged_;
+  std::vector<TrialSignal> signals_;
+  std::vector<double> uncompensated_;
+  std::vector<std::vector<std::vector<double>>> numbers_;  ///< by method and trial
   std::vector<Record> records_;
 };
 
@@ -190,23 +332,26 @@ class TrialsTogether {
 
 std::vector<Record> run_trials_together(const Cell& cell, const Calibration& shared,
                                         std::uint64_t seed, std::span<const std::uint32_t> trials,
-                                        std::vector<Workspace>& workspaces) {
+                                        std::vector<Workspace>& workspaces,
+                                        const SharedConditions* conditions) {
   std::vector<Noise> noises;
   for (const auto trial : trials) noises.push_back({seed, trial});
-  return run_trials_together(cell, shared, noises, workspaces);
+  return run_trials_together(cell, shared, noises, workspaces, conditions);
 }
 
 std::vector<Record> run_trials_together(const Cell& cell, const Calibration& shared,
                                         std::span<const Noise> trials,
-                                        std::vector<Workspace>& workspaces) {
+                                        std::vector<Workspace>& workspaces,
+                                        const SharedConditions* conditions) {
   if (workspaces.size() < trials.size()) workspaces.resize(trials.size());
-  TrialsTogether together(cell, shared, trials, {workspaces.data(), trials.size()});
+  TrialsTogether together(cell, shared, trials, {workspaces.data(), trials.size()}, conditions);
   const bool alone = trials.size() == 1;
   auto thrown = thrown_by([&] { together.prepare(); });
   const bool prepared = thrown.empty();
-  for (std::size_t m = 0; m < cell.methods.size() && (alone || thrown.empty()); ++m) {
-    if (prepared) thrown = thrown_by([&] { together.run(m); });
-    if (alone && !thrown.empty()) append_thrown(together.only(), thrown);
+  if (!alone && prepared) thrown = thrown_by([&] { together.run(0, cell.methods.size()); });
+  for (std::size_t m = 0; alone && m < cell.methods.size(); ++m) {  // each throws for itself
+    if (prepared) thrown = thrown_by([&] { together.run(m, 1); });
+    if (!thrown.empty()) append_thrown(together.only(), thrown);
   }
   if (alone || thrown.empty()) return together.records_of_all();
   std::vector<Record> records;  // one by one, so that each is told of its own

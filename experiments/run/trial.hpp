@@ -9,6 +9,7 @@
 #include <gyrostat/core/outcome.hpp>
 #include <gyrostat/core/track.hpp>
 #include <gyrostat/experiments/study/study.hpp>
+#include <gyrostat/generators/packed/signal_in_lanes.hpp>
 
 namespace gyrostat {
 
@@ -64,6 +65,11 @@ Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t t
                            Series& buffer);
 Calibration calibrate_cell(const Cell& cell, const Noise& trial, Series& buffer);
 
+/// A trial's signal into `workspace.series` and what one method makes of it into `workspace.track`,
+/// for who wants to see every step: those that the trial's Record was made of.
+void track_trial(const Cell& cell, const Method& method, const Calibration& shared,
+                 const Noise& trial, Workspace& workspace);
+
 /// Trials that this machine runs best side by side: as many as its widest registers hold.
 std::uint32_t default_lanes();
 
@@ -75,15 +81,19 @@ inline constexpr std::array<std::uint32_t, 4> possible_lanes = {1, 2, 4, 8};
 /// `shared` is used unless the cell calibrates each trial. What a method throws is its outcome;
 /// what signal or calibration throw is the outcome of all. A lack of memory is thrown on, and
 /// Interrupted, which is no outcome.
+/// Where they share `conditions` (shared_conditions of the cell's scenario) and no method or metric
+/// asks for whole series, they stay in lanes from the deviates to the metrics, a stretch at a time.
 /// Seconds and steps of each method are counted in the first workspace.
 std::vector<Record> run_trials_together(const Cell& cell, const Calibration& shared,
                                         std::uint64_t seed, std::span<const std::uint32_t> trials,
-                                        std::vector<Workspace>& workspaces);
+                                        std::vector<Workspace>& workspaces,
+                                        const SharedConditions* conditions = nullptr);
 
 /// The same for trials of any noise.
 std::vector<Record> run_trials_together(const Cell& cell, const Calibration& shared,
                                         std::span<const Noise> trials,
-                                        std::vector<Workspace>& workspaces);
+                                        std::vector<Workspace>& workspaces,
+                                        const SharedConditions* conditions = nullptr);
 
 /// One of them.
 Record run_trial(const Cell& cell, const Calibration& shared, const Noise& trial,

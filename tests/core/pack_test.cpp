@@ -112,6 +112,7 @@ void expect_lanes_are_doubles() {
   expect_lanes_are_doubles<Filter, 8>(3000);
 }
 
+TEST(Packed, NoneIsItselfInEveryLane) { expect_lanes_are_doubles<filters::None>(); }
 TEST(Packed, KfIsItselfInEveryLane) { expect_lanes_are_doubles<filters::Kf>(); }
 TEST(Packed, KfMaIsItselfInEveryLane) { expect_lanes_are_doubles<filters::KfMa>(); }
 TEST(Packed, OracleIsItselfInEveryLane) { expect_lanes_are_doubles<filters::Oracle>(); }

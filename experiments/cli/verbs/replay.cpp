@@ -125,6 +125,8 @@ int replay_failure(const ReplayArguments& arguments, const std::string& as_trial
   if (!record.thrown[0].empty())
     throw std::runtime_error(arguments.address + ": " + record.thrown[0]);
   if (arguments.steps) {
+    track_trial(prepared.cell, prepared.cell.methods[0], prepared.calibration,
+                Noise{failure_seed(study), 0, signal->shares}, workspaces[0]);
     print_steps(workspaces[0].series, workspaces[0].track, console.out);
     return complete;
   }
@@ -149,9 +151,8 @@ int run(const ReplayArguments& arguments, Console& console) {
   const auto& thrown = record.thrown[at.method];
   if (arguments.steps) {
     if (!thrown.empty()) throw std::runtime_error(arguments.address + ": " + thrown);
-    Cell alone = cell;
-    alone.methods = {cell.methods[at.method]};
-    run_trial(alone, prepared.calibration, study.seed, at.trial, workspaces);
+    track_trial(cell, cell.methods[at.method], prepared.calibration, {study.seed, at.trial},
+                workspaces[0]);
     print_steps(workspaces[0].series, workspaces[0].track, console.out);
     return complete;
   }

@@ -13,9 +13,19 @@ void Compass::turn(Series& series) const {
     heading[i] = heading[i - 1] + series.rate_ref_dps[i] * (series.t_s[i] - series.t_s[i - 1]);
 }
 
+std::vector<double> Compass::valid(const std::vector<double>& t_s) const {
+  std::vector<double> valid(t_s.size(), 1.0);
+  for (const auto& d : disturbances)
+    for (std::size_t i = 0; i < t_s.size(); ++i) {
+      const double into = t_s[i] - d.start_s;
+      if (d.flagged != 0.0 && into >= 0.0 && into < d.duration_s) valid[i] = 0.0;
+    }
+  return valid;
+}
+
 void Compass::read(Series& series, const Noise& noise) const {
   auto& heading = series.heading_deg;
-  series.mag_valid.assign(series.size(), 1.0);
+  series.mag_valid = valid(series.t_s);
   add_white_noise(noise_std_deg, noise.stream("compass"), heading);
 
   for (std::size_t n = 0; n < disturbances.size(); ++n) {
@@ -25,7 +35,6 @@ void Compass::read(Series& series, const Noise& noise) const {
       const double into = series.t_s[i] - d.start_s;
       if (into < 0.0 || into >= d.duration_s) continue;
       heading[i] += d.offset_deg + d.noise_std_deg * stream.normal(i);
-      if (d.flagged != 0.0) series.mag_valid[i] = 0.0;
     }
   }
   for (auto& angle : heading) angle = wrap_degrees(angle);

@@ -51,6 +51,8 @@ struct Compass {
   /// Adds white noise and disturbances to heading_deg, wraps it, and fills mag_valid. Streams
   /// "compass" and "compass/disturbance/0", "…/1", ….
   void read(Series& series, const Noise& noise) const;
+  /// mag_valid at these times.
+  std::vector<double> valid(const std::vector<double>& t_s) const;
   /// Turns and reads.
   void observe(Series& series, const Noise& noise) const;
 };

@@ -97,6 +97,18 @@ TEST(Runner, AnyNumberOfLanesGivesTheSameBits) {
     }
 }
 
+/// Without an effect on the gyro these trials are never made as series but one at a time.
+TEST(Runner, TrialsThatStayInLanesHaveTheBitsOfTheirSeries) {
+  auto cell = busy_cell();
+  cell.trials = 11;
+  cell.scenario.effects.pop_back();
+  ASSERT_TRUE(prepare_cell(cell, 42, 1).conditions);
+  ASSERT_FALSE(prepare_cell(busy_cell(), 42, 1).conditions);
+  const auto one = run(cell, 1, 1);
+  for (const std::uint32_t lanes : {2U, 4U, 8U})
+    EXPECT_TRUE(same_bits(one, run(cell, 2, lanes))) << lanes;
+}
+
 TEST(Runner, RunningAgainGivesTheSameBits) {
   EXPECT_TRUE(same_bits(run(busy_cell()), run(busy_cell())));
 }

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <gyrostat/analysis/errors.hpp>
+#include <gyrostat/analysis/judge/judged_steps.hpp>
+#include <gyrostat/core/numerics/lanes.hpp>
+#include <gyrostat/core/step.hpp>
+
+namespace gyrostat::judge {
+
+/// Bias errors beside the variances stated for them; what misses either is left out.
+template <class T>
+class Covariance {
+ public:
+  void add(const T* bias_errors_dps, const double* variances, std::size_t samples) {
+    T squared[JudgedSteps::most];
+    T sum(0.0);
+    for (std::size_t k = 0; k < samples; ++k) {
+      squared[k] =
+          bias_errors_dps[k] * bias_errors_dps[k] * inverse(variances + k * Lanes<T>::count);
+      sum += squared[k];
+    }
+    if (any(is_missing(sum))) return add_present(squared, samples);
+    T within_1 = within_1_, within_3 = within_3_;
+    for (std::size_t k = 0; k < samples; ++k) {
+      within_1 += select(squared[k] <= T(1.0), T(1.0), T(0.0));
+      within_3 += select(squared[k] <= T(9.0), T(1.0), T(0.0));
+    }
+    within_1_ = within_1;
+    within_3_ = within_3;
+    last_ = squared[samples - 1];
+    sum_ += sum;
+    count_ += T(static_cast<double>(samples));
+  }
+
+  StatedCovariance of_lane(int lane) const {
+    const auto at = [lane](const T& value) { return Lanes<T>::at(value, lane); };
+    const double n = at(count_);
+    if (n == 0.0) return {};
+    return {at(sum_) / n, at(last_), at(within_1_) / n, at(within_3_) / n};
+  }
+
+ private:
+  /// A filter that has settled states the same variance again and again.
+  const T& inverse(const double* variance) {
+    const T now = Lanes<T>::load(variance);
+    if (all(now == variance_)) return inverse_;
+    variance_ = now;
+    return inverse_ = T(1.0) / now;
+  }
+
+  void add_present(const T* squared, std::size_t samples) {
+    T sum(0.0);
+    for (std::size_t k = 0; k < samples; ++k) {
+      const auto present = !is_missing(squared[k]);
+      if (!any(present)) continue;
+      sum += select(present, squared[k], T(0.0));
+      count_ += select(present, T(1.0), T(0.0));
+      within_1_ += select(squared[k] <= T(1.0), T(1.0), T(0.0));
+      within_3_ += select(squared[k] <= T(9.0), T(1.0), T(0.0));
+      last_ = select(present, squared[k], last_);
+    }
+    sum_ += sum;
+  }
+
+  T count_{0.0}, sum_{0.0}, within_1_{0.0}, within_3_{0.0}, last_{no_value};
+  T variance_{no_value}, inverse_{no_value};
+};
+
+}  // namespace gyrostat::judge
