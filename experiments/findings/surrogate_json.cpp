@@ -1,7 +1,6 @@
 #include <gyrostat/experiments/findings/surrogate_json.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -10,11 +9,7 @@
 namespace gyrostat {
 namespace {
 
-Json number(double value) { return std::isnan(value) ? Json() : Json(value); }
-
-Json estimate(const Estimate& e) {
-  return {{"value", number(e.value)}, {"low", number(e.low)}, {"high", number(e.high)}};
-}
+Json estimate(const Estimate& e) { return {{"value", e.value}, {"low", e.low}, {"high", e.high}}; }
 
 Json parameter(const DesignParameter& p, const SobolIndex& index) {
   Json json = {{"name", p.name},
@@ -39,7 +34,7 @@ Json surrogate(const Sensitivity& s, const Design& design) {
                {"trials", s.trials},
                {"trusted", found.is_trusted},
                {"unexplained", estimate(found.unexplained)},
-               {"left_out_error", number(found.chaos.left_out_error)},
+               {"left_out_error", found.chaos.left_out_error},
                {"trial_noise", estimate(s.noise)},
                {"parameters", Json::array()},
                {"terms", Json::array()}};

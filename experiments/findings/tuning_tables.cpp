@@ -165,35 +165,29 @@ Table curve_table(const CellTuning& cell, const MethodTuning& m, const TuningGoa
   return table;
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 Json value_json(const TrialMeasure::Value& found) {
-  return {{"value", number(found.value)},
-          {"low", number(found.low)},
-          {"high", number(found.high)},
+  return {{"value", found.value},
+          {"low", found.low},
+          {"high", found.high},
           {"trials", found.trials},
           {"missing", found.missing}};
 }
 
 Json method_json(const MethodTuning& m) {
-  Json json = {{"method", m.method},
-               {"better", m.is_better()},
-               {"before", value_json(m.before)},
-               {"tuned", value_json(m.after)},
-               {"gain", number(m.gain.mean)},
-               {"gain_low", number(m.gain.low)},
-               {"gain_high", number(m.gain.high)},
-               {"on_search", number(m.on_search)},
-               {"runs", m.runs}};
+  Json json = {
+      {"method", m.method},           {"better", m.is_better()},  {"before", value_json(m.before)},
+      {"tuned", value_json(m.after)}, {"gain", m.gain.mean},      {"gain_low", m.gain.low},
+      {"gain_high", m.gain.high},     {"on_search", m.on_search}, {"runs", m.runs},
+  };
   for (const auto& p : m.parameters)
     json["parameters"][p.name] = {{"unit", p.unit},
-                                  {"before", number(p.before)},
-                                  {"value", number(p.value)},
-                                  {"low", number(p.low)},
-                                  {"high", number(p.high)},
+                                  {"before", p.before},
+                                  {"value", p.value},
+                                  {"low", p.low},
+                                  {"high", p.high},
                                   {"searched", {p.range.low, p.range.high}},
-                                  {"growth_at_low", number(p.at_low.mean)},
-                                  {"growth_at_high", number(p.at_high.mean)},
+                                  {"growth_at_low", p.at_low.mean},
+                                  {"growth_at_high", p.at_high.mean},
                                   {"matters", p.matters}};
   for (const auto& s : m.curve)
     json["curve"].push_back({{"stage", s.what},
