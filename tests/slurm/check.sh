@@ -88,7 +88,7 @@ for i in $(seq 60); do [ "$(idle)" = 2 ] && break; sleep 0.5; done
 cd "$root"
 cat >s.json <<'STUDY'
 {"seed": 5, "cells": [
-  {"name": "a", "trials": 6000, "scenario": {"duration_s": 20, "rate_hz": 100},
+  {"name": "a", "trials": 6000, "scenario": {"duration_s": 60, "rate_hz": 100},
    "filters": ["none", "kf", "sr_rsukf", "oracle"]},
   {"name": "b", "trials": 400, "scenario": {"duration_s": 30, "rate_hz": 50}, "filters": ["none", "stf"]}]}
 STUDY
