@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <gyrostat/core/error.hpp>
-#include <gyrostat/recordings/binary/cursor.hpp>
-#include <gyrostat/recordings/binary/imu_log.hpp>
+#include <gyrostat/recordings/binary/message_log.hpp>
 #include <gyrostat/recordings/binary/sensor_msgs.hpp>
-#include <gyrostat/recordings/binary/unpack.hpp>
-#include <gyrostat/recordings/binary/whole_file.hpp>
 #include <gyrostat/recordings/format_type.hpp>
 
 namespace gyrostat::formats::mcap {
@@ -21,10 +18,10 @@ struct Reader {
     std::string topic;
     ImuSample (*decode)(std::string_view, std::int64_t);
   };
-  std::map<std::uint16_t, bool> imu_schemas;
-  std::map<std::uint16_t, Channel> channels;
   Unpacker unpacker;
-  ImuLog log;
+  ImuLog log{};
+  std::map<std::uint16_t, bool> imu_schemas{};
+  std::map<std::uint16_t, Channel> channels{};
 
   /// Records up to the end of the data; those of a chunk hold no chunks.
   void read(Cursor at, bool in_chunk) {
@@ -71,25 +68,15 @@ struct Reader {
   }
 };
 
-ColumnTable read(const FormatSource& source) {
-  const WholeFile file(source);
-  Reader reader{{}, {}, Unpacker(source.place), {}};
-  try {
-    reader.read(Cursor(file.bytes().substr(magic.size())), false);
-  } catch (const CutOff&) {
-    reader.log.cut_off();
-  }
-  return std::move(reader.log).table(source.topic, source.place, "a topic of sensor_msgs/Imu");
-}
-
 }  // namespace
 
 /// MCAP, as rosbag2 and Foxglove write it: sensor_msgs/Imu in CDR or as ROS 1 has it, in chunks
 /// that are plain, LZ4 or Zstandard (mcap.dev/spec, version 0).
 RecordingFormat format() {
-  return {.title = "MCAP (ROS 2, Foxglove): sensor_msgs/Imu",
-          .recognises = [](const FormatHead& head) { return head.starts_with(magic); },
-          .read = read};
+  return {
+      .title = "MCAP (ROS 2, Foxglove): sensor_msgs/Imu",
+      .recognises = [](const FormatHead& head) { return head.starts_with(magic); },
+      .read = [](const FormatSource& source) { return read_message_log<Reader>(source, magic); }};
 }
 
 }  // namespace gyrostat::formats::mcap

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <gyrostat/core/error.hpp>
-#include <gyrostat/recordings/binary/cursor.hpp>
-#include <gyrostat/recordings/binary/imu_log.hpp>
+#include <gyrostat/recordings/binary/message_log.hpp>
 #include <gyrostat/recordings/binary/sensor_msgs.hpp>
-#include <gyrostat/recordings/binary/unpack.hpp>
-#include <gyrostat/recordings/binary/whole_file.hpp>
 #include <gyrostat/recordings/format_type.hpp>
 
 namespace gyrostat::formats::rosbag {
@@ -39,9 +36,9 @@ class Fields {
 };
 
 struct Reader {
-  std::map<std::uint32_t, std::string> imu_topics;
   Unpacker unpacker;
-  ImuLog log;
+  ImuLog log{};
+  std::map<std::uint32_t, std::string> imu_topics{};
 
   void read(Cursor at, bool in_chunk) {
     while (!at.empty()) {
@@ -68,25 +65,15 @@ struct Reader {
   }
 };
 
-ColumnTable read(const FormatSource& source) {
-  const WholeFile file(source);
-  Reader reader{{}, Unpacker(source.place), {}};
-  try {
-    reader.read(Cursor(file.bytes().substr(magic.size())), false);
-  } catch (const CutOff&) {
-    reader.log.cut_off();
-  }
-  return std::move(reader.log).table(source.topic, source.place, "a topic of sensor_msgs/Imu");
-}
-
 }  // namespace
 
 /// A ROS 1 bag of version 2.0, whole or cut off, in chunks that are plain, bzip2 or LZ4: its
 /// messages of sensor_msgs/Imu (ROS wiki, Bags/Format/2.0). The index is not needed.
 RecordingFormat format() {
-  return {.title = "ROS 1 bag: sensor_msgs/Imu",
-          .recognises = [](const FormatHead& head) { return head.starts_with(magic); },
-          .read = read};
+  return {
+      .title = "ROS 1 bag: sensor_msgs/Imu",
+      .recognises = [](const FormatHead& head) { return head.starts_with(magic); },
+      .read = [](const FormatSource& source) { return read_message_log<Reader>(source, magic); }};
 }
 
 }  // namespace gyrostat::formats::rosbag
