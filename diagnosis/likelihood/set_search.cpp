@@ -117,6 +117,7 @@ class Search {
   std::vector<char> near_the_limit(const Marks& marks) const;
   /// Effects that are read off the values.
   std::vector<Effect> read_off(const Marks& marks, FoundSet& found);
+  void hide_edges_of_the_dead_zone(const Scenario& scenario, std::vector<double>& left_dps) const;
   /// What the innovations say of outliers and of noise over temperature, beside the set.
   void judge_tails(const Standing& standing);
   void add_tails(FoundSet& found) const;
@@ -133,6 +134,7 @@ class Search {
   std::vector<char> repeats_;  ///< samples that do not count, whatever the set
   Tails tails_;
   bool is_normal_ = true;  ///< rounded finely enough for tails
+  bool is_even_ = true;    ///< rounded finely enough for its size not to depend on the level
   bool has_outliers_ = false, has_warm_noise_ = false;
   std::vector<const CauseType*> candidates_;
   std::size_t rounds_ = 0;  ///< in which every candidate was tried
@@ -367,6 +369,20 @@ std::vector<Effect> Search::read_off(const Marks& marks, FoundSet& found) {
   return effects;
 }
 
+/// There noise decides whether a sample is written as 0.
+void Search::hide_edges_of_the_dead_zone(const Scenario& scenario,
+                                         std::vector<double>& left_dps) const {
+  constexpr double reach = 5.0;  // standard deviations
+  const auto& reference = conditions_.series().rate_ref_dps;
+  for (const auto& effect : scenario.effects) {
+    if (effect.id() != "dead_zone" || reference.empty()) continue;
+    const double edge = effect.value(field_of(effect, "half_width_dps"));
+    const double near = reach * white_with_rounding(scenario);
+    for (std::size_t i = 0; i < left_dps.size(); ++i)
+      if (std::abs(std::abs(reference[i]) - edge) < near) left_dps[i] = no_value;
+  }
+}
+
 void Search::judge_tails(const Standing& standing) {
   auto left = bench_.rate_left_by(standing.scenario, repeats_);
   // Neither may outliers pass for a burst, nor the samples of a burst for outliers.
@@ -382,12 +398,13 @@ void Search::judge_tails(const Standing& standing) {
     for (std::size_t i = 0; i < left.size(); ++i)
       if (beside[i] != 0) left[i] = no_value;
   }
+  hide_edges_of_the_dead_zone(standing.scenario, left);
   tails_ = tails_of(conditions_, left, conditions_.has_temperature());
   const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
   has_outliers_ = is_normal_ && bench_.is_allowed("outliers") &&
                   tails_.outlier_gain > prior_of_sizes + 2.0 * value + 4.0;
-  has_warm_noise_ =
-      bench_.is_allowed("noise_temperature") && tails_.temperature_gain > prior_of_sizes + value;
+  has_warm_noise_ = is_even_ && bench_.is_allowed("noise_temperature") &&
+                    tails_.temperature_gain > prior_of_sizes + value;
 }
 
 void Search::add_nameless_tails(FoundSet& found) const {
@@ -396,7 +413,7 @@ void Search::add_nameless_tails(FoundSet& found) const {
     found.unexplained.push_back({what, std::min(1.0, std::exp(values * value - gain))});
   };
   if (is_normal_ && !has_outliers_) add("tails of the noise", tails_.outlier_gain, 2.0);
-  if (!has_warm_noise_) add("noise over temperature", tails_.temperature_gain, 1.0);
+  if (is_even_ && !has_warm_noise_) add("noise over temperature", tails_.temperature_gain, 1.0);
 }
 
 Standing Search::searched_beside_tails(Standing standing) {
@@ -451,11 +468,15 @@ FoundSet Search::run() {
   const auto begun = bench_.beside_noise(marked);
   // Rounding to more than the noise is no longer noise, unless a motion dithers it: what it does to
   // the fast part and to slow noise has no law here. Rounded to nearly as much, samples are no
-  // longer normal: their tails say nothing.
-  constexpr double coarsest = 2.2, coarsest_for_tails = 1.2;
+  // longer normal: their tails say nothing. In between, the size of rounded noise depends on where
+  // between two values the level is, which temperature moves: at the limit by a part in five
+  // hundred (from the first harmonic of the rounding error; Widrow and Kollar, "Quantization
+  // Noise", 2008, 4.3), which is what a long recording could show.
+  constexpr double coarsest = 2.2, coarsest_for_tails = 1.2, coarsest_for_size = 1.6;
   const double lsb_of_noise = marks.lsb_dps / white_with_rounding(begun.scenario);
   const bool coarse = lsb_of_noise > coarsest && !marks.turns_through_grid;
   is_normal_ = lsb_of_noise < coarsest_for_tails;
+  is_even_ = lsb_of_noise < coarsest_for_size || marks.turns_through_grid;
   if (coarse)
     std::erase_if(candidates_, [](const auto* cause) {
       const auto band = band_of(cause->id);
