@@ -75,8 +75,9 @@ class Work {
   /// readings of the train part are foretold as well is the form of another one: it goes.
   std::vector<std::string> weighed(std::vector<Member> members);
   bool is_missed_by(const Rung& rung) const;
-  /// Odds are those of a likelihood that is as far off as the readings say: its logarithm over
-  /// their mean square deviation (quasi-likelihood; Wedderburn, Biometrika 61, 1974).
+  /// Odds are those of a likelihood that is as far off as the readings of its channel say: its
+  /// logarithm over their mean square deviation (quasi-likelihood; Wedderburn, Biometrika 61, 1974).
+  /// What is read off the values has no likelihood of the noise.
   void temper();
   void judge_claim();
   Rung rung(const std::string& effect, const Scenario& scenario, std::size_t replicas) const;
@@ -290,9 +291,23 @@ std::vector<std::string> Work::weighed(std::vector<Member> members) {
 void Work::temper() {
   const Ensemble enriched(simulator_.instrument(Part::train), rungs_.back().replicas[0], {});
   const auto z = enriched.deviations(observed_[0]);
-  const double dispersion = std::max(1.0, z.squaredNorm() / static_cast<double>(z.size()));
+  const auto dispersion_in = [&](bool compass) {
+    double squares = 0.0, count = 0.0;
+    for (const auto& lens : enriched.lenses()) {
+      if ((lens.channel == "heading_deg") != compass) continue;
+      squares += z.segment(lens.first, lens.count).squaredNorm();
+      count += static_cast<double>(lens.count);
+    }
+    return std::max(1.0, squares / std::max(1.0, count));
+  };
+  const double of_rate = dispersion_in(false), of_compass = dispersion_in(true);
   for (auto& effect : result_.effects) {
-    effect.log_odds /= dispersion;
+    const auto member = std::find_if(found_.members.begin(), found_.members.end(),
+                                     [&](const auto& m) { return m.effect == effect.effect; });
+    if (member->read_off) continue;
+    const bool compass =
+        cause_types().named(effect.effect, "effects").effect().stage() == Stage::compass;
+    effect.log_odds /= compass ? of_compass : of_rate;
     effect.inclusion = probability_of(effect.log_odds);
   }
 }

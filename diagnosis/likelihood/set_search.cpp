@@ -54,7 +54,7 @@ bool is_slow(std::string_view id) {
 
 void add_mark(std::string_view effect, FoundSet& found) {
   constexpr double odds_of_a_mark = 50.0;
-  found.members.push_back({std::string(effect), odds_of_a_mark});
+  found.members.push_back({std::string(effect), odds_of_a_mark, true});
 }
 
 /// Standard deviation of white noise with what rounding adds.
@@ -117,7 +117,7 @@ class Search {
   std::vector<char> near_the_limit(const Marks& marks) const;
   /// Effects that are read off the values.
   std::vector<Effect> read_off(const Marks& marks, FoundSet& found);
-  void hide_edges_of_the_dead_zone(const Scenario& scenario, std::vector<double>& left_dps) const;
+  std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
   /// What the innovations say of outliers and of noise over temperature, beside the set.
   void judge_tails(const Standing& standing);
   void add_tails(FoundSet& found) const;
@@ -295,6 +295,7 @@ Scenario Search::subset_of(const Scenario& whole, const std::vector<std::string>
   some.effects.clear();
   for (const auto& effect : whole.effects)
     if (is_in(effect.id())) some.effects.push_back(effect);
+  bench_.mask_too(edges_of_the_dead_zone(some));
   Scenario rate = some;
   std::erase_if(rate.effects, [](const auto& e) { return e.stage() == Stage::compass; });
   rate = with_walk_of_at_least(std::move(rate),
@@ -370,21 +371,24 @@ std::vector<Effect> Search::read_off(const Marks& marks, FoundSet& found) {
 }
 
 /// There noise decides whether a sample is written as 0.
-void Search::hide_edges_of_the_dead_zone(const Scenario& scenario,
-                                         std::vector<double>& left_dps) const {
+std::vector<char> Search::edges_of_the_dead_zone(const Scenario& scenario) const {
   constexpr double reach = 5.0;  // standard deviations
   const auto& reference = conditions_.series().rate_ref_dps;
+  std::vector<char> edges(recording_.size(), 0);
   for (const auto& effect : scenario.effects) {
     if (effect.id() != "dead_zone" || reference.empty()) continue;
     const double edge = effect.value(field_of(effect, "half_width_dps"));
     const double near = reach * white_with_rounding(scenario);
-    for (std::size_t i = 0; i < left_dps.size(); ++i)
-      if (std::abs(std::abs(reference[i]) - edge) < near) left_dps[i] = no_value;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      edges[i] = std::abs(std::abs(reference[i]) - edge) < near ? 1 : 0;
   }
+  return edges;
 }
 
 void Search::judge_tails(const Standing& standing) {
-  auto left = bench_.rate_left_by(standing.scenario, repeats_);
+  auto hidden = edges_of_the_dead_zone(standing.scenario);
+  for (std::size_t i = 0; i < hidden.size(); ++i) hidden[i] |= repeats_[i];
+  auto left = bench_.rate_left_by(standing.scenario, hidden);
   // Neither may outliers pass for a burst, nor the samples of a burst for outliers.
   auto without_outliers = left;
   for (std::size_t i = 0; i < tails_.outliers.size(); ++i)
@@ -398,7 +402,6 @@ void Search::judge_tails(const Standing& standing) {
     for (std::size_t i = 0; i < left.size(); ++i)
       if (beside[i] != 0) left[i] = no_value;
   }
-  hide_edges_of_the_dead_zone(standing.scenario, left);
   tails_ = tails_of(conditions_, left, conditions_.has_temperature());
   const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
   has_outliers_ = is_normal_ && bench_.is_allowed("outliers") &&
@@ -432,6 +435,7 @@ Standing Search::searched_beside_tails(Standing standing) {
     }
     // The largest samples would hide what else there is.
     bench_.mask_only(repeats_);
+    bench_.mask_too(edges_of_the_dead_zone(standing.scenario));
     if (has_outliers_) bench_.mask_too(tails_.outliers);
     if (round > 0 && bench_.masked() == hidden) break;
     standing = searched(bench_.refitted(standing.scenario));
@@ -503,7 +507,8 @@ FoundSet Search::run() {
   found.intervals = bench_.intervals_of(standing);
   if (!coarse) end_ = standing;
   add_tails(found);
-  auto unseen = repeats_;
+  auto unseen = edges_of_the_dead_zone(standing.scenario);
+  for (std::size_t i = 0; i < unseen.size(); ++i) unseen[i] |= repeats_[i];
   if (has_outliers_)
     for (std::size_t i = 0; i < unseen.size(); ++i)
       if (tails_.outliers[i] != 0) unseen[i] = 1;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/autoregression.hpp>
@@ -81,9 +82,14 @@ Mixture mixture_of(const std::vector<double>& squares, double narrow) {
       of_wide += hit * s;
       of_narrow += (1.0 - hit) * s;
     }
-    share = std::clamp(weight / n, 1e-6, 0.5);
+    const double share_before = std::exchange(share, std::clamp(weight / n, 1e-6, 0.5));
+    const double wide_before = wide;
     narrow = of_narrow / std::max(1.0, n - weight);
     wide = std::max(of_wide / std::max(1e-9, weight), 2.0 * narrow);
+    constexpr double settled = 1e-5;
+    if (std::abs(share - share_before) < settled * share &&
+        std::abs(wide - wide_before) < settled * wide)
+      break;
   }
   double mixed = 0.0;
   for (const double s : squares)
