@@ -7,15 +7,19 @@
 
 namespace gyrostat::gap {
 
-/// The heading follows turns late.
+/// The heading follows turns late, through one pole or several, each a start of its own.
 template <>
 struct Diagnosed<effects::CompassLag> {
   static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::CompassLag::time_constant_s};
 
   static std::vector<effects::CompassLag> starts(const Evidence& e) {
-    return {shaped(e, Trace::heading, effects::CompassLag{}, &effects::CompassLag::time_constant_s,
-                   0.5 * e.conditions().interval_s(), 30.0)};
+    std::vector<effects::CompassLag> all;
+    for (const double poles : {1.0, 2.0, 4.0})
+      all.push_back(shaped(e, Trace::heading, effects::CompassLag{.poles = poles},
+                           &effects::CompassLag::time_constant_s, 0.5 * e.conditions().interval_s(),
+                           30.0));
+    return all;
   }
 
   static std::string why_not_assessable(const Conditions& c) {

@@ -1,4 +1,3 @@
-#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/diagnosis/gap/ensemble.hpp>
 
 #include <algorithm>
@@ -6,6 +5,9 @@
 #include <numbers>
 
 #include <Eigen/Cholesky>
+
+#include <gyrostat/analysis/statistics/distributions.hpp>
+#include <gyrostat/core/random.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -53,6 +55,12 @@ Ensemble::Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas
     return (d.rowwise().squaredNorm() / static_cast<double>(count - 1)).cwiseSqrt().cwiseMax(least);
   };
   spread_ = spread_of(off);
+  credited_ = (1.0 - (off.rowwise().squaredNorm() / static_cast<double>(count - 1))
+                         .cwiseQuotient(spread_.cwiseAbs2())
+                         .array())
+                  .max(0.0)
+                  .sqrt();
+  vary_as_credited(off);
   if (jacobian.cols() > 0) {
     refit_left_ = jacobian;
     const Eigen::MatrixXd weighted = spread_.cwiseAbs2().cwiseInverse().asDiagonal() * jacobian;
@@ -100,12 +108,26 @@ Ensemble::Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas
     return tails;
   };
   for (Eigen::Index k = 0; k < count; ++k) {
-    replica_least_.push_back(least_probability(z.col(k), tails_without(k)));
+    replica_least_.push_back(least_probability(z.col(k), tails_without(k), Credited::already));
     replica_largest_.push_back(z.col(k).cwiseAbs().maxCoeff());
   }
   tails_ = tails_without(count);
   std::sort(replica_least_.begin(), replica_least_.end());
   std::sort(replica_largest_.begin(), replica_largest_.end());
+}
+
+/// Where all replicas read the same, a recording that differs by far less than what is credited
+/// would otherwise be infinitely far off.
+void Ensemble::vary_as_credited(Eigen::MatrixXd& off) const {
+  for (Eigen::Index i = 0; i < off.rows(); ++i) {
+    if (!(credited_[i] > 0.0)) continue;
+    const NormalStream stream(0, static_cast<std::uint32_t>(i), "ensemble/credited");
+    Eigen::RowVectorXd made_up(off.cols());
+    for (Eigen::Index k = 0; k < off.cols(); ++k)
+      made_up[k] = stream.normal(static_cast<std::uint64_t>(k));
+    made_up.array() -= made_up.mean();
+    off.row(i) += credited_[i] * spread_[i] * made_up;
+  }
 }
 
 Eigen::VectorXd Ensemble::deviations(const Eigen::VectorXd& readings) const {
@@ -114,19 +136,27 @@ Eigen::VectorXd Ensemble::deviations(const Eigen::VectorXd& readings) const {
   return off.cwiseQuotient(spread_).cwiseMin(largest_deviation).cwiseMax(-largest_deviation);
 }
 
+double Ensemble::log_mean_square(const Eigen::VectorXd& z, const LensView& lens) const {
+  const double credited = credited_.segment(lens.first, lens.count).squaredNorm();
+  return std::log(mean_square(z, lens) + credited / static_cast<double>(lens.count));
+}
+
 Eigen::VectorXd Ensemble::lens_deviations(const Eigen::VectorXd& z) const {
   Eigen::VectorXd t(static_cast<Eigen::Index>(lenses_.size()));
   for (std::size_t l = 0; l < lenses_.size(); ++l)
     t[static_cast<Eigen::Index>(l)] =
-        (std::log(mean_square(z, lenses_[l])) - tails_[l].centre) / tails_[l].spread;
+        (log_mean_square(z, lenses_[l]) - tails_[l].centre) / tails_[l].spread;
   return t;
 }
 
-double Ensemble::least_probability(const Eigen::VectorXd& z, const std::vector<Tail>& tails) const {
+double Ensemble::least_probability(const Eigen::VectorXd& z, const std::vector<Tail>& tails,
+                                   Credited credited) const {
   double least = 1.0;
   for (std::size_t l = 0; l < lenses_.size(); ++l) {
     const auto& tail = tails[l];
-    const double off = (std::log(mean_square(z, lenses_[l])) - tail.centre) / tail.spread;
+    const double square = credited == Credited::already ? std::log(mean_square(z, lenses_[l]))
+                                                        : log_mean_square(z, lenses_[l]);
+    const double off = (square - tail.centre) / tail.spread;
     least = std::min(least, std::erfc(std::abs(off) / std::numbers::sqrt2));
     least = std::min(least,
                      -std::expm1(-std::exp((tail.location - largest(z, lenses_[l])) / tail.width)));
@@ -135,7 +165,7 @@ double Ensemble::least_probability(const Eigen::VectorXd& z, const std::vector<T
 }
 
 double Ensemble::p_value(const Eigen::VectorXd& readings) const {
-  const double least = least_probability(deviations(readings), tails_);
+  const double least = least_probability(deviations(readings), tails_, Credited::not_yet);
   const auto below = std::upper_bound(replica_least_.begin(), replica_least_.end(), least) -
                      replica_least_.begin();
   const double n = static_cast<double>(replica_least_.size());

@@ -28,6 +28,9 @@ class Ensemble {
   const std::vector<LensView>& lenses() const { return lenses_; }
   const Eigen::VectorXd& mean() const { return mean_; }
   const Eigen::VectorXd& spread() const { return spread_; }
+  /// What of each spread the replicas do not have: 0 where they vary by more than the least that
+  /// their lens is credited with, 1 where they do not vary.
+  const Eigen::VectorXd& credited() const { return credited_; }
 
   /// Deviations from the mean in units of the spread, refitted.
   Eigen::VectorXd deviations(const Eigen::VectorXd& readings) const;
@@ -48,10 +51,16 @@ class Ensemble {
   struct Tail {
     double centre, spread, location, width;
   };
-  double least_probability(const Eigen::VectorXd& deviations, const std::vector<Tail>& tails) const;
+  /// Normal deviates make up for what the replicas lack of the spread.
+  void vary_as_credited(Eigen::MatrixXd& off) const;
+  /// Whether deviations vary by what their readings are credited with.
+  enum class Credited { not_yet, already };
+  double least_probability(const Eigen::VectorXd& deviations, const std::vector<Tail>& tails,
+                           Credited credited) const;
+  double log_mean_square(const Eigen::VectorXd& deviations, const LensView& lens) const;
 
   std::vector<LensView> lenses_;
-  Eigen::VectorXd mean_, spread_;
+  Eigen::VectorXd mean_, spread_, credited_;
   Eigen::MatrixXd refit_left_, refit_right_;  ///< J, and (J' W J)^-1 J' W
   std::vector<Tail> tails_;
   std::vector<double> replica_least_;    ///< sorted

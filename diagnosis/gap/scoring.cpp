@@ -51,7 +51,8 @@ LogScore Scoring::of(const Eigen::MatrixXd& replicas) const {
   const auto spread_at = [&](Eigen::Index i, double v) {
     const double shared =
         ((n - 1.0) * v + shared_degrees * of_lens[i]) / (n - 1.0 + shared_degrees);
-    return std::sqrt(std::max(shared, least_spread * least_spread) * (1.0 + 1.0 / n) +
+    const double least = std::max(least_spread, baseline_.credited()[i]);
+    return std::sqrt(std::max(shared, least * least) * (1.0 + 1.0 / n) +
                      forgiven_[i] * forgiven_[i]);
   };
   LogScore score;

@@ -12,7 +12,8 @@ struct Lattice : Lens {
   static constexpr std::string_view channel = "gyro_dps";
   static constexpr std::string_view coordinate = "amplitude_dps";
   static constexpr std::string_view unit = "ln(1)";
-  static constexpr double least_spread = 0.1;
+  /// Of the logarithm of a count of one or two, which a few repeats in a long recording make.
+  static constexpr double least_spread = 0.35;
 
   static constexpr std::size_t inspected = 20000;
 

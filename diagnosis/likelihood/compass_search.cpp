@@ -17,6 +17,8 @@ namespace gyrostat::gap {
 namespace {
 
 constexpr double prior_odds = 3.0;
+/// A further effect gains this share of what the clearest does.
+constexpr double share_of_clearest = 0.003;
 
 class CompassSearch {
  public:
@@ -241,11 +243,13 @@ std::vector<Effect> CompassSearch::polished(std::vector<Effect> set) const {
 }
 
 std::vector<Effect> CompassSearch::grown(std::vector<Effect> set, Bursts bursts) {
+  double clearest = set.empty() ? 0.0 : law_of(set).gain_on(law_of({}));
   for (std::size_t step = set.size(); step <= candidates_.size(); ++step) {
     if (bursts == Bursts::hidden) find_bursts(set);
     const Law before = law_of(set);
     std::vector<Effect> best;
-    double most = 0.0;
+    // Nature's form of what is there differs from ours by as much.
+    double most = share_of_clearest * clearest;
     for (const auto* cause : candidates_) {
       if (std::any_of(set.begin(), set.end(), [&](const auto& e) { return e.id() == cause->id; }))
         continue;
@@ -264,6 +268,7 @@ std::vector<Effect> CompassSearch::grown(std::vector<Effect> set, Bursts bursts)
         }
     }
     if (best.empty()) break;
+    clearest = std::max(clearest, most);
     set = best;
   }
   return set;

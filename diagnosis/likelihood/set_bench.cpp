@@ -28,6 +28,18 @@ bool has_white_noise(const Scenario& scenario) {
          ArimaLaw::of(e).variance() <= e.measurement_noise_std_dps * e.measurement_noise_std_dps;
 }
 
+/// Whether the rate passes the filter that colours the noise: that is one filter, and no second
+/// surprise.
+bool passes_the_noise_filter(const Effect& effect, const Scenario& scenario) {
+  constexpr double alike = 0.2;  // of the logarithm of the cutoff
+  if (effect.id() != "sensor_bandwidth") return false;
+  const double cutoff_hz = effect.value(field_of(effect, "cutoff_hz"));
+  return std::any_of(scenario.effects.begin(), scenario.effects.end(), [&](const auto& other) {
+    return other.id() == "noise_bandwidth" &&
+           std::abs(std::log(other.value(field_of(other, "cutoff_hz")) / cutoff_hz)) < alike;
+  });
+}
+
 }  // namespace
 
 bool has(const Scenario& scenario, std::string_view effect) {
@@ -124,6 +136,7 @@ double SetBench::cost(const Scenario& scenario) const {
     sum += prior +
            of_a_parameter * static_cast<double>(cause->free_parameters.size() - cause->amplitudes +
                                                 (effect.id() == "noise_bandwidth" ? 1 : 0));
+    if (passes_the_noise_filter(effect, scenario)) sum -= prior;
     if (effect.id() == "sinusoidal") sum += std::log(static_cast<double>(conditions_.size()));
     if (effect.id() == "vibration") sum += 0.5 * std::log(values);
   }

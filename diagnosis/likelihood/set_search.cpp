@@ -54,7 +54,7 @@ bool is_slow(std::string_view id) {
 
 void add_mark(std::string_view effect, FoundSet& found) {
   constexpr double odds_of_a_mark = 50.0;
-  found.members.push_back({std::string(effect), odds_of_a_mark});
+  found.members.push_back({std::string(effect), odds_of_a_mark, true});
 }
 
 /// Standard deviation of white noise with what rounding adds.
@@ -117,6 +117,7 @@ class Search {
   std::vector<char> near_the_limit(const Marks& marks) const;
   /// Effects that are read off the values.
   std::vector<Effect> read_off(const Marks& marks, FoundSet& found);
+  std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
   /// What the innovations say of outliers and of noise over temperature, beside the set.
   void judge_tails(const Standing& standing);
   void add_tails(FoundSet& found) const;
@@ -133,6 +134,7 @@ class Search {
   std::vector<char> repeats_;  ///< samples that do not count, whatever the set
   Tails tails_;
   bool is_normal_ = true;  ///< rounded finely enough for tails
+  bool is_even_ = true;    ///< rounded finely enough for its size not to depend on the level
   bool has_outliers_ = false, has_warm_noise_ = false;
   std::vector<const CauseType*> candidates_;
   std::size_t rounds_ = 0;  ///< in which every candidate was tried
@@ -293,6 +295,7 @@ Scenario Search::subset_of(const Scenario& whole, const std::vector<std::string>
   some.effects.clear();
   for (const auto& effect : whole.effects)
     if (is_in(effect.id())) some.effects.push_back(effect);
+  bench_.mask_too(edges_of_the_dead_zone(some));
   Scenario rate = some;
   std::erase_if(rate.effects, [](const auto& e) { return e.stage() == Stage::compass; });
   rate = with_walk_of_at_least(std::move(rate),
@@ -367,8 +370,25 @@ std::vector<Effect> Search::read_off(const Marks& marks, FoundSet& found) {
   return effects;
 }
 
+/// There noise decides whether a sample is written as 0.
+std::vector<char> Search::edges_of_the_dead_zone(const Scenario& scenario) const {
+  constexpr double reach = 5.0;  // standard deviations
+  const auto& reference = conditions_.series().rate_ref_dps;
+  std::vector<char> edges(recording_.size(), 0);
+  for (const auto& effect : scenario.effects) {
+    if (effect.id() != "dead_zone" || reference.empty()) continue;
+    const double edge = effect.value(field_of(effect, "half_width_dps"));
+    const double near = reach * white_with_rounding(scenario);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      edges[i] = std::abs(std::abs(reference[i]) - edge) < near ? 1 : 0;
+  }
+  return edges;
+}
+
 void Search::judge_tails(const Standing& standing) {
-  auto left = bench_.rate_left_by(standing.scenario, repeats_);
+  auto hidden = edges_of_the_dead_zone(standing.scenario);
+  for (std::size_t i = 0; i < hidden.size(); ++i) hidden[i] |= repeats_[i];
+  auto left = bench_.rate_left_by(standing.scenario, hidden);
   // Neither may outliers pass for a burst, nor the samples of a burst for outliers.
   auto without_outliers = left;
   for (std::size_t i = 0; i < tails_.outliers.size(); ++i)
@@ -386,8 +406,8 @@ void Search::judge_tails(const Standing& standing) {
   const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
   has_outliers_ = is_normal_ && bench_.is_allowed("outliers") &&
                   tails_.outlier_gain > prior_of_sizes + 2.0 * value + 4.0;
-  has_warm_noise_ =
-      bench_.is_allowed("noise_temperature") && tails_.temperature_gain > prior_of_sizes + value;
+  has_warm_noise_ = is_even_ && bench_.is_allowed("noise_temperature") &&
+                    tails_.temperature_gain > prior_of_sizes + value;
 }
 
 void Search::add_nameless_tails(FoundSet& found) const {
@@ -396,7 +416,7 @@ void Search::add_nameless_tails(FoundSet& found) const {
     found.unexplained.push_back({what, std::min(1.0, std::exp(values * value - gain))});
   };
   if (is_normal_ && !has_outliers_) add("tails of the noise", tails_.outlier_gain, 2.0);
-  if (!has_warm_noise_) add("noise over temperature", tails_.temperature_gain, 1.0);
+  if (is_even_ && !has_warm_noise_) add("noise over temperature", tails_.temperature_gain, 1.0);
 }
 
 Standing Search::searched_beside_tails(Standing standing) {
@@ -415,6 +435,7 @@ Standing Search::searched_beside_tails(Standing standing) {
     }
     // The largest samples would hide what else there is.
     bench_.mask_only(repeats_);
+    bench_.mask_too(edges_of_the_dead_zone(standing.scenario));
     if (has_outliers_) bench_.mask_too(tails_.outliers);
     if (round > 0 && bench_.masked() == hidden) break;
     standing = searched(bench_.refitted(standing.scenario));
@@ -451,11 +472,15 @@ FoundSet Search::run() {
   const auto begun = bench_.beside_noise(marked);
   // Rounding to more than the noise is no longer noise, unless a motion dithers it: what it does to
   // the fast part and to slow noise has no law here. Rounded to nearly as much, samples are no
-  // longer normal: their tails say nothing.
-  constexpr double coarsest = 2.2, coarsest_for_tails = 1.2;
+  // longer normal: their tails say nothing. In between, the size of rounded noise depends on where
+  // between two values the level is, which temperature moves: at the limit by a part in five
+  // hundred (from the first harmonic of the rounding error; Widrow and Kollar, "Quantization
+  // Noise", 2008, 4.3), which is what a long recording could show.
+  constexpr double coarsest = 2.2, coarsest_for_tails = 1.2, coarsest_for_size = 1.6;
   const double lsb_of_noise = marks.lsb_dps / white_with_rounding(begun.scenario);
   const bool coarse = lsb_of_noise > coarsest && !marks.turns_through_grid;
   is_normal_ = lsb_of_noise < coarsest_for_tails;
+  is_even_ = lsb_of_noise < coarsest_for_size || marks.turns_through_grid;
   if (coarse)
     std::erase_if(candidates_, [](const auto* cause) {
       const auto band = band_of(cause->id);
@@ -482,7 +507,8 @@ FoundSet Search::run() {
   found.intervals = bench_.intervals_of(standing);
   if (!coarse) end_ = standing;
   add_tails(found);
-  auto unseen = repeats_;
+  auto unseen = edges_of_the_dead_zone(standing.scenario);
+  for (std::size_t i = 0; i < unseen.size(); ++i) unseen[i] |= repeats_[i];
   if (has_outliers_)
     for (std::size_t i = 0; i < unseen.size(); ++i)
       if (tails_.outliers[i] != 0) unseen[i] = 1;

@@ -20,7 +20,8 @@ struct SetSearchOptions {
 /// An effect of the set, with what speaks for it.
 struct Member {
   std::string effect;
-  double log_odds;  ///< of the set against the set without it
+  double log_odds;        ///< of the set against the set without it
+  bool read_off = false;  ///< of the values themselves, by no law of noise
 };
 
 /// A set that was tried in place of the best one.

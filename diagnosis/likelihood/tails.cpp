@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/autoregression.hpp>
@@ -53,6 +54,87 @@ std::vector<double> covariances(const Conditions& conditions, const std::vector<
   for (std::size_t lag = 0; lag <= order; ++lag)
     sums[lag] /= std::max(1.0, counts[lag]) * (1.0 + 1e-3 * (lag > 0 ? 1.0 : 0.0));
   return sums;
+}
+
+/// Squares of two normal components.
+struct Mixture {
+  double share, narrow, wide;
+  double gain;  ///< log-likelihood beyond a single one's
+
+  bool is_wide(double square) const {
+    return std::log(share / (1.0 - share)) + 0.5 * std::log(narrow / wide) +
+               0.5 * (1.0 / narrow - 1.0 / wide) * square >
+           0.0;
+  }
+};
+
+/// By expectation-maximisation (Dempster, Laird and Rubin 1977).
+Mixture mixture_of(const std::vector<double>& squares, double narrow) {
+  const auto n = static_cast<double>(squares.size());
+  double wide = 25.0 * narrow, share = 0.003;
+  for (int pass = 0; pass < 60; ++pass) {
+    const double log_odds = std::log(share / (1.0 - share)) + 0.5 * std::log(narrow / wide);
+    const double curve = 0.5 * (1.0 / narrow - 1.0 / wide);
+    double weight = 0.0, of_wide = 0.0, of_narrow = 0.0;
+    for (const double s : squares) {
+      const double hit = 1.0 / (1.0 + std::exp(-(log_odds + curve * s)));
+      weight += hit;
+      of_wide += hit * s;
+      of_narrow += (1.0 - hit) * s;
+    }
+    const double share_before = std::exchange(share, std::clamp(weight / n, 1e-6, 0.5));
+    const double wide_before = wide;
+    narrow = of_narrow / std::max(1.0, n - weight);
+    wide = std::max(of_wide / std::max(1e-9, weight), 2.0 * narrow);
+    constexpr double settled = 1e-5;
+    if (std::abs(share - share_before) < settled * share &&
+        std::abs(wide - wide_before) < settled * wide)
+      break;
+  }
+  double mixed = 0.0;
+  for (const double s : squares)
+    mixed += std::log((1.0 - share) * std::exp(-0.5 * s / narrow) / std::sqrt(narrow) +
+                      share * std::exp(-0.5 * s / wide) / std::sqrt(wide) + 1e-300);
+  const double all = std::accumulate(squares.begin(), squares.end(), 0.0) / n;
+  return {share, narrow, wide, mixed + 0.5 * n * (std::log(all) + 1.0)};
+}
+
+/// Probability of so many events or more of a Poisson law.
+double poisson_upper_tail(double events, double mean) {
+  double below = 0.0, term = std::exp(-mean);
+  for (double k = 0.0; k < events; k += 1.0, term *= mean / k) below += term;
+  return std::max(0.0, 1.0 - below);
+}
+
+/// Outliers come one by one: where wide values crowd more than chance would have it, they are a
+/// burst, or what is left of a motion, and do not count.
+Mixture of_the_scattered(const std::vector<std::size_t>& samples, const std::vector<double>& squares,
+                         double narrow) {
+  constexpr double rare = 1e-4;
+  constexpr int most_rounds = 4;
+  Mixture mixture = mixture_of(squares, narrow);
+  std::vector<char> crowded(squares.size(), 0);
+  std::size_t kept = squares.size();
+  for (int round = 0; round < most_rounds; ++round) {
+    for (const std::size_t length : {order, 8 * order})
+      for (std::size_t first = 0, last = 0; first < samples.size(); first = last) {
+        double hits = 0.0;
+        const std::size_t block = samples[first] / length;
+        for (; last < samples.size() && samples[last] / length == block; ++last)
+          hits += mixture.is_wide(squares[last]) ? 1.0 : 0.0;
+        const double mean = mixture.share * static_cast<double>(last - first);
+        if (hits > 1.0 && poisson_upper_tail(hits, mean) < rare)
+          std::fill(crowded.begin() + static_cast<std::ptrdiff_t>(first),
+                    crowded.begin() + static_cast<std::ptrdiff_t>(last), char{1});
+      }
+    std::vector<double> scattered;
+    for (std::size_t k = 0; k < squares.size(); ++k)
+      if (crowded[k] == 0) scattered.push_back(squares[k]);
+    if (scattered.size() == kept || 2 * scattered.size() < squares.size()) break;
+    kept = scattered.size();
+    mixture = mixture_of(scattered, mixture.narrow);
+  }
+  return mixture;
 }
 
 }  // namespace
@@ -123,37 +205,16 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
     if (tails.temperature_gain < 7.0) std::fill(relative.begin(), relative.end(), 1.0);
   }
 
-  // Two normal components by expectation-maximisation (Dempster, Laird and Rubin 1977).
-  double narrow = 0.0, all = 0.0;
   std::vector<double> squares(w.innovations.size());
   for (std::size_t k = 0; k < squares.size(); ++k) {
     const double e = w.innovations[k] / relative[k];
     squares[k] = e * e;
-    all += squares[k] / n;
   }
-  narrow = deviation * deviation;
-  double wide = 25.0 * narrow, share = 0.003;
-  for (int pass = 0; pass < 60; ++pass) {
-    const double log_odds = std::log(share / (1.0 - share)) + 0.5 * std::log(narrow / wide);
-    const double curve = 0.5 * (1.0 / narrow - 1.0 / wide);
-    double weight = 0.0, of_wide = 0.0, of_narrow = 0.0;
-    for (const double s : squares) {
-      const double hit = 1.0 / (1.0 + std::exp(-(log_odds + curve * s)));
-      weight += hit;
-      of_wide += hit * s;
-      of_narrow += (1.0 - hit) * s;
-    }
-    share = std::clamp(weight / n, 1e-6, 0.5);
-    narrow = of_narrow / std::max(1.0, n - weight);
-    wide = std::max(of_wide / std::max(1e-9, weight), 2.0 * narrow);
-  }
-  double mixed = 0.0;
-  for (const double s : squares)
-    mixed += std::log((1.0 - share) * std::exp(-0.5 * s / narrow) / std::sqrt(narrow) +
-                      share * std::exp(-0.5 * s / wide) / std::sqrt(wide) + 1e-300);
-  tails.outlier_gain = mixed + 0.5 * n * (std::log(all) + 1.0);
-  tails.outlier_probability = share;
-  tails.outlier_std_dps = std::sqrt(std::max(wide - narrow, 0.0));
+  const auto mixture = of_the_scattered(w.samples, squares, deviation * deviation);
+  const double narrow = mixture.narrow;
+  tails.outlier_gain = mixture.gain;
+  tails.outlier_probability = mixture.share;
+  tails.outlier_std_dps = std::sqrt(std::max(mixture.wide - narrow, 0.0));
   tails.white_std_dps = std::sqrt(narrow);
   const double odd = 4.5 * std::sqrt(narrow);
   for (const Part part : parts)

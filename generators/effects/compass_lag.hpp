@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
@@ -11,10 +12,11 @@
 
 namespace gyrostat::effects {
 
-/// The compass trails the heading with one time constant, exactly so for a heading that is linear
+/// The compass trails the heading through equal poles, exactly so for a heading that is linear
 /// between samples and along the shorter arc; its noise is added afterwards.
 struct CompassLag {
   double time_constant_s = 0.5;
+  double poles = 1.0;
 
   static constexpr std::string_view title = "the compass trails the heading";
   static constexpr Stage stage = Stage::compass;
@@ -24,7 +26,8 @@ struct CompassLag {
     using P = CompassLag;
     return std::array{
         Field{"time_constant_s", &P::time_constant_s, "s", ranges::non_negative,
-              "time constant of the lag"},
+              "time constants of all poles, added"},
+        Field{"poles", &P::poles, "1", Range{.from = 1, .to = 8, .whole = true}, "how many poles"},
     };
   }
 
@@ -32,14 +35,21 @@ struct CompassLag {
 
   void apply(Series& series, const Noise& /*noise*/) const {
     if (time_constant_s == 0.0) return;
-    Decay decay(time_constant_s);
+    for (long k = std::lround(poles); k > 0; --k) pass(series);
+  }
+
+ private:
+  /// One pole.
+  void pass(Series& series) const {
+    const double tau_s = time_constant_s / std::round(poles);
+    Decay decay(tau_s);
     double behind_deg = 0.0, before_deg = 0.0;
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
       const double heading_deg = series.heading_deg[i];
       if (i > 0) {
         const double interval_s = series.t_s[i] - series.t_s[i - 1];
         const double rate_dps = wrap_degrees(heading_deg - before_deg) / interval_s;
-        behind_deg -= (1.0 - decay.over(interval_s)) * (behind_deg + rate_dps * time_constant_s);
+        behind_deg -= (1.0 - decay.over(interval_s)) * (behind_deg + rate_dps * tau_s);
       }
       before_deg = heading_deg;
       series.heading_deg[i] += behind_deg;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
@@ -16,6 +17,7 @@ namespace gyrostat::effects {
 struct EmpiricalCompassNoise {
   double innovation_std_deg = 0.3;
   double reflection_1 = -0.3, reflection_2 = 0.0, reflection_3 = 0.0, reflection_4 = 0.0;
+  double wander_std_deg = 0.0, wander_time_s = 60.0;
 
   static constexpr std::string_view title = "the compass noise has a colour without a name";
   static constexpr Stage stage = Stage::compass;
@@ -32,6 +34,10 @@ struct EmpiricalCompassNoise {
         Field{"reflection_2", &P::reflection_2, "1", stable, of_order},
         Field{"reflection_3", &P::reflection_3, "1", stable, of_order},
         Field{"reflection_4", &P::reflection_4, "1", stable, of_order},
+        Field{"wander_std_deg", &P::wander_std_deg, "deg", ranges::non_negative,
+              "standard deviation of a Gauss-Markov wander beside it"},
+        Field{"wander_time_s", &P::wander_time_s, "s", ranges::positive,
+              "correlation time of the wander"},
     };
   }
 
@@ -43,6 +49,18 @@ struct EmpiricalCompassNoise {
     AllPole<order> coloured({reflection_1, reflection_2, reflection_3, reflection_4});
     for (double& heading : series.heading_deg)
       heading += coloured(innovation_std_deg * white.next());
+    if (wander_std_deg == 0.0) return;
+    Deviates drive(noise.stream("empirical_compass_noise/wander"));
+    Decay decay(wander_time_s);
+    double wander_deg = wander_std_deg * drive.next();
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
+      if (i > 0) {
+        const double kept = decay.over(series.t_s[i] - series.t_s[i - 1]);
+        wander_deg =
+            kept * wander_deg + wander_std_deg * std::sqrt(1.0 - kept * kept) * drive.next();
+      }
+      series.heading_deg[i] += wander_deg;
+    }
   }
 };
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <gyrostat/diagnosis/handling.hpp>
 #include <gyrostat/diagnosis/likelihood/autoregression.hpp>
@@ -66,6 +66,28 @@ std::vector<Nameless> left_by_the_baseline(const Scenario& scenario, std::uint64
 TEST(Nameless, IsNothingWhereNothingIsLeft) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
     EXPECT_TRUE(left_by_the_baseline(still(), seed).empty());
+}
+
+/// A compass that wanders by half its noise over 20 s: 1200 s hold some thirty independent values,
+/// of which the standard deviation is known to an eighth; within four of those, which chance leaves
+/// once in 10,000 recordings.
+TEST(Nameless, IsTheWanderOfACompass) {
+  Scenario s = still();
+  s.effects = {effects::EmpiricalCompassNoise{.innovation_std_deg = 0.3,
+                                              .reflection_1 = 0.0,
+                                              .wander_std_deg = 0.15,
+                                              .wander_time_s = 20.0}};
+  s.compass.noise_std_deg = 0.0;
+  const auto parts = left_by_the_baseline(s, 4);
+  ASSERT_EQ(parts.size(), 1);
+  const auto value = [&](std::string_view name) {
+    for (std::size_t f = 0; f < parts[0].effect.fields().size(); ++f)
+      if (parts[0].effect.fields()[f].name == name) return parts[0].effect.value(f);
+    return -1.0;
+  };
+  EXPECT_NEAR(value("innovation_std_deg"), 0.3, 0.01);
+  EXPECT_NEAR(value("wander_std_deg"), 0.15, 0.15 * 4.0 / 8.0);
+  EXPECT_THAT(parts[0].in_words, testing::HasSubstr("wander"));
 }
 
 /// An output filter, and a compass that filters: each by its spectrum alone.

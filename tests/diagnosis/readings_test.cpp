@@ -10,8 +10,10 @@
 #include <gyrostat/analysis/statistics/proportion.hpp>
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/random.hpp>
+#include <gyrostat/diagnosis/gap/ensemble.hpp>
 #include <gyrostat/diagnosis/gap/instrument.hpp>
 #include <gyrostat/diagnosis/lenses/list.hpp>
+#include <gyrostat/diagnosis/likelihood/tails.hpp>
 
 namespace gyrostat::gap::readings_test {
 namespace {
@@ -206,6 +208,50 @@ TYPED_TEST(LensContract, IsAbsentWhereItsChannelIs) {
       coordinate == "rate_dps") {
     EXPECT_TRUE(lens.at.empty());
   }
+}
+
+/// What all replicas read alike has the least spread that its lens credits it with: a recording
+/// that differs by half of that is none that the simulator could not make, and one that differs by
+/// a hundred of them is.
+TEST(Ensemble, CreditsAReadingThatNeverVariesWithItsLeastSpread) {
+  const Conditions conditions(rich());
+  const Instrument instrument(conditions, Part::train);
+  constexpr Eigen::Index replicas = 50;
+  Eigen::MatrixXd readings(instrument.size(), replicas);
+  for (Eigen::Index k = 0; k < replicas; ++k) {
+    const auto noise = white(static_cast<std::size_t>(instrument.size()), std::to_string(k));
+    readings.col(k) = Eigen::Map<const Eigen::VectorXd>(noise.data(), instrument.size());
+  }
+  const auto& lenses = instrument.lenses();
+  const auto lattice = std::find_if(lenses.begin(), lenses.end(),
+                                    [](const auto& lens) { return lens.id == "lattice"; });
+  ASSERT_NE(lattice, lenses.end());
+  readings.middleRows(lattice->first, lattice->count).setConstant(-8.0);
+  const Ensemble ensemble(instrument, readings, {});
+  Eigen::VectorXd recording = readings.rowwise().mean();
+  const auto typical = ensemble.p_value(readings.col(0));
+  for (Eigen::Index i = 0; i < recording.size(); ++i)
+    if (i < lattice->first || i >= lattice->first + lattice->count) recording[i] = readings(i, 0);
+  EXPECT_GE(ensemble.p_value(recording), 0.5 * typical);
+  recording[lattice->first] += 0.5 * lattice->least_spread;
+  EXPECT_GE(ensemble.p_value(recording), 0.5 * typical);
+  recording[lattice->first] += 100.0 * lattice->least_spread;
+  EXPECT_LT(ensemble.p_value(recording), 1e-3);
+}
+
+/// A hundred samples of ten times the noise are outliers where they are scattered, and none where
+/// they come ten in a row.
+TEST(Tails, AreOfWhatComesOneByOne) {
+  const Series plain = rich();
+  const Conditions conditions(plain);
+  auto scattered = white(plain.size()), crowded = scattered;
+  for (std::size_t k = 0; k < 100; ++k) {
+    scattered[(k * 7919) % plain.size()] *= 10.0;
+    crowded[k / 10 * 1200 + k % 10] *= 10.0;
+  }
+  constexpr double clear = 30.0;
+  EXPECT_GT(tails_of(conditions, scattered, false).outlier_gain, clear);
+  EXPECT_LT(tails_of(conditions, crowded, false).outlier_gain, clear);
 }
 
 }  // namespace

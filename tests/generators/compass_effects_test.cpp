@@ -77,6 +77,19 @@ TEST(CompassLag, TrailsAnEvenTurnByRateTimesTimeConstantThroughTheWrap) {
   EXPECT_NEAR(error(effects::CompassLag{.time_constant_s = 0.5}, turning).back(), -20.0, 1e-9);
 }
 
+TEST(CompassLag, OfTwoPolesIsTwoLagsOfHalfItsTimeEach) {
+  std::vector<double> step(100, 60.0);
+  step[0] = 0.0;
+  auto twice = silent(even_times(step.size(), 10.0));
+  twice.heading_deg = step;
+  const effects::CompassLag half{.time_constant_s = 1.0};
+  half.apply(twice, {1, 0});
+  half.apply(twice, {1, 0});
+  const auto behind = error(effects::CompassLag{.time_constant_s = 2.0, .poles = 2.0}, step);
+  for (std::size_t k = 0; k < step.size(); ++k)
+    EXPECT_NEAR(behind[k], twice.heading_deg[k] - step[k], 1e-11);
+}
+
 TEST(CompassLag, TakesTheShorterWayRound) {
   std::vector<double> step(50, -170.0);
   step[0] = 170.0;
