@@ -90,7 +90,10 @@ nlohmann::ordered_json members_json(const std::vector<gap::Member>& members,
     json["each"].push_back({{kind, m.name}, {"diagnosis", gap::to_json(m.diagnosis)}});
   const auto number = [](double value) { return value == value ? gap::Json(value) : gap::Json(); };
   for (const auto& s : gap::shared_effects(members)) {
-    gap::Json one = {{"effect", s.effect}, {"in", s.members}, {"parameters", gap::Json::object()}};
+    gap::Json one = {{"effect", s.effect},
+                     {"form", s.form},
+                     {"in", s.members},
+                     {"parameters", gap::Json::object()}};
     for (const auto& p : s.parameters)
       one["parameters"][p.name] = {
           {"unit", p.unit},

@@ -10,6 +10,10 @@
 
 namespace gyrostat {
 
+/// Why there is nothing to tell.
+inline constexpr const char* no_failure_asked_for =
+    "no cell of it asks for a failure; \"failure\": {\"metric\": …, \"above\": …} in a cell does";
+
 /// How likely a method fails as its cell asks for.
 struct FailureFinding {
   std::string method;

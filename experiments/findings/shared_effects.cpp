@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -90,6 +91,31 @@ const Included* found_in(const Member& member, const std::string& effect) {
   return at == effects.end() || at->parameters.empty() ? nullptr : &*at;
 }
 
+/// "stages 2": an effect's parameters that are whole numbers choose between laws, so that its
+/// others mean something else.
+std::string form_of(const Effect& effect) {
+  std::string form;
+  for (std::size_t field = 0; field < effect.fields().size(); ++field)
+    if (const auto& described = effect.fields()[field]; described.range.whole)
+      form +=
+          fmt::format("{}{} {:g}", form.empty() ? "" : ", ", described.name, effect.value(field));
+  return form;
+}
+
+/// A parameter in each of those that an effect was found in.
+std::vector<Known> known_of(const std::vector<std::pair<std::string, const Included*>>& found,
+                            std::size_t field) {
+  std::vector<Known> known;
+  for (const auto& [name, included] : found) {
+    const auto interval = included->intervals.size() > field
+                              ? included->intervals[field]
+                              : std::array<double, 2>{no_value, no_value};
+    const double error = (interval[1] - interval[0]) / (2.0 * normal_quantile(0.975));
+    known.push_back({included->parameters.front().value(field), error});
+  }
+  return known;
+}
+
 std::string effects_of(const Diagnosis& d) {
   std::vector<std::string> names;
   for (const auto& e : d.effects) names.push_back(e.effect);
@@ -101,26 +127,18 @@ std::string effects_of(const Diagnosis& d) {
 std::vector<SharedEffect> shared_effects(const std::vector<Member>& members) {
   std::vector<SharedEffect> shared;
   for (const auto& cause : catalogue()) {
-    SharedEffect one{.effect = std::string(cause.id()), .members = {}, .parameters = {}};
-    std::vector<const Included*> found;
+    std::map<std::string, std::vector<std::pair<std::string, const Included*>>> forms;
     for (const auto& member : members)
-      if (const auto* included = found_in(member, one.effect)) {
-        one.members.push_back(member.name);
-        found.push_back(included);
-      }
-    if (found.size() < 2) continue;
-    for (std::size_t field = 0; field < cause.fields().size(); ++field) {
-      std::vector<Known> known;
-      for (const auto* included : found) {
-        const auto interval = included->intervals.size() > field
-                                  ? included->intervals[field]
-                                  : std::array<double, 2>{no_value, no_value};
-        const double error = (interval[1] - interval[0]) / (2.0 * normal_quantile(0.975));
-        known.push_back({included->parameters.front().value(field), error});
-      }
-      one.parameters.push_back(over_members(known, cause, field));
+      if (const auto* included = found_in(member, std::string(cause.id())))
+        forms[form_of(included->parameters.front())].emplace_back(member.name, included);
+    for (const auto& [form, found] : forms) {
+      if (found.size() < 2) continue;
+      auto& one = shared.emplace_back(SharedEffect{
+          .effect = std::string(cause.id()), .form = form, .members = {}, .parameters = {}});
+      for (const auto& [name, included] : found) one.members.push_back(name);
+      for (std::size_t field = 0; field < cause.fields().size(); ++field)
+        one.parameters.push_back(over_members(known_of(found, field), cause, field));
     }
-    shared.push_back(std::move(one));
   }
   std::stable_sort(shared.begin(), shared.end(), [](const auto& a, const auto& b) {
     return a.members.size() > b.members.size();
@@ -180,9 +198,10 @@ std::vector<Table> member_tables(const std::vector<Member>& members, const std::
   };
   for (const auto& s : shared_effects(members))
     for (const auto& p : s.parameters)
-      shared.rows.push_back({s.effect, fmt::format("{} of {}", s.members.size(), members.size()),
-                             p.name, p.unit, cell(p.mean), range(p.mean_low, p.mean_high),
-                             cell(p.spread), range(p.spread_low, p.spread_high), cell(p.p_equal)});
+      shared.rows.push_back({s.form.empty() ? s.effect : s.effect + " (" + s.form + ")",
+                             fmt::format("{} of {}", s.members.size(), members.size()), p.name,
+                             p.unit, cell(p.mean), range(p.mean_low, p.mean_high), cell(p.spread),
+                             range(p.spread_low, p.spread_high), cell(p.p_equal)});
   return {each, shared};
 }
 

@@ -26,9 +26,11 @@ struct SharedParameter {
   double p_equal;  ///< that chance alone makes equal members differ so (Cochran's Q)
 };
 
-/// An effect that two members have, or more.
+/// An effect that two members have in the same form, or more. What has another form has other
+/// parameters under the same names: they are told apart, not averaged.
 struct SharedEffect {
   std::string effect;
+  std::string form;  ///< its parameters that are whole numbers, "stages 2"; empty where it has none
   std::vector<std::string> members;
   std::vector<SharedParameter> parameters;  ///< of the first of its kind in each
 };

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Remakes every published page to the same bytes; needs a release build, and ../shared/recordings for
 # the pages on the real MTi-G. About fifteen minutes of processor time. Pages without sources (the blind
-# checks, coverage_sensitivity, coverage_tuning) have their tables from the commands that they name; here
+# checks, coverage_sensitivity, coverage_tuning, rare_failures) have their tables from the commands that they name; here
 # only their text is filled in.
 set -eu
 cd "$(dirname "$0")/../.."

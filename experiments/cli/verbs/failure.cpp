@@ -50,11 +50,7 @@ int run(const FailureArguments& arguments, Console& console) {
       tables.push_back(std::move(levels));
     if (arguments.how) add_drivers(arguments, study, c, findings, tables);
   }
-  if (tables.empty())
-    throw InputError(
-        arguments.folder,
-        "no cell of it asks for a failure; \"failure\": {\"metric\": …, \"above\": …} in a "
-        "cell does");
+  if (tables.empty()) throw InputError(arguments.folder, no_failure_asked_for);
   console.out << render(tables, format);
   return complete;
 }

@@ -5,6 +5,7 @@
 #include <gyrostat/experiments/cli/answer.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/findings/failure_ranking.hpp>
 #include <gyrostat/experiments/findings/ranking_words.hpp>
 #include <gyrostat/experiments/findings/report/rank_picture.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 constexpr const char* rank_examples = R"(Examples:
   gyrostat rank runs/STUDY                           which filter wins each cell, and how sure that is
   gyrostat rank runs/STUDY --metric heading_worst    by another error
+  gyrostat rank runs/STUDY --metric failure          by how likely each fails, where the study asks for that
   gyrostat rank runs/STUDY --cell ramp --format latex
   gyrostat rank runs/STUDY --figures F               critical-difference diagrams: F/ranks_1.svg, ...)";
 
@@ -42,12 +44,30 @@ bool is_one_of_many(const Study& study, std::size_t cell) {
   return design != nullptr && (design->is_sampled() || design->labels.size() > few);
 }
 
+int rank_by_failure(const RankArguments& arguments, const Store& store, const Study& study,
+                    const Cell* only, Format format, Console& console) {
+  if (!arguments.figures.empty())
+    throw InputError("--figures", "diagrams of mean ranks, which --metric failure has not");
+  std::vector<Table> tables;
+  for (std::uint32_t c = 0; c < study.cells.size(); ++c) {
+    const auto& cell = study.cells[c];
+    if (cell.failure && (!only || only == &cell))
+      tables.push_back(
+          failure_ranking_table(cell, failure_findings(study, store, c, arguments.folder)));
+  }
+  if (tables.empty()) throw InputError(arguments.folder, no_failure_asked_for);
+  console.out << render(tables, format);
+  return complete;
+}
+
 int run(const RankArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const Store store = Store::open(arguments.folder);
   const auto study = stored_study(store);
   const Cell* only =
       arguments.cell.empty() ? nullptr : &cell_named(study, arguments.cell, "--cell");
+  if (arguments.metric == "failure")
+    return rank_by_failure(arguments, store, study, only, format, console);
   if (!arguments.figures.empty()) make_result_folder(arguments.figures);
   const MethodColours colours(study);
   std::vector<Table> tables;
@@ -86,7 +106,7 @@ void add_rank(CLI::App& program, Console& console, int& exit_code) {
   auto arguments = std::make_shared<RankArguments>();
   verb->add_option("folder", arguments->folder, "folder of a run, as runs/<study>")->required();
   verb->add_option("--metric", arguments->metric,
-                   "error to rank by (default: the one methods are judged by)");
+                   "error to rank by (default: the one methods are judged by), or failure");
   verb->add_option("--cell", arguments->cell, "this cell alone");
   verb->add_flag("--points", arguments->points,
                  "print the ranking at every point of a design, too");

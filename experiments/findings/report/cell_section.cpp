@@ -94,6 +94,7 @@ std::string cell_section(const CellView& v, const CellRanking& ranking,
       "<p class=\"note\">{} of {} trials finished, all methods on the same signals</p>\n",
       v.summary.finished, v.cell.trials);
   out += disagreement(v, replayed) + list(ranking.sentences) + html(ranking_table(v, ranking));
+  if (v.failure) out += html(failure_table(v.cell, v.failure->findings));
   std::vector<Picture> pictures;
   append_pictures({v, ranking, replayed, nanoseconds}, pictures);
   out += "<div class=\"pictures\">\n";

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <gyrostat/experiments/findings/ranking.hpp>
 #include <gyrostat/experiments/findings/report/cell_values.hpp>
+#include <gyrostat/experiments/findings/report/failure_view.hpp>
 #include <gyrostat/experiments/findings/report/method_colours.hpp>
 #include <gyrostat/experiments/findings/report/replayed.hpp>
 
@@ -16,8 +18,9 @@ struct CellView {
   const MethodColours& colours;
   const CellSummary& summary;
   const CellValues& values;
-  std::vector<std::size_t> order;  ///< methods, best first
-  std::string id;                  ///< begins the pictures' own
+  std::vector<std::size_t> order;        ///< methods, best first
+  std::string id;                        ///< begins the pictures' own
+  std::optional<FailureView> failure{};  ///< where the cell asks for one
 
   std::string address(std::size_t place, std::size_t method) const;
   /// Whether a method is among the `count` best that do compensate, which is what pictures show at

@@ -134,6 +134,7 @@ std::string foot(const Store& store) {
 struct ReportSources {
   const Study& study;
   const Store& store;
+  const std::filesystem::path& folder;
   const MethodColours& colours;
   const std::map<std::string, std::map<std::string, double>>& times;
   const ReportOptions& options;
@@ -148,13 +149,16 @@ void in_full(const ReportSources& from, std::size_t c, const CellSummary& summar
   const auto replay = std::min(from.options.replay.value_or(trials_to_replay(cell)), cell.trials);
   const auto replayed = replay > 0 ? replay_trials(prepared, from.study.seed, replay) : Replayed{};
   const auto values = cell_values(cell, from.store, static_cast<std::uint32_t>(c));
-  const CellView view{from.study,
-                      cell,
-                      from.colours,
-                      summary,
-                      values,
-                      best_first(cell, summary),
-                      fmt::format("cell-{}", c)};
+  CellView view{from.study,
+                cell,
+                from.colours,
+                summary,
+                values,
+                best_first(cell, summary),
+                fmt::format("cell-{}", c)};
+  if (cell.failure)
+    view.failure = failure_view(from.study, from.store, static_cast<std::uint32_t>(c), from.folder,
+                                prepared, replay > 0);
   const auto measured = from.times.find(cell.name);
   show(view, ranking, prepared, replayed,
        measured == from.times.end() ? std::map<std::string, double>() : measured->second);
@@ -193,7 +197,7 @@ std::string report_page(const Study& study, const Store& store, const std::files
   body += sensitivity_sections(designs, colours);
   for (const std::size_t c : chosen) {
     if (summaries[c].finished == 0) continue;
-    in_full({study, store, colours, times, options}, c, summaries[c], rankings[c],
+    in_full({study, store, folder, colours, times, options}, c, summaries[c], rankings[c],
             [&](const auto&... cell) { body += cell_section(cell...); });
   }
   body += failures(store, manifest);
@@ -212,7 +216,8 @@ std::vector<CellPictures> report_pictures(const Study& study, const Store& store
     const auto trials = trials_of(study.cells[c], store, static_cast<std::uint32_t>(c));
     const auto summary = summarise_cell(study.cells[c], trials);
     if (summary.finished == 0) continue;
-    in_full({study, store, colours, times, options}, c, summary, rank_cell(study.cells[c], trials),
+    in_full({study, store, folder, colours, times, options}, c, summary,
+            rank_cell(study.cells[c], trials),
             [&](const CellView& view, const CellRanking& ranking, const PreparedCell&,
                 const Replayed& replayed, const std::map<std::string, double>& nanoseconds) {
               auto& cell = of_cells.emplace_back(CellPictures{view.cell.name, {}});

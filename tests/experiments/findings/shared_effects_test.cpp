@@ -8,6 +8,7 @@
 
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/generators/effects/noise_averaging.hpp>
 #include <gyrostat/generators/effects/vibration.hpp>
 
 namespace gyrostat::gap::shared_effects_test {
@@ -57,6 +58,32 @@ TEST(SharedEffects, HoldWhereMembersAreAlike) {
   }
   EXPECT_NEAR(below / double{families}, 0.05, 0.055);
   EXPECT_GT(held / double{families}, 0.90);
+}
+
+Member with_averaging(const std::string& name, double length, double stages) {
+  Diagnosis d;
+  const Effect effect = effects::NoiseAveraging{.length = length, .stages = stages};
+  d.effects.push_back({.effect = "noise_averaging", .parameters = {effect}});
+  d.effects.back().intervals = {{length - 0.002, length + 0.002}, {no_value, no_value}};
+  d.verdict = Verdict::cause("noise_averaging");
+  return {name, d};
+}
+
+/// One average of 1.04 samples and two of 0.7 are two laws: equal within each, and never one mean.
+TEST(SharedEffects, OfDifferingFormsAreToldApart) {
+  const auto shared =
+      shared_effects({with_averaging("a", 1.040, 1), with_averaging("b", 0.701, 2),
+                      with_averaging("c", 1.041, 1), with_averaging("d", 0.700, 2)});
+  ASSERT_EQ(shared.size(), 2);
+  for (const auto& one : shared) {
+    const bool once = one.form == "stages 1";
+    EXPECT_EQ(one.form, once ? "stages 1" : "stages 2");
+    EXPECT_EQ(one.members,
+              once ? std::vector<std::string>({"a", "c"}) : std::vector<std::string>({"b", "d"}));
+    EXPECT_NEAR(one.parameters[0].mean, once ? 1.0405 : 0.7005, 1e-9);
+    EXPECT_GT(one.parameters[0].p_equal, 0.1);
+  }
+  EXPECT_TRUE(shared_effects({with_averaging("a", 1.04, 1), with_averaging("b", 0.7, 2)}).empty());
 }
 
 TEST(SharedEffects, AreToldInWords) {

@@ -141,6 +141,16 @@ TEST(FailureRun, IsToldByTheProgramAndReplayed) {
   const auto replayed = run_program(folder, {"replay", "s:linear:failure:none"});
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
   EXPECT_THAT(replayed.out, HasSubstr("the most likely failing signal"));
+  const auto ranked = run_program(folder, {"rank", "runs/s", "--metric", "failure"});
+  EXPECT_EQ(ranked.exit_code, 0) << ranked.err;
+  EXPECT_THAT(ranked.out, HasSubstr("linear: ranking by how likely is heading_end above"));
+  EXPECT_EQ(
+      run_program(folder, {"rank", "runs/s", "--metric", "failure", "--figures", "f"}).exit_code,
+      2);
+  ASSERT_EQ(run_program(folder, {"report", "runs/s"}).exit_code, 0);
+  const auto page = folder.read("runs/s/report.html");
+  EXPECT_THAT(page, HasSubstr("id=\"cell-0-failure-levels\""));
+  EXPECT_THAT(page, HasSubstr("id=\"cell-0-failing-signal\""));
   // A changed threshold is another search, and the old one is kept.
   folder.write("s.json", study_of(1e-3).source);
   const auto again = run_program(folder, {"run", "s.json"});
