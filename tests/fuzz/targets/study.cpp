@@ -19,20 +19,19 @@ constexpr auto all_keys = R"({
     "tuning": {"metric": "nis", "trials": 5, "evaluations": 9},
     "filters": ["none", {"id": "k", "filter": "kf", "parameters": {"phi": 0.4},
                          "tune": {"measurement_noise_std_dps": [0.001, 1]}}],
-    "stop": {"half_width_below": 0.001, "methods": ["k"], "at_least": 10},
-    "failure": {"metric": "bias_rmse", "above": 1},
     "design": {"kind": "sobol", "points": 4, "parameters": {
       "scenario.random_error.phi": {"from": 0.1, "to": 0.9},
       "scenario.effects.0.std_dps": {"from": 0.01, "to": 1, "scale": "log"}}}
   }]})";
 
 constexpr auto designs = R"({"cells": [
-  {"name": "g", "scenario": {"duration_s": 5, "rate_hz": 10}, "filters": ["kf"],
+  {"name": "g", "scenario": {"duration_s": 20, "rate_hz": 10}, "filters": ["kf"],
+   "failure": {"metric": "bias_rmse", "above": 1},
    "grid": {"scenario.rate_hz": [10, 20], "filters.kf.parameters.phi": [0.1, 0.2]}},
-  {"name": "m", "scenario": {"duration_s": 5, "rate_hz": 10}, "filters": ["kf", "stf"],
+  {"name": "m", "scenario": {"duration_s": 20, "rate_hz": 10}, "filters": ["kf", "stf"],
    "design": {"kind": "morris", "trajectories": 3, "levels": 4,
               "parameters": {"scenario.rate_hz": {"from": 5, "to": 20}}}},
-  {"name": "l", "scenario": {"duration_s": 5, "rate_hz": 10}, "filters": ["oracle"],
+  {"name": "l", "scenario": {"duration_s": 20, "rate_hz": 10}, "filters": ["oracle"],
    "design": {"kind": "list", "points": [{"trials": 3}, {"scenario.rate_hz": 7}]}}]})";
 
 }  // namespace
