@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/diagnosis/diagnosis.hpp>
 
 namespace gyrostat::gap {
@@ -118,13 +119,13 @@ std::string next_in_words(const Diagnosis& d) {
 
 std::string evidence_in_words(const Diagnosis& d) {
   if (d.verdict.is_none())
-    return fmt::format("No gap: p = {:.2g} under the simulator {}.",
-                       d.claimed ? d.p_after : d.p_before,
+    return fmt::format("No gap: p {} under the simulator {}.",
+                       chance_in_words(d.claimed ? d.p_after : d.p_before),
                        d.claimed ? "that is claimed" : "as it stands");
   std::string text = fmt::format(
-      "p = {:.2g} under the simulator as it stands, {:.2g} with the effects. Gap on the held-out "
+      "p {} under the simulator as it stands, {} with the effects. Gap on the held-out "
       "part: from {:.3g} to {:.3g} spreads of a reading.",
-      d.p_before, d.p_after, d.gap_before, d.gap_after);
+      chance_in_words(d.p_before), chance_in_words(d.p_after), d.gap_before, d.gap_after);
   for (std::size_t k = 0; k < d.effects.size(); ++k)
     text += fmt::format("{}{} {:.2f}", k == 0 ? " Probability of being there: " : ", ",
                         d.effects[k].effect, d.effects[k].inclusion);

@@ -37,13 +37,14 @@ Type describe_profile(std::string_view id) {
   return {describe_parametric<P>(id),
           [](const std::any& any, std::span<const double> t_s, auto values) {
             const auto& profile = *std::any_cast<P>(&any);
-            for (std::size_t i = 0; i < t_s.size(); ++i)
-              if constexpr (values.size() == 1) {
-                values[0][i] = profile(t_s[i]);
+            for (std::size_t i = 0; i < t_s.size(); ++i) {
+              const auto now = profile(t_s[i]);
+              if constexpr (requires { now.size(); }) {
+                for (std::size_t k = 0; k < now.size(); ++k) values[k][i] = now[k];
               } else {
-                const auto all = profile(t_s[i]);
-                for (std::size_t k = 0; k < all.size(); ++k) values[k][i] = all[k];
+                values[0][i] = now;
               }
+            }
           }};
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/diagnosis/answer.hpp>
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
 #include <gyrostat/diagnosis/physical.hpp>
@@ -92,11 +93,12 @@ std::string in_words(const Comparison& c, const std::string& recordings,
   else
     text += fmt::format("The simulator {}.{}", differences_in_words(c), closing(c));
   text += fmt::format(
-      "\n\np = {:.2g} that segments of both are alike ({} and {} of {:.4g} s, "
+      "\n\np {} that segments of both are alike ({} and {} of {:.4g} s, "
       "relabelled){}. Gap on what was held back: {:.3g}{} spreads of a segment. {}\n",
-      c.p_before, c.segments_real, c.segments_simulated, c.segment_s,
-      c.addition.is_nothing() ? "" : fmt::format(", {:.2g} once added", c.p_after), c.gap_before,
-      c.addition.is_nothing() ? "" : fmt::format(" to {:.3g}", c.gap_after), power_in_words(c));
+      chance_in_words(c.p_before), c.segments_real, c.segments_simulated, c.segment_s,
+      c.addition.is_nothing() ? "" : fmt::format(", {} once added", chance_in_words(c.p_after)),
+      c.gap_before, c.addition.is_nothing() ? "" : fmt::format(" to {:.3g}", c.gap_after),
+      power_in_words(c));
   return text;
 }
 

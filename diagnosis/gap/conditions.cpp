@@ -171,6 +171,7 @@ Eigen::VectorXd Conditions::train_values(const std::vector<double>& slow) const 
 Eigen::MatrixXd Conditions::train_regressors() const {
   const Eigen::Index columns = drift_regressors_.cols() - 1;
   Eigen::MatrixXd chosen(static_cast<Eigen::Index>(train_points_.size()), columns);
+  if (columns == 0) return chosen;
   for (std::size_t k = 0; k < train_points_.size(); ++k)
     chosen.row(static_cast<Eigen::Index>(k)) =
         drift_regressors_.row(static_cast<Eigen::Index>(train_points_[k])).tail(columns);

@@ -87,7 +87,7 @@ std::vector<NamedTable> score_answers(const fs::path& folder, const fs::path& an
                                       const std::string& key) {
   const auto seal = folder / seal_name;
   const Json all = Json::parse(unsealed(read_bytes(seal), key, seal.string()));
-  const auto labels = labels_in(all.at("labels"));
+  const auto labels = labels_in(all.at("labels"), seal.string());
   const auto answer_of = [&](std::size_t number, bool left_out) {
     return answers / fmt::format("{:05}.{}", number, left_out ? "without.json" : "json");
   };

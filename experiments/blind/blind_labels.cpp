@@ -41,7 +41,7 @@ Json labels_json(const std::vector<BlindLabel>& labels) {
   return all;
 }
 
-std::vector<BlindLabel> labels_in(const Json& json) {
+std::vector<BlindLabel> labels_in(const Json& json, const std::string& place) try {
   using Names = std::vector<std::string>;
   std::vector<BlindLabel> labels;
   for (const auto& entry : json)
@@ -57,6 +57,8 @@ std::vector<BlindLabel> labels_in(const Json& json) {
                       .without = entry.at("without").get<Names>(),
                       .left_out = entry.at("left_out").get<std::string>()});
   return labels;
+} catch (const Json::exception&) {
+  throw InputError(place, "does not hold the labels of a blind check");
 }
 
 void seal_labels(const fs::path& folder, const std::vector<BlindLabel>& labels) {
@@ -64,7 +66,8 @@ void seal_labels(const fs::path& folder, const std::vector<BlindLabel>& labels) 
 }
 
 std::vector<BlindLabel> open_labels(const fs::path& folder) {
-  return labels_in(read_json((folder / "sealed_labels.json").string()));
+  const auto file = (folder / "sealed_labels.json").string();
+  return labels_in(read_json(file), file);
 }
 
 fs::path recording_of(const fs::path& folder, std::size_t number) {

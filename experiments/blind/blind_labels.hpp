@@ -39,7 +39,8 @@ std::vector<BlindLabel> write_recordings(const BlindCheck& check,
                                          const Interrupt& interrupt = {});
 
 Json labels_json(const std::vector<BlindLabel>& labels);
-std::vector<BlindLabel> labels_in(const Json& json);
+/// InputError at `place` where they are none.
+std::vector<BlindLabel> labels_in(const Json& json, const std::string& place);
 
 void seal_labels(const std::filesystem::path& folder, const std::vector<BlindLabel>& labels);
 std::vector<BlindLabel> open_labels(const std::filesystem::path& folder);

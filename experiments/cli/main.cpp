@@ -61,13 +61,20 @@ std::string meant_option(const CLI::App& verb, int argc, char** argv) {
   return "";
 }
 
+/// One line of what a file or a caller may have put into it: nothing that a terminal would obey.
+std::string harmless(std::string line) {
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < ' ' || c == 127; }, '?');
+  return line;
+}
+
 /// A line each, but no more than anybody reads.
 void print_mistakes(const std::string& mistakes) {
   constexpr std::size_t most = 50;
   std::istringstream lines(mistakes);
   std::size_t count = 0;
   for (std::string line; std::getline(lines, line); ++count)
-    if (count < most) std::cerr << "gyrostat: " << line << '\n';
+    if (count < most) std::cerr << "gyrostat: " << harmless(line) << '\n';
   if (count > most) std::cerr << "gyrostat: and " << count - most << " more\n";
 }
 
@@ -102,7 +109,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& mistake) {
     const auto verbs = program.get_subcommands();
     const bool is_unknown = dynamic_cast<const CLI::ExtrasError*>(&mistake) != nullptr;
-    std::cerr << "gyrostat: " << mistake.what()
+    std::cerr << "gyrostat: " << harmless(mistake.what())
               << (is_unknown && !verbs.empty() ? meant_option(*verbs.front(), argc, argv) : "")
               << "; see gyrostat " << (verbs.empty() ? "" : verbs.front()->get_name() + " ")
               << "--help\n";
@@ -111,7 +118,7 @@ int main(int argc, char** argv) {
     print_mistakes(mistake.what());
     return cli::usage;
   } catch (const std::exception& failure) {
-    std::cerr << "gyrostat: " << failure.what() << '\n';
+    std::cerr << "gyrostat: " << harmless(failure.what()) << '\n';
     return cli::error;
   }
   return exit_code;

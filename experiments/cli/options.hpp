@@ -8,6 +8,8 @@
 #include <fmt/ranges.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/recordings/clock.hpp>
 #include <gyrostat/recordings/format_type.hpp>
 #include <gyrostat/recordings/recording.hpp>
@@ -35,16 +37,16 @@ auto about(const std::string& file, const Work& work) {
   }
 }
 
-/// A check of an option's value that also refuses nan.
+/// A check of an option's value, which is a finite number.
 inline CLI::Validator within(double low, double high) {
-  return {
-      [low, high](const std::string& text) {
-        double value = 0.0;
-        const bool fits = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-        return fits ? std::string{}
-                    : fmt::format("'{}' is out of range; allowed: [{:g}, {:g}]", text, low, high);
-      },
-      "NUMBER"};
+  return {[range = Range{.from = low, .to = high}](const std::string& text) {
+            double value = 0.0;
+            const bool fits = CLI::detail::lexical_cast(text, value) && range.contains(value);
+            return fits ? std::string{}
+                        : fmt::format("'{}' is out of range; allowed: {}", text,
+                                      values_in_words(range));
+          },
+          "NUMBER"};
 }
 
 /// A span of the recording, in seconds from its first sample.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <gyrostat/analysis/metric_type.hpp>
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/findings/consistency.hpp>
 #include <gyrostat/experiments/run/trial.hpp>
 
@@ -109,15 +110,17 @@ Table calibration_table(const Cell& cell, const Calibration& fit, const CellSumm
 Table tuning_table(const Cell& cell, const std::vector<TunedMethod>& tuned) {
   const auto metric = metric_types()[cell.tuning.metric].id;
   const auto unit = std::string(metric_types()[cell.tuning.metric].unit);
-  Table table{.title = fmt::format("{}: tuned on {} trials of their own, {} evaluations each",
-                                   cell.name, cell.tuning.trials, cell.tuning.evaluations),
-              .columns = {{"method", ""},
-                          {"parameter", ""},
-                          {"tuned", ""},
-                          {metric + " before", unit},
-                          {"broke down before", ""},
-                          {metric + " after", unit},
-                          {"broke down after", ""}}};
+  Table table{
+      .title = fmt::format(
+          "{}: tuned on {} of their own, {} each", cell.name, counted(cell.tuning.trials, "trial"),
+          counted(static_cast<std::uint64_t>(cell.tuning.evaluations), "evaluation")),
+      .columns = {{"method", ""},
+                  {"parameter", ""},
+                  {"tuned", ""},
+                  {metric + " before", unit},
+                  {"broke down before", ""},
+                  {metric + " after", unit},
+                  {"broke down after", ""}}};
   for (std::size_t m = 0; m < tuned.size(); ++m)
     for (const auto& [name, value] : tuned[m].values)
       table.rows.push_back({cell.methods[m].id, name, value, gyrostat::cell(tuned[m].before.mean),
@@ -134,13 +137,13 @@ std::vector<Table> error_tables(const Cell& cell, const CellSummary& summary) {
     tables.push_back(metric_table(cell, summary, metric, type.table.title, type.unit));
   }
   tables.front().notes.push_back(
-      fmt::format("statistics over {} of {} trials; diverged: bias RMSE above {} x that of no "
+      fmt::format("statistics over {} of {}; diverged: bias RMSE above {} x that of no "
                   "compensation; broke down: a step had to be left out. Both stay in every mean.",
-                  summary.finished, cell.trials, divergence_ratio));
+                  summary.finished, counted(cell.trials, "trial"), divergence_ratio));
   for (std::size_t m = 0; m < cell.methods.size(); ++m)
     if (const auto thrown = summary.methods[m].thrown; thrown > 0)
-      tables.front().notes.push_back(
-          fmt::format("{} threw in {} trials, which have no value", cell.methods[m].id, thrown));
+      tables.front().notes.push_back(fmt::format("{} threw in {}, without a value",
+                                                 cell.methods[m].id, counted(thrown, "trial")));
   tables[1].notes.push_back(
       "the white noise is part of it: an estimate that follows the noise makes it small, so it can "
       "lie below the oracle's, and only the bias estimation error tells who knows the bias");

@@ -9,6 +9,7 @@
 #include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/analysis/statistics/proportion.hpp>
 #include <gyrostat/analysis/statistics/running.hpp>
+#include <gyrostat/core/words.hpp>
 
 namespace gyrostat {
 namespace {
@@ -46,7 +47,7 @@ std::optional<double> bound_of(const FailureSearch& search) {
 std::string unfinished(const FailureRule& rule, const FailureFinding& f) {
   const auto& search = *f.search;
   if (!search.asked().empty())
-    return fmt::format("the search goes on: {} trials so far", search.trials());
+    return fmt::format("the search goes on: {} so far", counted(search.trials(), "trial"));
   std::size_t reached = 0;
   for (const auto& run : search.runs()) reached += run.reached();
   const auto runs = fmt::format("{} of {} runs reached the threshold within {} levels", reached,

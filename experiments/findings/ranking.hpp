@@ -35,8 +35,9 @@ struct CellRanking {
   std::size_t trials = 0;
   std::vector<RankedMethod> methods;      ///< by mean, best first
   double critical_difference = no_value;  ///< of mean ranks (Nemenyi)
-  std::vector<std::vector<std::size_t>>
-      not_separable;                   ///< maximal groups, as indices into `methods`
+  static constexpr std::size_t most_groups = 64;
+  /// Maximal groups, as indices into `methods`; where there are `most_groups`, maybe not all.
+  std::vector<std::vector<std::size_t>> not_separable;
   std::vector<std::string> sentences;  ///< plain ones, the most important first
   std::vector<RankedPair> pairs;
   double friedman_p = no_value;   ///< of mean ranks so different where all methods are alike

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <gyrostat/analysis/metric_type.hpp>
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/results/render/interval.hpp>
 
 namespace gyrostat {
@@ -102,7 +103,8 @@ class Speaker {
                              ranking_.metric, gap));
     const double more = d.trials_needed - static_cast<double>(d.count);
     say(fmt::format("{} and {} are not separable ({}){}", name(p.better), name(p.worse), gap,
-                    more > 0.0 ? fmt::format("; about {} more trials needed", grouped(more))
+                    more > 0.0 ? fmt::format("; about {} more trial{} needed", grouped(more),
+                                             more < 1.5 ? "" : "s")
                                : "; as many trials again may tell"));
   }
 
@@ -112,8 +114,13 @@ class Speaker {
   }
 
   void groups() {
+    constexpr std::size_t told = 16;
     std::vector<std::string> texts;
     for (const auto& group : ranking_.not_separable) {
+      if (texts.size() == told) {
+        texts.push_back("and other groups");
+        break;
+      }
       std::vector<std::string> names;
       for (const auto i : group) names.push_back(name(i));
       texts.push_back(fmt::format("{}", fmt::join(names, " = ")));
@@ -144,8 +151,8 @@ class Speaker {
   void failures() {
     for (const auto& m : ranking_.methods)
       if (m.missing > 0)
-        say(fmt::format("{} has no value in {} trials, which are not in its mean and rank last",
-                        m.method, m.missing));
+        say(fmt::format("{} has no value in {}, not in its mean and ranked last", m.method,
+                        counted(m.missing, "trial")));
   }
 
   void ranks() {
@@ -153,8 +160,7 @@ class Speaker {
     say(fmt::format(
         "mean ranks that differ by more than {:.3g} are separable (Nemenyi, 95 %, all pairs); "
         "Friedman's test that all are alike: p {}",
-        ranking_.critical_difference,
-        ranking_.friedman_p < 1e-4 ? "< 0.0001" : fmt::format("= {:.2g}", ranking_.friedman_p)));
+        ranking_.critical_difference, chance_in_words(ranking_.friedman_p)));
   }
 
   const Cell& cell_;

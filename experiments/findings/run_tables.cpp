@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/findings/error_tables.hpp>
 #include <gyrostat/experiments/findings/failures.hpp>
 #include <gyrostat/experiments/findings/ranking.hpp>
@@ -29,8 +30,8 @@ void add_cell(const Cell& cell, const Store& store, const RanCell& ran, RunTable
     all.tables.push_back(std::move(tuning));
   auto errors = error_tables(cell, summary);
   if (ran.stopped_by)
-    errors.front().notes.push_back(
-        fmt::format("stopped by its rule after {} trials: {}", cell.trials, *ran.stopped_by));
+    errors.front().notes.push_back(fmt::format("stopped by its rule after {}: {}",
+                                               counted(cell.trials, "trial"), *ran.stopped_by));
   for (auto& table : errors) all.tables.push_back(std::move(table));
   if (cell.methods.size() > 1) {
     rankings.push_back(rank_cell(cell, trials));

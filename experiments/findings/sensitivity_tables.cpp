@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/findings/sensitivity_words.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
 
@@ -129,12 +130,13 @@ Table sobol_table(const OfDesign& methods, const Design& design) {
 
 std::string bootstrap_note(const OfDesign& methods) {
   return fmt::format(
-      "{} points of {} trials, {} without a finished trial; 95 % intervals by the bootstrap-t of "
+      "{} of {}, {} without a finished trial; 95 % intervals by the bootstrap-t of "
       "rows and "
       "trials; failed: trials in which the method broke down or threw, over all points; left out: "
       "fewer "
       "than two trials have all of its points",
-      methods.front()->points, methods.front()->trials, methods.front()->failed_points);
+      counted(methods.front()->points, "point"), counted(methods.front()->trials, "trial"),
+      methods.front()->failed_points);
 }
 
 /// What was computed of a design, method by method.

@@ -7,6 +7,9 @@
 
 #include <gyrostat/analysis/statistics/paired.hpp>
 #include <gyrostat/analysis/statistics/summary.hpp>
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/pages/played.hpp>
 
 namespace gyrostat {
@@ -91,6 +94,17 @@ std::vector<Finding> judge_allan(const Claim& claim, const Done& done, std::uint
   return findings;
 }
 
+/// No signal tells an Allan deviation at less than a sample or at more than half of its length.
+void require_taus(const Claim& claim, const Cell& cell) {
+  const auto& sampling = cell.scenario.sampling;
+  const Range told{.from = 1.0 / sampling.rate_hz, .to = sampling.duration_s / 2};
+  for (const double tau_s : claim.allan_tau_s)
+    if (tau_s < told.from * (1.0 - 1e-9) || tau_s > told.to * (1.0 + 1e-9))
+      throw InputError(fmt::format("\"{}\": allan_tau_s", claim.text),
+                       fmt::format("{:g} s is out of range; allowed of cell {}: {}", tau_s,
+                                   cell.name, values_in_words(told, "s")));
+}
+
 }  // namespace
 
 std::vector<Finding> judge(const Ledger& ledger,
@@ -103,6 +117,9 @@ std::vector<Finding> judge(const Ledger& ledger,
       for (const auto& cell : study.cells)
         family[c] += concerns(ledger.claims[c], path, cell) *
                      std::max<std::size_t>(1, ledger.claims[c].allan_tau_s.size());
+    for (const auto& claim : ledger.claims)
+      for (const auto& cell : study.cells)
+        if (concerns(claim, path, cell)) require_taus(claim, cell);
     std::vector<Done> done;
     for (const auto& cell : study.cells) {
       const auto wanted = [&](const Claim& claim) {

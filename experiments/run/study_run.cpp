@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <gyrostat/analysis/statistics/sequential.hpp>
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/run/build.hpp>
 #include <gyrostat/experiments/run/stopping.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
@@ -150,7 +151,8 @@ RanCell StudyRun::run_cell(std::uint32_t index) {
     if (!ran.stopped_by) continue;
     cell.trials = limit;
     store_.set_cells(manifest_of(study_).cells);
-    say(fmt::format("{}: stopped after {} trials: {}", cell.name, limit, *ran.stopped_by));
+    say(fmt::format("{}: stopped after {}: {}", cell.name, counted(limit, "trial"),
+                    *ran.stopped_by));
     break;
   }
   log_.write("cell", {{"cell", cell.name},

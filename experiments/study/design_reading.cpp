@@ -57,9 +57,9 @@ double end_of(JsonObject& object, const std::string& key, const DesignParameter&
               bool is_open) {
   if (!object.has(key) && (is_open || !std::isfinite(own)))
     throw InputError(object.place(),
-                     fmt::format("\"{}\" is missing, and the parameter's own range {} {} "
+                     fmt::format("\"{}\" is missing, and the parameter's own range {} "
                                  "does not end there in a value",
-                                 key, p.range.to_string(), p.unit));
+                                 key, values_in_words(p.range, p.unit)));
   return object.number(key, own, p.range, p.unit);
 }
 

@@ -29,7 +29,7 @@ std::string reason_of(const std::string& message) {
   const auto reason = column == std::string::npos ? column : message.find(": ", column);
   auto text = reason == std::string::npos ? message : message.substr(reason + 2);
   std::replace_if(
-      text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
+      text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == 127; }, ' ');
   return text;
 }
 

@@ -15,6 +15,7 @@
 #include <gyrostat/core/chosen.hpp>
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/study/json.hpp>
 #include <gyrostat/experiments/study/mistakes.hpp>
 
@@ -160,14 +161,15 @@ class JsonObject {
 
   static double checked_number(const Json& value, const std::string& place, const Range& range,
                                std::string_view unit) {
-    const auto shown_unit = unit.empty() || unit == "1" ? "" : fmt::format(" {}", unit);
     if (!value.is_number())
-      throw InputError(place, fmt::format("{} is not a number; allowed: {}{}", value.dump(),
-                                          range.to_string(), shown_unit));
+      throw InputError(place, fmt::format("{} is not a number; allowed: {}", value.dump(),
+                                          values_in_words(range, unit)));
     const double number = value.get<double>();
-    if (!range.contains(number))
-      throw InputError(place, fmt::format("{}{} is out of range; allowed: {}{}", value.dump(),
-                                          shown_unit, range.to_string(), shown_unit));
+    if (!range.contains(number)) {
+      const auto shown_unit = unit.empty() || unit == "1" ? "" : fmt::format(" {}", unit);
+      throw InputError(place, fmt::format("{}{} is out of range; allowed: {}", value.dump(),
+                                          shown_unit, values_in_words(range, unit)));
+    }
     return number;
   }
 

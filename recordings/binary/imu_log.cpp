@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/recordings/text.hpp>
 
 namespace gyrostat {
@@ -69,7 +70,7 @@ ColumnTable ImuLog::table(const std::string& wanted, const std::string& place,
       names.empty() ? "" : fmt::format(" (--topic has also {})", fmt::join(names, ", "))));
   if (left_out > 0)
     table.notes.push_back(
-        fmt::format("{} samples that do not come after the one before left out", left_out));
+        fmt::format("{} not after the one before left out", counted(left_out, "sample")));
   if (cut_off_) table.notes.push_back("the log is cut off: its last record is left out");
   return table;
 }

@@ -52,7 +52,8 @@ std::string html(const Table& table) {
                          c == 0            ? "th scope=\"row\""
                          : is_text(row[c]) ? "td class=\"text\""
                                            : "td",
-                         c == 0 ? "th" : "td", escaped(render_detail::readable(row[c])));
+                         c == 0 ? "th" : "td",
+                         escaped(render_detail::readable(row[c], table.columns[c])));
     out += "</tr>\n";
   }
   out += "</tbody></table></div>\n";

@@ -74,7 +74,8 @@ std::string latex(const Table& table) {
   out += joined(heads) + "\\midrule\n";
   for (const auto& row : table.rows) {
     std::vector<std::string> cells;
-    for (const auto& cell : row) cells.push_back(escaped(readable(cell)));
+    for (std::size_t c = 0; c < row.size(); ++c)
+      cells.push_back(escaped(readable(row[c], table.columns[c])));
     out += joined(cells);
   }
   out += "\\bottomrule\n\\end{tabular}\n";

@@ -22,7 +22,8 @@ std::string markdown(const Table& table) {
   out += '\n';
   for (const auto& row : table.rows) {
     out += '|';
-    for (const auto& cell : row) out += ' ' + escaped(readable(cell)) + " |";
+    for (std::size_t c = 0; c < row.size(); ++c)
+      out += ' ' + escaped(readable(row[c], table.columns[c])) + " |";
     out += '\n';
   }
   for (const auto& note : table.notes) out += "\n" + escaped(one_line(note)) + '\n';

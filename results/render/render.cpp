@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/core/words.hpp>
 
 namespace gyrostat {
 namespace {
@@ -73,6 +74,12 @@ std::string readable(const TableCell& cell) {
     std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
   } visitor;
   return std::visit(visitor, cell);
+}
+
+std::string readable(const TableCell& cell, const TableColumn& column) {
+  const auto* number = std::get_if<double>(&cell);
+  return number && column.name == "p" && *number < least_chance ? chance_in_words(*number)
+                                                                : readable(cell);
 }
 
 std::string exact(const TableCell& cell) {

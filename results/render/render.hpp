@@ -44,6 +44,8 @@ std::string json(std::span<const Table> tables);
 std::string one_line(std::string text);
 /// A cell for a reader.
 std::string readable(const TableCell& cell);
+/// The same where its column is known: a chance ("p") says no more than a test can know.
+std::string readable(const TableCell& cell, const TableColumn& column);
 /// A cell for a program: numbers that read back as the same bits.
 std::string exact(const TableCell& cell);
 /// "name [unit]"

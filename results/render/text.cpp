@@ -55,7 +55,7 @@ Grid grid_of(const Table& table) {
   for (const auto& row : table.rows) {
     auto& line = grid.lines.emplace_back();
     for (std::size_t c = 0; c < row.size(); ++c) {
-      line.push_back(readable(row[c]));
+      line.push_back(readable(row[c], table.columns[c]));
       grid.left[c] = grid.left[c] && std::holds_alternative<std::string>(row[c]);
     }
   }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
@@ -41,9 +42,9 @@ int run(const MergeArguments& arguments, Console& console) {
     wanted += cell.trials;
   }
   console.log << fmt::format(
-      "{}: {} of {} trials; gyrostat run STUDY --out {} runs what is missing and "
+      "{}: {} of {}; gyrostat run STUDY --out {} runs what is missing and "
       "makes the tables\n",
-      arguments.out, finished, wanted, arguments.out);
+      arguments.out, finished, counted(wanted, "trial"), arguments.out);
   return finished < wanted ? stopped : complete;
 }
 

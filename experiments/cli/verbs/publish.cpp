@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,8 @@ struct PublishArguments {
 
 std::vector<NamedTable> made(const PublishArguments& arguments, const Page& page,
                              Console& console) {
+  std::optional<Progress> points;
+  std::size_t points_done = 0;
   const auto run = [&](const Study& study, const Cell& cell) {
     Cell shown = cell;
     if (arguments.trials > 0) {
@@ -40,7 +43,18 @@ std::vector<NamedTable> made(const PublishArguments& arguments, const Page& page
     }
     RunOptions options{.threads = arguments.threads, .progress = {}};
     const auto* design = design_of(study, static_cast<std::size_t>(&cell - study.cells.data()));
-    if (design != nullptr && design->is_sampled()) return run_cell(shown, study.seed, options);
+    if (design != nullptr && design->is_sampled()) {
+      // A bar for all points of a design: each takes a moment.
+      const auto total = design->values.size();
+      if (!points) points.emplace(console.log, console.log_is_terminal, design->name, total);
+      auto result = run_cell(shown, study.seed, options);
+      points->set(++points_done);
+      if (points_done == total) {
+        points.reset();
+        points_done = 0;
+      }
+      return result;
+    }
     Progress progress(console.log, console.log_is_terminal, cell.name, shown.trials);
     options.progress = [&](std::size_t done) { progress.set(done); };
     return run_cell(shown, study.seed, options);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/cli/answer.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
@@ -94,7 +95,7 @@ int run(const RankArguments& arguments, Console& console) {
   print_answer(console, format, answer_in_words(rankings));
   console.out << render(tables, format);
   if (left_out > 0)
-    console.log << fmt::format("{} points of designs are ranked with --points\n", left_out);
+    console.log << fmt::format("--points ranks {} of designs, too\n", counted(left_out, "point"));
   return complete;
 }
 

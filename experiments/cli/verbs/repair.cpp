@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/run/study_store.hpp>
@@ -20,11 +21,11 @@ int run(const RepairArguments& arguments, Console& console) {
   if (!arguments.study.empty()) named = manifest_of(read_study(arguments.study));
   const auto result = Store::repair(arguments.folder, named);
   if (result.is_sound()) {
-    console.log << fmt::format("{}: sound, {} trials\n", arguments.folder, result.kept);
+    console.log << fmt::format("{}: sound, {}\n", arguments.folder, counted(result.kept, "trial"));
     return complete;
   }
-  console.log << fmt::format("{}: {} trials kept, {} dropped{}; the damaged store is {}\n",
-                             arguments.folder, result.kept, result.dropped,
+  console.log << fmt::format("{}: {} kept, {} dropped{}; the damaged store is {}\n",
+                             arguments.folder, counted(result.kept, "trial"), result.dropped,
                              result.log_was_damaged ? ", more of a damaged log are lost" : "",
                              result.aside->string())
               << "gyrostat run with the same study makes again what is missing\n";

@@ -1,8 +1,11 @@
+#include <optional>
+
 #include <fmt/format.h>
 
 #include <gyrostat/experiments/findings/report/report.hpp>
 
 #include <gyrostat/experiments/cli/options.hpp>
+#include <gyrostat/experiments/cli/phase_progress.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/experiments/run/study_store.hpp>
@@ -32,8 +35,15 @@ int run(const ReportArguments& arguments, Console& console) {
       arguments.out.empty() ? fs::path(arguments.folder) / "report.html" : fs::path(arguments.out);
   require_writable(out, database);
   const Store store = Store::open(arguments.folder);
-  write_atomically(out,
-                   report_page(stored_study(store), store, arguments.folder, arguments.options));
+  auto options = arguments.options;
+  std::optional<PhaseProgress> progress;
+  progress.emplace(console.log, console.log_is_terminal, "report");
+  options.progress = [&](const std::string& phase, const std::string& detail, double share) {
+    progress->set(phase, detail, share);
+  };
+  const auto page = report_page(stored_study(store), store, arguments.folder, options);
+  progress.reset();
+  write_atomically(out, page);
   console.log << fmt::format("report: {}\n", out.string());
   return complete;
 }

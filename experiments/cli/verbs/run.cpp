@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/cli/answer.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/progress.hpp>
@@ -72,16 +73,15 @@ RunWatcher watcher_of(Console& console, std::optional<Progress>& bar) {
 /// How it ended: in words, in the log and as exit code.
 int ended(StudyRun& run, const fs::path& folder, const Stopper& stopper, Console& console) {
   if (run.failed() > 0)
-    console.log << fmt::format(
-        "{} trials failed; gyrostat status {} --failures has their addresses\n", run.failed(),
-        folder.string());
+    console.log << fmt::format("{} failed; gyrostat status {} --failures says where\n",
+                               counted(run.failed(), "trial"), folder.string());
   console.log << fmt::format("results: {} (tables.md, tables.json, outcomes.csv.gz)\n",
                              folder.string());
   const int code = run.over_budget() ? over_failure_budget : stopper.flag() ? stopped : complete;
   run.log().write("end", {{"exit_code", code}, {"failed", run.failed()}});
   if (code == over_failure_budget)
-    console.log << fmt::format("failures over the budget: {} of {} trials, allowed are {:g} %\n",
-                               run.failed(), run.study().trials(),
+    console.log << fmt::format("failures over the budget: {} of {}, allowed are {:g} %\n",
+                               run.failed(), counted(run.study().trials(), "trial"),
                                100.0 * run.study().failure_budget);
   if (code == stopped)
     console.log << stopper.reason()

@@ -1,3 +1,4 @@
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/run/slurm.hpp>
 
 #include <algorithm>
@@ -54,8 +55,9 @@ int run(SlurmArguments arguments, Console& console) {
                      "a job is named as its study file: letters, digits, '_', '.' and '-' only");
   const auto file = arguments.file.empty() ? job.name + ".sbatch" : arguments.file;
   write_atomically(file, sbatch_file(job));
-  console.log << fmt::format("{}: {} tasks of {} trials in all; send it with sbatch {}\n", file,
-                             job.shards, study.trials(), file);
+  console.log << fmt::format("{}: {} of {} in all; send it with sbatch {}\n", file,
+                             counted(static_cast<std::uint64_t>(job.shards), "task"),
+                             counted(study.trials(), "trial"), file);
   return complete;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <gyrostat/analysis/statistics/sequential.hpp>
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/cli/answer.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
@@ -162,10 +163,11 @@ std::string status_answer(const Store& store, const Manifest& manifest) {
   }
   const auto how_many = failed == 0 ? std::string("none") : std::to_string(failed);
   if (finished == trials)
-    return fmt::format("{} is complete: {} trials, {} failed.", manifest.name, trials, how_many);
+    return fmt::format("{} is complete: {}, {} failed.", manifest.name,
+                       counted(static_cast<std::uint64_t>(trials), "trial"), how_many);
   return fmt::format(
-      "{} has {} of {} trials ({:.0f} %), {} failed. gyrostat run of the same study goes on.",
-      manifest.name, finished, trials,
+      "{} has {} of {} ({:.0f} %), {} failed. gyrostat run of the same study goes on.",
+      manifest.name, finished, counted(static_cast<std::uint64_t>(trials), "trial"),
       std::floor(100.0 * static_cast<double>(finished) / static_cast<double>(trials)), how_many);
 }
 

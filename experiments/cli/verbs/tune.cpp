@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -105,7 +106,7 @@ std::pair<std::string, SearchRange> tuning_range(const std::string& text,
       for (const double bound : {range.low, range.high})
         if (!field.range.contains(bound))
           throw InputError(place, fmt::format("{:g} {} is out of range; allowed of {}: {}", bound,
-                                              field.unit, method.id, field.range.to_string()));
+                                              field.unit, method.id, values_in_words(field.range)));
     }
   if (!is_known) throw InputError(place, unknown_name("parameter", name, known));
   return {name, range};
@@ -225,7 +226,7 @@ void add_tune(CLI::App& program, Console& console, int& exit_code) {
                  ->capture_default_str();
   verb->add_option("--above", arguments->above,
                    "by the probability of an error above this, in its unit")
-      ->check(within(0.0, 1e300))
+      ->check(within(0.0, HUGE_VAL))
       ->excludes(by);
   verb->add_option("--method", arguments->methods,
                    "these alone (default: those with a \"tune\", or every filter)")

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/study/study.hpp>
@@ -15,8 +16,8 @@ constexpr const char* validate_examples = R"(Examples:
 std::string described(const Design& design) {
   std::vector<std::string> names;
   for (const auto& parameter : design.parameters) names.push_back(parameter.name);
-  return fmt::format("{}, {} of {} points over {}", design.name, name_of(design.kind),
-                     design.values.size(), fmt::join(names, ", "));
+  return fmt::format("{}, {} of {} over {}", design.name, name_of(design.kind),
+                     counted(design.values.size(), "point"), fmt::join(names, ", "));
 }
 
 int run(const std::string& path, Console& console) {
@@ -28,9 +29,10 @@ int run(const std::string& path, Console& console) {
     const bool sampled = design != nullptr && design->is_sampled();
     std::vector<std::string> ids;
     for (const auto& method : cell.methods) ids.push_back(method.id);
-    console.out << fmt::format("  {}: {} trials of {} samples, methods {}\n",
-                               sampled ? described(*design) : cell.name, cell.trials,
-                               cell.scenario.sampling.samples(), fmt::join(ids, ", "));
+    console.out << fmt::format(
+        "  {}: {} of {}, methods {}\n", sampled ? described(*design) : cell.name,
+        counted(cell.trials, "trial"), counted(cell.scenario.sampling.samples(), "sample"),
+        fmt::join(ids, ", "));
     if (sampled) c += design->values.size() - 1;
   }
   return complete;

@@ -1,7 +1,11 @@
 #include <gyrostat/experiments/findings/report/cell_section.hpp>
 
+#include <algorithm>
+#include <span>
+
 #include <fmt/format.h>
 
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/findings/error_tables.hpp>
 #include <gyrostat/experiments/findings/report/picture.hpp>
 #include <gyrostat/results/render/html.hpp>
@@ -9,10 +13,28 @@
 namespace gyrostat {
 namespace {
 
-std::string list(const std::vector<std::string>& sentences) {
+/// The first sentence stands at the top of the page, with what is said of other cells.
+std::string all_but_the_first(const std::vector<std::string>& sentences) {
+  if (sentences.size() < 2) return "";
   std::string out = "<ul class=\"sentences\">\n";
-  for (const auto& sentence : sentences) out += fmt::format("<li>{}</li>\n", escaped(sentence));
+  for (const auto& sentence : std::span(sentences).subspan(1))
+    out += fmt::format("<li>{}</li>\n", escaped(sentence));
   return out + "</ul>\n";
+}
+
+/// Counts of what never happened tell nothing.
+void leave_out_zeros(Table& table) {
+  const auto is_none = [](const TableCell& cell) {
+    const auto* text = std::get_if<std::string>(&cell);
+    return text != nullptr && text->starts_with("0/");
+  };
+  for (std::size_t c = table.columns.size(); c-- > 0;) {
+    const auto column = static_cast<std::ptrdiff_t>(c);
+    if (!std::ranges::all_of(table.rows, [&](const auto& row) { return is_none(row[c]); }))
+      continue;
+    table.columns.erase(table.columns.begin() + column);
+    for (auto& row : table.rows) row.erase(row.begin() + column);
+  }
 }
 
 Table ranking_table(const CellView& v, const CellRanking& ranking) {
@@ -40,6 +62,7 @@ Table ranking_table(const CellView& v, const CellRanking& ranking) {
                           cell(ranked.worst), cell(ranked.mean_rank), count(method.diverged),
                           count(method.broken_down), count(method.thrown)});
   }
+  leave_out_zeros(table);
   return table;
 }
 
@@ -90,10 +113,10 @@ std::string cell_section(const CellView& v, const CellRanking& ranking,
   std::string out =
       fmt::format("<section id=\"{}\" aria-labelledby=\"{}-title\">\n<h2 id=\"{}-title\">{}</h2>\n",
                   v.id, v.id, v.id, escaped(v.cell.name));
-  out += fmt::format(
-      "<p class=\"note\">{} of {} trials finished, all methods on the same signals</p>\n",
-      v.summary.finished, v.cell.trials);
-  out += disagreement(v, replayed) + list(ranking.sentences) + html(ranking_table(v, ranking));
+  out += fmt::format("<p class=\"note\">{} of {} finished, all methods on the same signals</p>\n",
+                     v.summary.finished, counted(v.cell.trials, "trial"));
+  out += disagreement(v, replayed) + all_but_the_first(ranking.sentences) +
+         html(ranking_table(v, ranking));
   if (v.failure) out += html(failure_table(v.cell, v.failure->findings));
   std::vector<Picture> pictures;
   append_pictures({v, ranking, replayed, nanoseconds}, pictures);

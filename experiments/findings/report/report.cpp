@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/findings/report/cell_section.hpp>
 #include <gyrostat/experiments/findings/report/design_sections.hpp>
 #include <gyrostat/experiments/findings/report/live_page.hpp>
@@ -42,13 +43,13 @@ std::string head(const Study& study, const Manifest& manifest) {
   for (const auto& cell : manifest.cells) finished += std::min(cell.finished, cell.trials);
   const auto title = study.title.empty() ? study.name() : study.title;
   return fmt::format(
-      "<h1>{}</h1>\n<p class=\"note\">Study {}, {} cells, {} of {} trials finished; seed {}, "
+      "<h1>{}</h1>\n<p class=\"note\">Study {}, {}, {} of {} finished; seed {}, "
       "digest <code>{}</code></p>\n<p class=\"note hint\" hidden>Pictures: drag to zoom, "
       "double-click "
       "to see all. By keyboard: arrows go from point to point, + − 0 zoom, Shift and arrows move, "
       "Enter copies the command that replays an outlier.</p>\n",
-      escaped(title), escaped(study.name()), study.cells.size(), finished, study.trials(),
-      study.seed, escaped(manifest.digest));
+      escaped(title), escaped(study.name()), counted(study.cells.size(), "cell"), finished,
+      counted(study.trials(), "trial"), study.seed, escaped(manifest.digest));
 }
 
 /// What matters in each design; the most important sentence of every cell, those shown in full as
@@ -81,10 +82,11 @@ std::string in_short(const Study& study, const std::vector<CellRanking>& ranking
   out += "</ul>\n";
   if (!rest.empty())
     out += fmt::format(
-        "<details><summary>{} other cells</summary>\n<ul class=\"sentences\">\n{}</ul>\n<p "
+        "<details><summary>{}</summary>\n<ul class=\"sentences\">\n{}</ul>\n<p "
         "class=\"note\">{}gyrostat "
         "report DIR --cell NAME shows one of them in full.</p></details>\n",
-        others, rest, others > most ? fmt::format("These are the first {}. ", most) : "");
+        counted(others, "other cell"), rest,
+        others > most ? fmt::format("These are the first {}. ", most) : "");
   return out + "</section>\n";
 }
 
@@ -184,7 +186,13 @@ std::string report_page(const Study& study, const Store& store, const std::files
 
   std::vector<CellSummary> summaries;
   std::vector<CellRanking> rankings;
+  // Cells in full are simulated again, in part.
+  constexpr double share_of_reading = 0.3;
+  const auto tell = [&](const char* phase, std::size_t c, double share) {
+    if (options.progress) options.progress(phase, study.cells[c].name, share);
+  };
   for (std::uint32_t c = 0; c < study.cells.size(); ++c) {
+    tell("reading trials", c, share_of_reading * c / static_cast<double>(study.cells.size()));
     const auto trials = trials_of(study.cells[c], store, c);
     summaries.push_back(summarise_cell(study.cells[c], trials));
     const bool is_seen =
@@ -195,8 +203,12 @@ std::string report_page(const Study& study, const Store& store, const std::files
   std::string body = in_short(study, rankings, chosen, designs);
   body += sweep_sections(study, sweeps, summaries, colours);
   body += sensitivity_sections(designs, colours);
-  for (const std::size_t c : chosen) {
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const auto c = chosen[k];
     if (summaries[c].finished == 0) continue;
+    tell("drawing", c,
+         share_of_reading + (1.0 - share_of_reading) * static_cast<double>(k) /
+                                static_cast<double>(chosen.size()));
     in_full({study, store, folder, colours, times, options}, c, summaries[c], rankings[c],
             [&](const auto&... cell) { body += cell_section(cell...); });
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ struct ReportOptions {
       cells;  ///< to be shown in full; empty: at most six, one of those made from one
   std::optional<std::uint32_t> replay;  ///< trials simulated again for pictures over time; 0: none
   int threads = 0;                      ///< 0: as many as the machine has
+  /// Told of what is being done, and which share of all is.
+  std::function<void(const std::string& phase, const std::string& detail, double share)> progress{};
 };
 
 /// A study's result as one page of HTML that needs nothing else: a function of the folder and the

@@ -63,7 +63,7 @@ TEST_F(Answers, OfADesignAreCountedAndItsPointsLeftToWhoAsks) {
   EXPECT_THAT(short_one.out, StartsWith("By bias_rmse, kf is best in "));
   EXPECT_THAT(short_one.out, HasSubstr(" of 32 cells"));
   EXPECT_THAT(short_one.out, Not(HasSubstr("ranking by")));
-  EXPECT_THAT(short_one.err, HasSubstr("32 points of designs are ranked with --points"));
+  EXPECT_THAT(short_one.err, HasSubstr("--points ranks 32 points of designs"));
   EXPECT_THAT(run_program(*folder_, {"rank", "runs/points", "--points"}).out,
               HasSubstr("sweep[point_32]: ranking by bias_rmse"));
   EXPECT_THAT(run_program(*folder_, {"rank", "runs/points", "--cell", "sweep[point_3]"}).out,

@@ -360,11 +360,11 @@ TEST(BadInput, AllMistakesOfAStudyAreToldAtOnce) {
   const Words expected = {
       "title: the key stands twice",
       "failure_budget: 2 of all trials is out of range; allowed: [0, 1]",
-      "cells[0].trials: 0 trials is out of range; allowed: [1, 1e+08]",
+      "cells[0].trials: 0 trials is out of range; allowed: [1, 1e8] trials, whole numbers",
       "cells[0]: unknown key 'trails'; did you mean 'trials'?",
       "cells[0].scenario.from_recording.axis: 3 is not a text",
       "absent.csv",
-      "cells[0].scenario.duration_s: 0 s is out of range; allowed: (0, 1e+07] s",
+      "cells[0].scenario.duration_s: 0 s is out of range; allowed: (0, 1e7] s",
       "cells[0].scenario: unknown key 'rate'; did you mean 'rate_hz'?",
       "cells[0].scenario.random_error.phi: 2 is out of range; allowed: (-1, 1)",
       "cells[0].scenario.random_error: unknown key 'delta'",

@@ -67,6 +67,21 @@ TEST(HostileInput, JsonThatIsNoneIsToldWithLineColumnAndReason) {
   expect_refused(folder, {"validate", "study.json"}, {"study.json:2:13: not valid JSON: ", "'}'"});
 }
 
+TEST(HostileInput, NothingInAFileOrACallSpeaksToTheTerminal) {
+  const TestFolder folder;
+  folder.write("s.json", R"({"cells": [], "\u001b[2J\u0007": 1})");
+  folder.write("d.json", "\x7f{}");
+  for (const Words& words : {Words{"validate", "s.json"},
+                             {"validate", "d.json"},
+                             {"fit", "\x1b[2J.csv"},
+                             {"allan", "--\x1b[2J", "1"}}) {
+    const auto ended = run_program(folder, words);
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("gyrostat: "), Not(HasSubstr("\x1b")),
+                                 Not(HasSubstr("\x7f")), Not(HasSubstr("\a"))));
+  }
+}
+
 TEST(HostileInput, NamesThatLeadElsewhereOrAreFormulasAreRefused) {
   const TestFolder folder;
   for (const std::string name : {"=1+2", "+a", "-a", "@a"}) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <gyrostat/analysis/metric_type.hpp>
@@ -19,6 +20,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
+using testing::SizeIs;
 
 const std::size_t metric_count = metric_types().size();
 const std::size_t columns = metric_count + Outcome::beside_metrics;
@@ -28,7 +30,8 @@ Cell cell_of(const std::vector<std::string>& filters) {
   cell.name = "ramp";
   for (const auto& filter : filters) {
     Method method;
-    method.id = method.filter = filter;
+    method.id = filter;
+    method.filter = filter.substr(0, filter.find('#'));
     cell.methods.push_back(method);
   }
   return cell;
@@ -81,6 +84,35 @@ TEST(Ranking, OrdersByTheMeanAndGroupsWhatIsNotSeparable) {
   EXPECT_GT(ranking.methods.front().cvar95, summary.percentile_95);
 }
 
+TEST(Ranking, AHundredMethodsThatAreAlikeAreOneGroupAtOnce) {
+  std::vector<std::string> many;
+  std::vector<std::vector<double>> errors(4);
+  for (int m = 0; m < 100; ++m) {
+    many.push_back(fmt::format("kf#{}", m));
+    for (int trial = 0; trial < 4; ++trial)
+      errors[static_cast<std::size_t>(trial)].push_back(trial == m % 4 ? 2.0 : 1.0);
+  }
+  const auto ranking = rank_cell(cell_of(many), source_of(errors));
+  ASSERT_EQ(ranking.not_separable.size(), 1U);
+  EXPECT_EQ(ranking.not_separable.front().size(), 100U);
+}
+
+TEST(Ranking, GroupsThatNobodyCouldReadAreNotAllSought) {
+  // Twenty pairs that are told apart, whatever the pair: 2^20 groups.
+  std::vector<std::string> many;
+  std::vector<std::vector<double>> errors(60);
+  for (int m = 0; m < 40; ++m) {
+    many.push_back(fmt::format("kf#{}", m));
+    for (std::size_t trial = 0; trial < errors.size(); ++trial)
+      errors[trial].push_back(
+          10.0 * std::cos(1.7 * (m / 2 + 1) * (static_cast<double>(trial) + m / 2)) +
+          (m % 2 == 0 ? 0.0 : 1e-3));
+  }
+  const auto ranking = rank_cell(cell_of(many), source_of(errors));
+  EXPECT_EQ(ranking.not_separable.size(), CellRanking::most_groups);
+  for (const auto& group : ranking.not_separable) EXPECT_THAT(group, SizeIs(20));
+}
+
 TEST(Ranking, SaysItInPlainSentences) {
   const auto sentences = rank_cell(cell_of(names), source_of(four_methods(300))).sentences;
   EXPECT_THAT(sentences.front(),
@@ -107,7 +139,7 @@ TEST(Ranking, AMethodWithoutAValueRanksLastInThatTrial) {
   EXPECT_EQ(ranking.methods.front().method, "kf");
   EXPECT_EQ(ranking.methods.front().missing, 1U);
   EXPECT_EQ(ranking.methods.front().mean_rank, 1.25);
-  EXPECT_THAT(ranking.sentences, Contains(HasSubstr("kf has no value in 1 trials")));
+  EXPECT_THAT(ranking.sentences, Contains(HasSubstr("kf has no value in 1 trial,")));
 }
 
 TEST(Ranking, WhatIsEqualIsSaidToBeEqual) {
