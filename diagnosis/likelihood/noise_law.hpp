@@ -34,11 +34,12 @@ struct NoiseLaw {
   double duration_s = 0.0;
   double white = 0.0;  ///< variance of a sample before the filter, dps²
   double walk = 0.0;   ///< variance that a random walk gains in a second, dps²/s
-  std::optional<effects::NoiseBandwidth> filter;  ///< that white noise has passed
-  std::vector<double> averaging;  ///< autocovariance of unit white noise that is averaged, or empty
-  std::vector<Decaying> decaying;
-  std::vector<Resonance> resonances;
-  std::optional<Jumps> jumps;
+  std::optional<effects::NoiseBandwidth> filter{};  ///< that white noise has passed
+  std::vector<double>
+      averaging{};  ///< autocovariance of unit white noise that is averaged, or empty
+  std::vector<Decaying> decaying{};
+  std::vector<Resonance> resonances{};
+  std::optional<Jumps> jumps{};
   double angle = 0.0;  ///< variance of the rate's part that is a difference of white errors, dps²
   double rounding = 0.0;  ///< variance that is white after the filter, dps²
 

@@ -35,21 +35,22 @@ struct Rival {
 struct FoundSet {
   Scenario baseline;  ///< no effects, fitted
   Scenario scenario;  ///< the set, fitted, with drift
-  std::vector<Member> members;
+  std::vector<Member> members{};
   /// Log odds of what stands in the scenario under the nearest name, where the effect that it has
   /// the form of is not in the catalogue; 0: all has its name.
   double nameless_log_odds = 0.0;
-  std::vector<Rival> rivals;
-  std::vector<ParameterInterval> intervals;  ///< of parameters of `scenario`, where they are known
-  std::vector<Unexplained> unexplained;      ///< beside the set
+  std::vector<Rival> rivals{};
+  std::vector<ParameterInterval>
+      intervals{};                         ///< of parameters of `scenario`, where they are known
+  std::vector<Unexplained> unexplained{};  ///< beside the set
   double gain = 0.0;  ///< log-likelihood of the rate's set, less its cost, beyond the baseline's
   /// What each effect would have gained at each step of the search.
-  std::vector<std::pair<std::string, double>> screening;
+  std::vector<std::pair<std::string, double>> screening{};
   /// The scenario with those effects of the set alone that have one of the names, its noise fitted
   /// anew. Outlives neither the simulator nor the recording.
-  std::function<Scenario(const std::vector<std::string>&)> subset;
+  std::function<Scenario(const std::vector<std::string>&)> subset{};
   /// What no name explains, beside the set with its drift; likewise.
-  std::function<std::vector<Nameless>(const Scenario&)> nameless;
+  std::function<std::vector<Nameless>(const Scenario&)> nameless{};
 };
 
 using SetSearchProgress = std::function<void(const std::string&, double)>;

@@ -6,6 +6,7 @@
 #include <gyrostat/analysis/error_series.hpp>
 #include <gyrostat/analysis/errors.hpp>
 #include <gyrostat/analysis/metric_type.hpp>
+#include <gyrostat/experiments/findings/report/places.hpp>
 #include <gyrostat/experiments/run/trial.hpp>
 
 namespace gyrostat {
@@ -44,9 +45,7 @@ std::vector<double> errors_of(const PreparedCell& alone, const Noise& noise, boo
               : std::vector<double>();
   std::vector<double> errors;
   t_s.clear();
-  const std::size_t samples = w.series.size(), points = std::min(most_points, samples);
-  for (std::size_t k = 0; k < points; ++k) {
-    const std::size_t i = points == 1 ? 0 : k * (samples - 1) / (points - 1);
+  for (const std::size_t i : places(w.series.size(), most_points)) {
     t_s.push_back(w.series.t_s[i] - w.series.t_s.front());
     errors.push_back(heading ? headings[i] : bias_error_dps(w.series, w.track, i));
   }

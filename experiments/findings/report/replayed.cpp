@@ -11,27 +11,19 @@
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/analysis/spectra/allan.hpp>
 #include <gyrostat/experiments/findings/cell_summary.hpp>
+#include <gyrostat/experiments/findings/report/places.hpp>
 #include <gyrostat/experiments/run/trial.hpp>
 
 namespace gyrostat {
 namespace {
 
-constexpr std::size_t most_points = 200;
+constexpr std::size_t most_replayed_points = 200;
 
 /// What one method made of one trial, at the times and taus of the picture; empty where it threw.
 struct Seen {
   std::vector<double> error, variance, heading, allan;
   double judged = no_value;  ///< the judging metric
 };
-
-/// Places in a signal: all of a short one, so many evenly spaced of a long one.
-std::vector<std::size_t> places(std::size_t samples) {
-  const std::size_t points = std::min(most_points, samples);
-  std::vector<std::size_t> at(points);
-  for (std::size_t k = 0; k < points; ++k)
-    at[k] = points == 1 ? 0 : k * (samples - 1) / (points - 1);
-  return at;
-}
 
 Seen look(const Series& series, const Series& judged, const Track& track,
           const std::vector<std::size_t>& at) {
@@ -92,7 +84,7 @@ Replayed replay_trials(const PreparedCell& prepared, std::uint64_t seed, std::ui
       .trials = trials, .truth = !cell.recording, .t_s = {}, .tau_s = {}, .methods = {}};
   Series first;
   make_trial(cell, seed, 0, first);
-  const auto at = places(first.size());
+  const auto at = places(first.size(), most_replayed_points);
   for (const std::size_t i : at) replayed.t_s.push_back(first.t_s[i] - first.t_s.front());
   if (first.size() >= 8)
     for (const std::size_t cluster : allan_clusters(first.size()))

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 """Fills the tables of page.md from the diagnoses beside it into README.md.
 
-    page.py [--check]
-
-With --check nothing is written; it fails where README.md is not what the sources make.
+    page.py [--check]                  with --check nothing is written; it fails where README.md is not what they make
+    page.py --line FOUND.json FILE AXIS     what every.jsonl keeps of a diagnosis
 """
 import json
 import sys
@@ -59,8 +58,54 @@ def promises(name):
     return "\n".join(lines)
 
 
+def line(found, file, axis):
+    """What the table of all recordings shows of a diagnosis."""
+    gap, remainder = found["gap"], found.get("remainder", {})
+    return {"file": file, "axis": axis, "duration_s": found["recording"]["duration_s"], "rate_hz": found["recording"]["rate_hz"],
+            "verdict": found["verdict"], "effects": {e["effect"]: round(e["inclusion"], 3) for e in found["effects"]},
+            "before": round(gap["before"], 3), "after": round(gap["after"], 3), "closed": round(gap["closed"], 3),
+            "closed_with": round(max(gap["closed"], remainder.get("closed_with", 0.0)), 3),
+            "p_before": float(f"{gap['p_before']:.2g}"), "p_after": float(f"{gap['p_after']:.2g}")}
+
+
+def every():
+    return [json.loads(text) for text in (here / "every.jsonl").read_text().splitlines()]
+
+
+def table_of_all():
+    lines = ["| recording and axis | verdict | effects (probability) | gap | closed | with what has no name | p after |",
+             "| --- | --- | --- | --- | ---: | ---: | ---: |"]
+    for r in every():
+        effects = ", ".join(f"{name} ({probability:.2g})" for name, probability in r["effects"].items()) or "–"
+        opened = r["p_before"] < 0.05
+        lines.append(f"| {r['file']} {r['axis']} | {r['verdict']} | {effects} | {r['before']:.2f} → {r['after']:.2f} | "
+                     + (f"{100 * r['closed']:.0f} % | {100 * r['closed_with']:.0f} %" if opened else "– | –")
+                     + f" | {r['p_after']:.2g} |")
+    return "\n".join(lines)
+
+
+def median(values):
+    ordered = sorted(values)
+    return (ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2
+
+
+def in_short():
+    """The sentence of numbers over all recordings whose gap is seen."""
+    opened = [r for r in every() if r["p_before"] < 0.05]
+    closed = [r["closed"] for r in opened]
+    nameless = [r["closed_with"] for r in opened]
+    return (f"Of {len(every())} axes {len(opened)} leave the simulator as it stands (p < .05). Named effects close a median of "
+            f"{100 * median(closed):.0f} % of the gap of these (least {100 * min(closed):.0f} %), with what has no name "
+            f"{100 * median(nameless):.0f} % (least {100 * min(nameless):.0f} %); in "
+            f"{sum(r['p_after'] >= 0.05 for r in opened)} nothing more is seen to be left.")
+
+
 def main():
+    if sys.argv[1:2] == ["--line"]:
+        print(json.dumps(line(json.loads(Path(sys.argv[2]).read_text()), *sys.argv[3:5])))
+        return
     text = (here / "page.md").read_text().replace("{{gaps}}", table())
+    text = text.replace("{{all}}", table_of_all()).replace("{{in short}}", in_short())
     text = text.replace("{{promises adis_1_x}}", promises("adis_1_x")).replace("{{promises mtig_first}}", promises("mtig_first"))
     target = here / "README.md"
     if "--check" in sys.argv[1:]:

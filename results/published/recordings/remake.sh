@@ -1,11 +1,11 @@
 #!/bin/sh
-# Diagnoses the real recordings again; needs a release build and ../shared/recordings. Causes are found
-# on one span or unit and judged on another.
+# Diagnoses the real recordings again; needs a release build and ../shared/recordings, and a quarter of an hour. Causes
+# are found on one span or unit and judged on another; then every axis of every recording is diagnosed whole.
 set -eu
 cd "$(dirname "$0")/../../.."
 recordings=${GYROSTAT_RECORDINGS:-../shared/recordings}
 out=results/published/recordings
-program=build/release/gyrostat
+program=${GYROSTAT:-build/release/gyrostat}
 
 # NAME FILE [options]: looks for causes, writes NAME.json, and NAME.study.json where there are any.
 find_causes() {
@@ -30,4 +30,18 @@ for axis in x y z; do
   judge adis_2_$axis adis_1_$axis adis16405_static_2 --axis $axis
   find_causes mpu6050_$axis mpu6050_static --axis $axis --to 330
   judge mpu6050_${axis}_later mpu6050_$axis mpu6050_static --axis $axis --from 330
+done
+
+# A line of every.jsonl for each axis of each recording that is diagnosed, in the order of their names.
+whole=$(mktemp -d)
+trap 'rm -r "$whole"' EXIT
+: > "$out/every.jsonl"
+for path in "$recordings"/*.csv.gz; do
+  file=$(basename "$path" .csv.gz)
+  for column in $(gzip -dc "$path" | head -1 | tr , '\n' | grep '^gyro_'); do
+    axis=${column#gyro_} axis=${axis%dps} axis=${axis%_}  # nothing where there is one gyro alone
+    if $program diagnose "$path" ${axis:+--axis "$axis"} --json "$whole/found.json" > /dev/null; then
+      "$out/page.py" --line "$whole/found.json" "$file" "$axis" >> "$out/every.jsonl"
+    fi
+  done
 done
