@@ -83,7 +83,7 @@ std::vector<ToDiagnose> each_of(const RecordingOption& recording,
   return all;
 }
 
-nlohmann::ordered_json members_json(const std::vector<gap::Member>& members,
+nlohmann::ordered_json members_json(const std::vector<gap::FleetMember>& members,
                                     const std::string& kind) {
   gap::Json json = {{"each", gap::Json::array()}, {"shared", gap::Json::array()}};
   for (const auto& m : members)
@@ -107,9 +107,10 @@ nlohmann::ordered_json members_json(const std::vector<gap::Member>& members,
   return json;
 }
 
-std::optional<std::vector<gap::Member>> diagnosed(const ToDiagnose& one, const SpanOption& span,
-                                                  const gap::DiagnosisOptions& options,
-                                                  Parts allowed, Console& console) {
+std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
+                                                       const SpanOption& span,
+                                                       const gap::DiagnosisOptions& options,
+                                                       Parts allowed, Console& console) {
   const auto& file = one.recording.file;
   const Interrupt interrupt(console.stop.orderly());
   const Series series = at_rest(one.recording.read(console.log, span), file, console.log);
@@ -118,7 +119,7 @@ std::optional<std::vector<gap::Member>> diagnosed(const ToDiagnose& one, const S
   if (parts.size() == 1) try {
       interrupt.check();
       auto diagnosis = diagnosis_of(series, file, options, interrupt, console);
-      return std::vector{gap::Member{one.name, std::move(diagnosis)}};
+      return std::vector{gap::FleetMember{one.name, std::move(diagnosis)}};
     } catch (const Interrupted&) {
       return std::nullopt;
     }
@@ -130,7 +131,7 @@ std::optional<std::vector<gap::Member>> diagnosed(const ToDiagnose& one, const S
       "{}: {} samples are diagnosed in {} parts; what is slower than a part shows with "
       "--resample\n",
       file, series.size(), parts.size());
-  std::vector<gap::Member> members;
+  std::vector<gap::FleetMember> members;
   for (const auto& [first, count] : parts) {
     const Series part = series.slice(first, count);
     const auto name =

@@ -32,11 +32,12 @@ enum class Parts { allowed, refused };
 /// The diagnoses of a span of a recording, at rest where it has no reference rate: one, or one of
 /// each of the equal parts of a long recording (refused where `parts` says so). Nothing where
 /// Ctrl-C ended it.
-std::optional<std::vector<gap::Member>> diagnosed(const ToDiagnose& one, const SpanOption& span,
-                                                  const gap::DiagnosisOptions& options, Parts parts,
-                                                  Console& console);
+std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
+                                                       const SpanOption& span,
+                                                       const gap::DiagnosisOptions& options,
+                                                       Parts parts, Console& console);
 
-nlohmann::ordered_json members_json(const std::vector<gap::Member>& members,
+nlohmann::ordered_json members_json(const std::vector<gap::FleetMember>& members,
                                     const std::string& kind);
 
 }  // namespace gyrostat::cli

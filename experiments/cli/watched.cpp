@@ -38,7 +38,7 @@ void WatchArguments::give_baseline(gap::DiagnosisOptions& options) const {
   if (!baseline.empty()) options.claim = read_study(baseline).cells.front().scenario;
 }
 
-int judge_health(const std::vector<gap::Member>& members, const std::string& file,
+int judge_health(const std::vector<gap::FleetMember>& members, const std::string& file,
                  const std::vector<gap::HealthRule>& rules, Console& console) {
   int code = complete;
   for (const auto& member : members)

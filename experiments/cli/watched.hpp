@@ -22,7 +22,7 @@ struct WatchArguments {
 };
 
 /// Tells which rules the diagnoses break, a line each; the exit code.
-int judge_health(const std::vector<gap::Member>& members, const std::string& file,
+int judge_health(const std::vector<gap::FleetMember>& members, const std::string& file,
                  const std::vector<gap::HealthRule>& rules, Console& console);
 
 /// Diagnoses each and prints a line of JSON for it. One that cannot be read has a line with the

@@ -84,7 +84,7 @@ SharedParameter over_members(const std::vector<Known>& all, const Effect& of, st
   return p;
 }
 
-const Included* found_in(const Member& member, const std::string& effect) {
+const Included* found_in(const FleetMember& member, const std::string& effect) {
   const auto& effects = member.diagnosis.effects;
   const auto at = std::find_if(effects.begin(), effects.end(),
                                [&](const auto& e) { return e.effect == effect; });
@@ -124,7 +124,7 @@ std::string effects_of(const Diagnosis& d) {
 
 }  // namespace
 
-std::vector<SharedEffect> shared_effects(const std::vector<Member>& members) {
+std::vector<SharedEffect> shared_effects(const std::vector<FleetMember>& members) {
   std::vector<SharedEffect> shared;
   for (const auto& cause : catalogue()) {
     std::map<std::string, std::vector<std::pair<std::string, const Included*>>> forms;
@@ -146,7 +146,7 @@ std::vector<SharedEffect> shared_effects(const std::vector<Member>& members) {
   return shared;
 }
 
-std::string shared_in_words(const std::vector<Member>& members) {
+std::string shared_in_words(const std::vector<FleetMember>& members) {
   std::vector<std::string> everywhere, some, alone;
   for (const auto& cause : catalogue()) {
     std::vector<std::string> with;
@@ -169,7 +169,7 @@ std::string shared_in_words(const std::vector<Member>& members) {
   return words;
 }
 
-std::vector<Table> member_tables(const std::vector<Member>& members, const std::string& kind) {
+std::vector<Table> member_tables(const std::vector<FleetMember>& members, const std::string& kind) {
   Table each{.title = "each " + kind,
              .columns = {{kind, ""},
                          {"verdict", ""},

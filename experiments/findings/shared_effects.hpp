@@ -9,7 +9,7 @@
 namespace gyrostat::gap {
 
 /// One of several that were diagnosed alike: an axis of a sensor, or a sensor of a fleet.
-struct Member {
+struct FleetMember {
   std::string name;
   Diagnosis diagnosis;
 };
@@ -36,12 +36,12 @@ struct SharedEffect {
 };
 
 /// Those of most members first.
-std::vector<SharedEffect> shared_effects(const std::vector<Member>& members);
+std::vector<SharedEffect> shared_effects(const std::vector<FleetMember>& members);
 
 /// What all have, what some have, what one alone has; a sentence each.
-std::string shared_in_words(const std::vector<Member>& members);
+std::string shared_in_words(const std::vector<FleetMember>& members);
 
 /// A row a member, then what they share. `kind` is what a member is: "axis", "sensor".
-std::vector<Table> member_tables(const std::vector<Member>& members, const std::string& kind);
+std::vector<Table> member_tables(const std::vector<FleetMember>& members, const std::string& kind);
 
 }  // namespace gyrostat::gap

@@ -120,8 +120,8 @@ void print_one(const DiagnoseArguments& arguments, const gap::Diagnosis& diagnos
       console.log << fmt::format("{:<16} {:.2f} s\n", part, seconds);
 }
 
-void print_several(const std::vector<gap::Member>& members, const std::string& kind, Format format,
-                   Console& console) {
+void print_several(const std::vector<gap::FleetMember>& members, const std::string& kind,
+                   Format format, Console& console) {
   if (format == Format::text) {
     console.out << gap::shared_in_words(members) << "\n\n";
     for (const auto& m : members)
@@ -155,7 +155,7 @@ int run(DiagnoseArguments& arguments, Console& console) {
   if (!arguments.figures_out.empty()) make_result_folder(arguments.figures_out);
   const std::string kind = !further.empty() ? "sensor" : axis == "all" ? "axis" : "part";
   const auto parts = any(of_one(arguments)) ? Parts::refused : Parts::allowed;
-  std::vector<gap::Member> members;
+  std::vector<gap::FleetMember> members;
   for (const auto& one : all) {
     if (all.size() > 1) console.log << fmt::format("{} {}\n", kind, one.name);
     auto some = diagnosed(one, arguments.span, arguments.options, parts, console);

@@ -15,7 +15,7 @@ namespace gyrostat::gap::shared_effects_test {
 namespace {
 
 /// A member with a vibration of the given standard deviation, known to `error`.
-Member with_vibration(const std::string& name, double std_dps, double error) {
+FleetMember with_vibration(const std::string& name, double std_dps, double error) {
   Diagnosis d;
   const Effect effect = effects::Vibration{.std_dps = std_dps};
   const double reach = 1.959964 * error;
@@ -29,8 +29,8 @@ Member with_vibration(const std::string& name, double std_dps, double error) {
 /// With equal errors s, the estimate of the spread is sqrt(sample variance - s^2), and the mean is
 /// the plain one: Paule and Mandel's equation in closed form.
 TEST(SharedEffects, SpreadIsWhatErrorsDoNotExplain) {
-  const std::vector<Member> members = {with_vibration("a", 1.0, 0.1), with_vibration("b", 1.6, 0.1),
-                                       with_vibration("c", 2.2, 0.1)};
+  const std::vector<FleetMember> members = {
+      with_vibration("a", 1.0, 0.1), with_vibration("b", 1.6, 0.1), with_vibration("c", 2.2, 0.1)};
   const auto shared = shared_effects(members);
   ASSERT_EQ(shared.size(), 1);
   const auto& p = shared[0].parameters[0];
@@ -48,7 +48,7 @@ TEST(SharedEffects, HoldWhereMembersAreAlike) {
   NormalStream(7, 0, "shared_effects_test").fill(0, normal);
   int below = 0, held = 0;
   for (int family = 0; family < families; ++family) {
-    std::vector<Member> members;
+    std::vector<FleetMember> members;
     for (int m = 0; m < size; ++m)
       members.push_back(with_vibration(
           std::to_string(m), 1.0 + 0.1 * normal[static_cast<std::size_t>(family * size + m)], 0.1));
@@ -60,7 +60,7 @@ TEST(SharedEffects, HoldWhereMembersAreAlike) {
   EXPECT_GT(held / double{families}, 0.90);
 }
 
-Member with_averaging(const std::string& name, double length, double stages) {
+FleetMember with_averaging(const std::string& name, double length, double stages) {
   Diagnosis d;
   const Effect effect = effects::NoiseAveraging{.length = length, .stages = stages};
   d.effects.push_back({.effect = "noise_averaging", .parameters = {effect}});
@@ -87,7 +87,7 @@ TEST(SharedEffects, OfDifferingFormsAreToldApart) {
 }
 
 TEST(SharedEffects, AreToldInWords) {
-  Member other{"c", {}};
+  FleetMember other{"c", {}};
   EXPECT_EQ(shared_in_words({with_vibration("a", 1.0, 0.1), with_vibration("b", 1.0, 0.1), other}),
             "Some have: vibration (a, b).");
   EXPECT_EQ(shared_in_words({with_vibration("a", 1.0, 0.1), with_vibration("b", 1.0, 0.1)}),
