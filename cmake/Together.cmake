@@ -3,7 +3,8 @@
 option(GYROSTAT_TOGETHER "Compile several sources as one" ON)
 
 # Sources of one folder are compiled together, some `batch` at a time; a folder of few counts as the one above it. Which
-# goes with which is told by their names alone, so that a new source has its own batch compiled anew, and no other.
+# goes with which is told by their names alone, so that a new source has its own batch compiled anew, and no other. What
+# CMake writes of plug-ins is compiled alone, since every new plug-in changes it.
 function(gyrostat_together target batch)
   if(NOT GYROSTAT_TOGETHER OR NOT TARGET ${target})
     return()
@@ -13,7 +14,10 @@ function(gyrostat_together target batch)
   set(groups "")
   foreach(source IN LISTS sources)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${base} OUTPUT_VARIABLE folder)
-    string(REPLACE "${PROJECT_BINARY_DIR}/generated/gyrostat" "${PROJECT_SOURCE_DIR}" folder ${folder})
+    if(folder MATCHES "^${PROJECT_BINARY_DIR}/")
+      set_property(SOURCE ${source} TARGET_DIRECTORY ${target} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
+      continue()
+    endif()
     cmake_path(GET folder PARENT_PATH folder)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
     list(APPEND folders ${folder})

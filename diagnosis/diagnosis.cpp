@@ -14,12 +14,16 @@
 #include <gyrostat/diagnosis/gap/ensemble.hpp>
 #include <gyrostat/diagnosis/gap/scoring.hpp>
 #include <gyrostat/diagnosis/lens_band.hpp>
+#include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
 #include <gyrostat/diagnosis/model_fit.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
 
 namespace gyrostat::gap {
 namespace {
+
+/// All the noise of a compass there is, where a scenario has it (with_nameless).
+constexpr std::string_view nameless_compass = "empirical_compass_noise";
 
 constexpr std::size_t fewest_samples = 1000;
 constexpr std::size_t transfer_replicas = 6;
@@ -76,8 +80,8 @@ class Work {
   std::vector<std::string> weighed(std::vector<Member> members);
   bool is_missed_by(const Rung& rung) const;
   /// Odds are those of a likelihood that is as far off as the readings of its channel say: its
-  /// logarithm over their mean square deviation (quasi-likelihood; Wedderburn, Biometrika 61, 1974).
-  /// What is read off the values has no likelihood of the noise.
+  /// logarithm over their mean square deviation (quasi-likelihood; Wedderburn, Biometrika 61,
+  /// 1974). What is read off the values has no likelihood of the noise.
   void temper();
   void judge_claim();
   Rung rung(const std::string& effect, const Scenario& scenario, std::size_t replicas) const;
@@ -213,6 +217,8 @@ Scenario Work::with_effects(const std::vector<std::string>& names) const {
   std::erase_if(scenario.effects, [&](const auto& effect) {
     return std::find(names.begin(), names.end(), effect.id()) == names.end();
   });
+  if (has(result_.enriched, nameless_compass) && !has(scenario, nameless_compass))
+    scenario.compass.noise_std_deg = result_.baseline.compass.noise_std_deg;
   return scenario;
 }
 
@@ -265,13 +271,14 @@ std::vector<std::string> Work::weighed(std::vector<Member> members) {
       auto others = names;
       std::erase(others, m.effect);
       without.push_back(rung(m.effect, with_effects(others), lacking_replicas));
-      result_.effects.push_back({.effect = m.effect,
-                                 .inclusion = probability_of(m.log_odds),
-                                 .log_odds = m.log_odds,
-                                 .lack = truth.value - scoring_->of(without.back().replicas[0]).value,
-                                 .gap_without = 0.0,
-                                 .parameters = {},
-                                 .intervals = {}});
+      result_.effects.push_back(
+          {.effect = m.effect,
+           .inclusion = probability_of(m.log_odds),
+           .log_odds = m.log_odds,
+           .lack = truth.value - scoring_->of(without.back().replicas[0]).value,
+           .gap_without = 0.0,
+           .parameters = {},
+           .intervals = {}});
       held_out_without_.push_back(held_out_scoring_->of(without.back().replicas[1]));
       for (const auto& effect : result_.enriched.effects)
         if (effect.id() == m.effect) result_.effects.back().parameters.push_back(effect);
@@ -389,6 +396,10 @@ void Work::judge_claim() {
   Scenario scenario = result_.baseline;
   scenario.random_error = options_.claim->random_error;
   scenario.effects = options_.claim->effects;
+  const auto& compass = options_.claim->compass;
+  if (has(scenario, nameless_compass) ||
+      compass.noise_std_deg > 0.0)  // else it says nothing of one
+    scenario.compass.noise_std_deg = compass.noise_std_deg;
   result_.enriched = scenario;
   std::vector<std::string> names;
   for (const auto& effect : scenario.effects) {

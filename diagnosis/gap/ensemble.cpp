@@ -1,6 +1,7 @@
 #include <gyrostat/diagnosis/gap/ensemble.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -60,7 +61,11 @@ Ensemble::Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas
                          .array())
                   .max(0.0)
                   .sqrt();
-  vary_as_credited(off);
+  lacking_ = credited_.cwiseProduct(spread_);
+  Eigen::MatrixXd drawn(off.rows(), count);
+  for (Eigen::Index k = 0; k < count; ++k) drawn.col(k) = made_up(static_cast<std::uint64_t>(k));
+  mean_made_up_ = drawn.rowwise().mean();
+  off += drawn.colwise() - mean_made_up_;
   if (jacobian.cols() > 0) {
     refit_left_ = jacobian;
     const Eigen::MatrixXd weighted = spread_.cwiseAbs2().cwiseInverse().asDiagonal() * jacobian;
@@ -108,7 +113,7 @@ Ensemble::Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas
     return tails;
   };
   for (Eigen::Index k = 0; k < count; ++k) {
-    replica_least_.push_back(least_probability(z.col(k), tails_without(k), Credited::already));
+    replica_least_.push_back(least_probability(z.col(k), tails_without(k)));
     replica_largest_.push_back(z.col(k).cwiseAbs().maxCoeff());
   }
   tails_ = tails_without(count);
@@ -117,17 +122,17 @@ Ensemble::Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas
 }
 
 /// Where all replicas read the same, a recording that differs by far less than what is credited
-/// would otherwise be infinitely far off.
-void Ensemble::vary_as_credited(Eigen::MatrixXd& off) const {
-  for (Eigen::Index i = 0; i < off.rows(); ++i) {
-    if (!(credited_[i] > 0.0)) continue;
-    const NormalStream stream(0, static_cast<std::uint32_t>(i), "ensemble/credited");
-    Eigen::RowVectorXd made_up(off.cols());
-    for (Eigen::Index k = 0; k < off.cols(); ++k)
-      made_up[k] = stream.normal(static_cast<std::uint64_t>(k));
-    made_up.array() -= made_up.mean();
-    off.row(i) += credited_[i] * spread_[i] * made_up;
-  }
+/// would otherwise be infinitely far off. What they lack is drawn, for each of them and for a
+/// recording alike, so that one of their own is exchangeable with them; from streams that the
+/// replicas seed, so that it is another draw for other replicas.
+Eigen::VectorXd Ensemble::made_up(std::uint64_t column) const {
+  Eigen::VectorXd off = Eigen::VectorXd::Zero(mean_.size());
+  for (Eigen::Index i = 0; i < off.size(); ++i)
+    if (lacking_[i] > 0.0)
+      off[i] = lacking_[i] * NormalStream(std::bit_cast<std::uint64_t>(mean_.sum()),
+                                          static_cast<std::uint32_t>(i), "ensemble/credited")
+                                 .normal(column);
+  return off;
 }
 
 Eigen::VectorXd Ensemble::deviations(const Eigen::VectorXd& readings) const {
@@ -149,14 +154,11 @@ Eigen::VectorXd Ensemble::lens_deviations(const Eigen::VectorXd& z) const {
   return t;
 }
 
-double Ensemble::least_probability(const Eigen::VectorXd& z, const std::vector<Tail>& tails,
-                                   Credited credited) const {
+double Ensemble::least_probability(const Eigen::VectorXd& z, const std::vector<Tail>& tails) const {
   double least = 1.0;
   for (std::size_t l = 0; l < lenses_.size(); ++l) {
     const auto& tail = tails[l];
-    const double square = credited == Credited::already ? std::log(mean_square(z, lenses_[l]))
-                                                        : log_mean_square(z, lenses_[l]);
-    const double off = (square - tail.centre) / tail.spread;
+    const double off = (std::log(mean_square(z, lenses_[l])) - tail.centre) / tail.spread;
     least = std::min(least, std::erfc(std::abs(off) / std::numbers::sqrt2));
     least = std::min(least,
                      -std::expm1(-std::exp((tail.location - largest(z, lenses_[l])) / tail.width)));
@@ -165,7 +167,8 @@ double Ensemble::least_probability(const Eigen::VectorXd& z, const std::vector<T
 }
 
 double Ensemble::p_value(const Eigen::VectorXd& readings) const {
-  const double least = least_probability(deviations(readings), tails_, Credited::not_yet);
+  const double least = least_probability(
+      deviations(readings + made_up(replica_least_.size()) - mean_made_up_), tails_);
   const auto below = std::upper_bound(replica_least_.begin(), replica_least_.end(), least) -
                      replica_least_.begin();
   const double n = static_cast<double>(replica_least_.size());

@@ -51,16 +51,15 @@ class Ensemble {
   struct Tail {
     double centre, spread, location, width;
   };
-  /// Normal deviates make up for what the replicas lack of the spread.
-  void vary_as_credited(Eigen::MatrixXd& off) const;
-  /// Whether deviations vary by what their readings are credited with.
-  enum class Credited { not_yet, already };
-  double least_probability(const Eigen::VectorXd& deviations, const std::vector<Tail>& tails,
-                           Credited credited) const;
+  /// What a column of readings lacks of the credited spread, drawn.
+  Eigen::VectorXd made_up(std::uint64_t column) const;
+  double least_probability(const Eigen::VectorXd& deviations, const std::vector<Tail>& tails) const;
   double log_mean_square(const Eigen::VectorXd& deviations, const LensView& lens) const;
 
   std::vector<LensView> lenses_;
   Eigen::VectorXd mean_, spread_, credited_;
+  Eigen::VectorXd lacking_,
+      mean_made_up_;  ///< spread that is credited, and the replicas' mean draw of it
   Eigen::MatrixXd refit_left_, refit_right_;  ///< J, and (J' W J)^-1 J' W
   std::vector<Tail> tails_;
   std::vector<double> replica_least_;    ///< sorted

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -66,9 +67,9 @@ std::string joined(const std::vector<std::string>& cells) {
 }  // namespace
 
 std::string latex(const Table& table) {
-  std::string out = "\\begin{table}\n\\caption{" + escaped(one_line(table.title)) +
-                    "}\n\\begin{tabular}{l" + std::string(table.columns.size() - 1, 'r') +
-                    "}\n\\toprule\n";
+  std::string out =
+      "\\begin{table}\n\\caption{" + escaped(one_line(table.title)) + "}\n\\begin{tabular}{l" +
+      std::string(std::max(table.columns.size(), std::size_t{1}) - 1, 'r') + "}\n\\toprule\n";
   std::vector<std::string> heads;
   for (const auto& column : table.columns) heads.push_back(escaped(head(column)));
   out += joined(heads) + "\\midrule\n";

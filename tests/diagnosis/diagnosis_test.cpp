@@ -110,6 +110,17 @@ TEST(Diagnosis, JudgesACauseThatWasFoundElsewhere) {
   EXPECT_LT(wrong.closed, 0.3);
 }
 
+TEST(Diagnosis, AClaimedColourOfTheCompassIsAllItsNoise) {
+  Scenario s = still();
+  s.compass.noise_std_deg = 0.0;
+  s.effects = {effects::EmpiricalCompassNoise{.innovation_std_deg = 0.3, .reflection_1 = -0.7}};
+  DiagnosisOptions options;
+  options.claim = s;
+  const auto right = diagnose(recorded(s, 32, true), options);
+  EXPECT_GT(right.closed, 0.8);
+  EXPECT_GT(right.p_after, 1e-4);  // one in ten thousand of its own recordings
+}
+
 TEST(Diagnosis, IsTheSameForAnyNumberOfThreads) {
   Scenario s = moving();
   s.effects = {effects::ScaleFactor{0.01}};

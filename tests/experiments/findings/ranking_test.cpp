@@ -105,8 +105,8 @@ TEST(Ranking, GroupsThatNobodyCouldReadAreNotAllSought) {
     many.push_back(fmt::format("kf#{}", m));
     for (std::size_t trial = 0; trial < errors.size(); ++trial)
       errors[trial].push_back(
-          10.0 * std::cos(1.7 * (m / 2 + 1) * (static_cast<double>(trial) + m / 2)) +
-          (m % 2 == 0 ? 0.0 : 1e-3));
+          100.0 + 10.0 * std::cos(1.7 * (m / 2 + 1) * (static_cast<double>(trial) + m / 2)) +
+          (m % 2 == 0 ? 0.0 : 1.0 + 0.1 * std::sin(static_cast<double>(trial))));
   }
   const auto ranking = rank_cell(cell_of(many), source_of(errors));
   EXPECT_EQ(ranking.not_separable.size(), CellRanking::most_groups);
