@@ -94,10 +94,13 @@ def in_short():
     opened = [r for r in every() if r["p_before"] < 0.05]
     closed = [r["closed"] for r in opened]
     nameless = [r["closed_with"] for r in opened]
+    wide = [r for r in opened if r["before"] > 1]
     return (f"Of {len(every())} axes {len(opened)} leave the simulator as it stands (p < .05). Named effects close a median of "
             f"{100 * median(closed):.0f} % of the gap of these (least {100 * min(closed):.0f} %), with what has no name "
             f"{100 * median(nameless):.0f} % (least {100 * min(nameless):.0f} %); in "
-            f"{sum(r['p_after'] >= 0.05 for r in opened)} nothing more is seen to be left.")
+            f"{sum(r['p_after'] >= 0.05 for r in opened)} nothing more is seen to be left. Of the "
+            f"{len(wide)} whose gap is above one spread the medians are {100 * median([r['closed'] for r in wide]):.0f} % and "
+            f"{100 * median([r['closed_with'] for r in wide]):.0f} %.")
 
 
 def main():
