@@ -31,9 +31,12 @@ Series cut(const Series& series, double from_s, double to_s, std::string_view pl
   };
   const std::size_t first = index_at(from_s), last = index_at(to_s);
   if (last <= first)
-    throw InputError(place, "no samples between " + short_number(from_s) + " s and " +
-                                short_number(to_s) + " s; the recording lasts " +
-                                short_number(series.duration_s()) + " s");
+    throw InputError(
+        place, "no samples " +
+                   (from_s >= series.duration_s() ? "from " + short_number(from_s) + " s on"
+                                                  : "between " + short_number(from_s) + " s and " +
+                                                        short_number(to_s) + " s") +
+                   "; the recording lasts " + short_number(series.duration_s()) + " s");
   return series.slice(first, last - first);
 }
 
