@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include <gyrostat/experiments/run/trial.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 #include <gyrostat/python/convert.hpp>
@@ -84,7 +85,9 @@ RecordingHandle simulate(const std::string& json, const std::string& path, const
     const Cell& chosen = cell_named(study, cell, "cell");
     auto made = std::make_shared<NamedRecording>();
     made->name = fmt::format("{}: trial {} of {}", study.name(), trial, chosen.name);
-    synthesise(chosen.scenario, {study.seed, trial}, made->series);
+    Scenario drawn;
+    const Noise noise{study.seed, trial};
+    synthesise(sensor_of(chosen, noise, drawn), noise, made->series);
     return RecordingHandle(std::move(made));
   });
 }

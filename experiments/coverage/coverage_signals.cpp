@@ -57,6 +57,8 @@ bool is_stationary_noise(const Cell& cell) {
 }  // namespace
 
 std::vector<Coverage> of_signals(const CoverageStudy& study, const Study& cells, const Cell& cell) {
+  if (cell.fleet)
+    throw InputError(cell.name, "draws its sensors from a fleet; coverage is of one sensor");
   const auto samples = static_cast<std::uint32_t>(cell.scenario.sampling.samples());
   const auto make = [&](const char* interval) {
     return Coverage{interval, cell.name, samples, {}};

@@ -86,12 +86,14 @@ Table calibration_table(const Cell& cell, const Calibration& fit, const CellSumm
                                           : "a calibration signal of the same scenario"),
       .columns = {
           {"parameter", ""}, {"unit", ""}, {"fitted", ""}, {"standard error", ""}, {"true", ""}}};
+  const bool one_of_many = cell.fleet && cell.calibration.each_trial;
+  const bool unknown = cell.recording || one_of_many;
   const auto add = [&](const auto& fitted, const auto& errors, const auto& truth) {
     using P = std::remove_cvref_t<decltype(fitted)>;
     for (const auto& f : P::fields())
       table.rows.push_back({std::string(f.name), std::string(f.unit), fitted.*(f.member),
                             errors.*(f.member),
-                            cell.recording ? TableCell() : TableCell(truth.*(f.member))});
+                            unknown ? TableCell() : TableCell(truth.*(f.member))});
   };
   add(fit.random_error.parameters, fit.random_error.standard_errors, cell.scenario.random_error);
   if (fit.thermal)

@@ -8,51 +8,15 @@
 #include <fmt/ranges.h>
 
 #include <gyrostat/analysis/statistics/distributions.hpp>
+#include <gyrostat/analysis/statistics/random_effects.hpp>
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/experiments/study/fleet.hpp>
 
 namespace gyrostat::gap {
 namespace {
 
-/// A parameter of one member, with its standard error.
-struct Known {
-  double value, error;
-};
-
-double sum_of_weights(const std::vector<Known>& all, double variance) {
-  double sum = 0.0;
-  for (const auto& k : all) sum += 1.0 / (k.error * k.error + variance);
-  return sum;
-}
-
-double weighted_mean(const std::vector<Known>& all, double variance) {
-  double sum = 0.0;
-  for (const auto& k : all) sum += k.value / (k.error * k.error + variance);
-  return sum / sum_of_weights(all, variance);
-}
-
-/// Cochran's Q with a variance between the members; it falls with that.
-double q_of(const std::vector<Known>& all, double variance) {
-  const double mean = weighted_mean(all, variance);
-  double q = 0.0;
-  for (const auto& k : all)
-    q += (k.value - mean) * (k.value - mean) / (k.error * k.error + variance);
-  return q;
-}
-
-/// The standard deviation between members at which Q is `q`; 0 where it is less without one.
-double spread_at(const std::vector<Known>& all, double q) {
-  if (q_of(all, 0.0) <= q) return 0.0;
-  double low = 0.0, high = 0.0;
-  for (const auto& k : all) high = std::max(high, std::abs(k.value) + k.error);
-  while (q_of(all, high * high) > q && high < 1e12) high *= 2.0;
-  for (int halving = 0; halving < 80; ++halving) {
-    const double middle = 0.5 * (low + high);
-    (q_of(all, middle * middle) > q ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
-SharedParameter over_members(const std::vector<Known>& all, const Effect& of, std::size_t field) {
+SharedParameter over_members(const std::vector<MemberValue>& all, const Effect& of,
+                             std::size_t field) {
   const auto& described = of.fields()[field];
   SharedParameter p{.name = std::string(described.name),
                     .unit = std::string(described.unit),
@@ -69,16 +33,13 @@ SharedParameter over_members(const std::vector<Known>& all, const Effect& of, st
     return p;
   }
   const double degrees = n - 1.0;
-  p.p_equal = chi_squared_upper_tail(q_of(all, 0.0), degrees);
-  p.spread = spread_at(all, degrees);
+  p.p_equal = chi_squared_upper_tail(q_between(all, 0.0), degrees);
   p.spread_low = spread_at(all, chi_squared_upper_quantile(0.025, degrees));
   p.spread_high = spread_at(all, chi_squared_quantile(0.025, degrees));
-  const double variance = p.spread * p.spread;
-  p.mean = weighted_mean(all, variance);
-  // Never narrower than the members' own errors make it.
-  const double q = std::max(1.0, q_of(all, variance) / degrees);
-  const double reach =
-      student_t_two_sided(0.95, degrees) * std::sqrt(q / sum_of_weights(all, variance));
+  const auto population = random_effects(all);
+  p.spread = population.spread;
+  p.mean = population.mean;
+  const double reach = student_t_two_sided(0.95, degrees) * population.mean_error;
   p.mean_low = p.mean - reach;
   p.mean_high = p.mean + reach;
   return p;
@@ -91,21 +52,10 @@ const Included* found_in(const FleetMember& member, const std::string& effect) {
   return at == effects.end() || at->parameters.empty() ? nullptr : &*at;
 }
 
-/// "stages 2": an effect's parameters that are whole numbers choose between laws, so that its
-/// others mean something else.
-std::string form_of(const Effect& effect) {
-  std::string form;
-  for (std::size_t field = 0; field < effect.fields().size(); ++field)
-    if (const auto& described = effect.fields()[field]; described.range.whole)
-      form +=
-          fmt::format("{}{} {:g}", form.empty() ? "" : ", ", described.name, effect.value(field));
-  return form;
-}
-
 /// A parameter in each of those that an effect was found in.
-std::vector<Known> known_of(const std::vector<std::pair<std::string, const Included*>>& found,
-                            std::size_t field) {
-  std::vector<Known> known;
+std::vector<MemberValue> known_of(const std::vector<std::pair<std::string, const Included*>>& found,
+                                  std::size_t field) {
+  std::vector<MemberValue> known;
   for (const auto& [name, included] : found) {
     const auto interval = included->intervals.size() > field
                               ? included->intervals[field]

@@ -22,11 +22,13 @@ Played play(const Cell& plain, const CellResult& result, std::uint64_t seed, std
   const auto calibration = cell.calibration.each_trial && cell.needs_calibration()
                                ? calibrate_cell(cell, seed, trial, buffer)
                                : result.calibration;
+  Scenario drawn;
+  const auto& sensor = sensor_of(cell, {seed, trial}, drawn);
   for (const std::size_t m : methods) {
     const auto& method = cell.methods[m];
     played.ids.push_back(method.id);
-    track_method(method, told_parameters(cell, method, calibration, played.series), played.series,
-                 played.tracks.emplace_back());
+    track_method(method, told_parameters(cell, sensor, method, calibration, played.series),
+                 played.series, played.tracks.emplace_back());
   }
   return played;
 }

@@ -12,6 +12,7 @@
 #include <sys/utsname.h>
 
 #include <gyrostat/experiments/run/build_info.hpp>
+#include <gyrostat/experiments/study/fleet.hpp>
 
 namespace gyrostat {
 
@@ -34,6 +35,9 @@ Build build_for(const Study& study) {
   for (const auto& cell : study.cells) {
     for (const auto& method : cell.methods) note(filter_types().find(method.filter));
     for (const auto& effect : cell.scenario.effects) note(&effect.type());
+    if (!cell.fleet || !cell.fleet->draws_effects()) continue;
+    for (const auto& unit : cell.fleet->units())
+      for (const auto& effect : unit.scenario.effects) note(&effect.type());
   }
   auto build = this_build();
   if (!plugins.empty())

@@ -53,12 +53,14 @@ NoiseTape drawn(const PreparedCell& prepared, const Noise& noise) {
   Series series;
   auto heard = noise;
   heard.tape = &tape;
-  synthesise(cell.scenario, heard, series);
+  Scenario drawn_sensor;
+  const auto& sensor = sensor_of(cell, heard, drawn_sensor);
+  synthesise(sensor, heard, series);
   if (!cell.calibration.each_trial || !cell.needs_calibration()) return tape;
   NoiseTape of_calibration;
   auto calibration = calibration_noise(noise);
   calibration.tape = &of_calibration;
-  auto scenario = cell.scenario;
+  auto scenario = sensor;
   if (cell.calibration.duration_s > 0.0) scenario.sampling.duration_s = cell.calibration.duration_s;
   synthesise(scenario, calibration, series);
   for (auto& [name, deviates] : of_calibration) tape["calibration/" + name] = std::move(deviates);

@@ -40,7 +40,8 @@ PreparedCell prepare_cell(const Cell& cell, std::uint64_t seed, int threads) {
   if (cell.needs_calibration()) prepared.calibration = calibrate_cell(cell, seed, 0, buffer);
   prepared.tuned = tune_methods(cell, prepared.calibration, seed);
   prepared.cell = with_tuned(cell, prepared.tuned);
-  if (!cell.recording && !cell.denoise) prepared.conditions = shared_conditions(cell.scenario);
+  if (!cell.recording && !cell.denoise && !cell.fleet)
+    prepared.conditions = shared_conditions(cell.scenario);
   return prepared;
 }
 

@@ -11,6 +11,7 @@
 #include <gyrostat/core/packed/kernels.hpp>
 #include <gyrostat/experiments/run/method_in_lanes.hpp>
 #include <gyrostat/experiments/run/stretch.hpp>
+#include <gyrostat/experiments/study/fleet.hpp>
 #include <gyrostat/generators/true_parameters.hpp>
 
 namespace gyrostat {
@@ -50,12 +51,19 @@ std::vector<double> numbers_of(const TrackErrors& errors, double uncompensated_d
 
 }  // namespace
 
+const Scenario& sensor_of(const Cell& cell, const Noise& trial, Scenario& drawn) {
+  if (!cell.fleet) return cell.scenario;
+  cell.fleet->draw(cell.scenario, trial, drawn);
+  return drawn;
+}
+
 void make_trial(const Cell& cell, std::uint64_t seed, std::uint32_t trial, Series& series) {
   make_trial(cell, {seed, trial}, series);
 }
 
 void make_trial(const Cell& cell, const Noise& noise, Series& series) {
-  if (!cell.recording) return synthesise(cell.scenario, noise, series);
+  Scenario drawn;
+  if (!cell.recording) return synthesise(sensor_of(cell, noise, drawn), noise, series);
   const std::size_t samples = cell.scenario.sampling.samples();
   series = cell.recording->slice(noise.trial * samples, samples);
 }
@@ -85,10 +93,10 @@ Noise calibration_noise(std::uint64_t seed, std::uint32_t trial) { return {~seed
 
 Noise calibration_noise(const Noise& trial) { return {~trial.seed, trial.trial, trial.shares}; }
 
-ParameterMap told_parameters(const Cell& cell, const Method& method, const Calibration& calibration,
-                             const Series& series) {
+ParameterMap told_parameters(const Cell& cell, const Scenario& sensor, const Method& method,
+                             const Calibration& calibration, const Series& series) {
   ParameterMap parameters;
-  if (method.source == ParameterSource::truth) parameters = true_parameters(cell.scenario);
+  if (method.source == ParameterSource::truth) parameters = true_parameters(sensor);
   if (method.source == ParameterSource::calibration)
     parameters = parameters_from(
         calibration, series.temperature_C.empty() ? no_value : series.temperature_C.front());
@@ -107,6 +115,7 @@ Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t t
 Calibration calibrate_cell(const Cell& cell, const Noise& trial, Series& buffer) {
   if (cell.recording) return calibrate(cell.calibration_span, cell.calibration.method);
   Scenario scenario = cell.scenario;
+  if (cell.calibration.each_trial) scenario = sensor_of(cell, trial, scenario);
   if (cell.calibration.duration_s > 0.0) scenario.sampling.duration_s = cell.calibration.duration_s;
   synthesise(scenario, calibration_noise(trial), buffer);
   return calibrate(buffer, cell.calibration.method);
@@ -117,7 +126,9 @@ void track_trial(const Cell& cell, const Method& method, const Calibration& shar
   make_trial(cell, trial, workspace.series);
   const bool own = cell.calibration.each_trial && cell.needs_calibration();
   const auto calibration = own ? calibrate_cell(cell, trial, workspace.calibration_series) : shared;
-  track_method(method, told_parameters(cell, method, calibration, workspace.series),
+  Scenario drawn;
+  const auto& sensor = sensor_of(cell, trial, drawn);
+  track_method(method, told_parameters(cell, sensor, method, calibration, workspace.series),
                workspace.series, workspace.track);
 }
 
@@ -309,9 +320,11 @@ class TrialsTogether {
 
   std::vector<ParameterMap> told(std::size_t m, std::size_t from, std::size_t trials) const {
     std::vector<ParameterMap> told;
+    Scenario drawn;
     for (std::size_t l = from; l < from + trials; ++l)
       told.push_back(
-          told_parameters(cell_, cell_.methods[m], cell_.calibration.each_trial ? own_[l] : shared_,
+          told_parameters(cell_, sensor_of(cell_, trials_[l], drawn), cell_.methods[m],
+                          cell_.calibration.each_trial ? own_[l] : shared_,
                           conditions_ != nullptr ? conditions_->series : lanes_[l].series));
     return told;
   }

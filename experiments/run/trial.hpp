@@ -35,6 +35,11 @@ struct Workspace {
   std::vector<double> steps;
 };
 
+/// What the trial's signal is made of: the cell's scenario, or `drawn`, into which the sensor of
+/// the trial is put where there is a fleet to draw it from. Every method of the trial meets this
+/// sensor.
+const Scenario& sensor_of(const Cell& cell, const Noise& trial, Scenario& drawn);
+
 /// The signal of trial `trial` of a cell into `series`, or that under any noise.
 void make_trial(const Cell& cell, std::uint64_t seed, std::uint32_t trial, Series& series);
 void make_trial(const Cell& cell, const Noise& noise, Series& series);
@@ -55,12 +60,14 @@ Noise calibration_noise(std::uint64_t seed, std::uint32_t trial);
 /// That of a trial's own calibration: mixed as the trial's.
 Noise calibration_noise(const Noise& trial);
 
-/// What the method is told for this signal, before its own overrides.
-ParameterMap told_parameters(const Cell& cell, const Method& method, const Calibration& calibration,
-                             const Series& series);
+/// What the method is told for this signal of `sensor`, before its own overrides: the calibration's
+/// parameters, or the sensor's own where its parameters are from the truth.
+ParameterMap told_parameters(const Cell& cell, const Scenario& sensor, const Method& method,
+                             const Calibration& calibration, const Series& series);
 
 /// The calibration signal of trial `trial`, of the same scenario under other noise. The calibration
-/// for the whole cell is that of trial 0. Or that under the noise of any trial.
+/// for the whole cell is that of trial 0. Or that under the noise of any trial. Of a fleet, the
+/// calibration for the whole cell is of the nominal sensor, that of each trial of its own.
 Calibration calibrate_cell(const Cell& cell, std::uint64_t seed, std::uint32_t trial,
                            Series& buffer);
 Calibration calibrate_cell(const Cell& cell, const Noise& trial, Series& buffer);

@@ -11,6 +11,7 @@ namespace gyrostat {
 namespace {
 
 struct Signal {
+  Scenario sensor;
   Series series, denoised;
 };
 
@@ -23,12 +24,12 @@ std::uint32_t first_tuning_trial(const Cell& cell) {
 /// Signals under the calibration's seed, beyond the trials that calibrations use.
 std::vector<Signal> tuning_signals(const Cell& cell, std::uint64_t seed) {
   std::vector<Signal> signals(cell.tuning.trials);
-  Scenario scenario = cell.scenario;
-  if (cell.tuning.undisturbed) scenario.compass.disturbances.clear();
   tbb::parallel_for(std::size_t{0}, signals.size(), [&](std::size_t i) {
-    synthesise(scenario,
-               calibration_noise(seed, first_tuning_trial(cell) + static_cast<std::uint32_t>(i)),
-               signals[i].series);
+    const auto noise =
+        calibration_noise(seed, first_tuning_trial(cell) + static_cast<std::uint32_t>(i));
+    signals[i].sensor = sensor_of(cell, noise, signals[i].sensor);
+    if (cell.tuning.undisturbed) signals[i].sensor.compass.disturbances.clear();
+    synthesise(signals[i].sensor, noise, signals[i].series);
     (void)judged_series(cell, signals[i].series, signals[i].denoised);
   });
   return signals;
@@ -39,8 +40,8 @@ TuningScore score(const Cell& cell, const Method& method, const Calibration& cal
   std::vector<std::vector<double>> outcomes(signals.size());
   tbb::parallel_for(std::size_t{0}, signals.size(), [&](std::size_t i) {
     thread_local Track track;
-    const auto& [series, denoised] = signals[i];
-    const auto parameters = told_parameters(cell, method, calibration, series);
+    const auto& [sensor, series, denoised] = signals[i];
+    const auto parameters = told_parameters(cell, sensor, method, calibration, series);
     track_method(method, parameters, series, track);
     outcomes[i] = judge_track(series, cell.denoise ? denoised : series, track);
   });

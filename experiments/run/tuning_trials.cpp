@@ -24,15 +24,11 @@ PreparedCell untuned(Cell cell, std::uint64_t seed, int threads) {
 /// Its values in the cell, by the shared calibration.
 std::vector<double> values_in(const PreparedCell& prepared, const Method& method) {
   Series start;
-  make_trial(
-      [&] {
-        Cell brief = prepared.cell;
-        brief.scenario.sampling.duration_s = 2.0 / brief.scenario.sampling.rate_hz;
-        return brief;
-      }(),
-      0, 0, start);
+  Scenario brief = prepared.cell.scenario;
+  brief.sampling.duration_s = 2.0 / brief.sampling.rate_hz;
+  synthesise(brief, {}, start);
   return field_values(method.type(),
-                      told_parameters(prepared.cell, method, prepared.calibration, start),
+                      told_parameters(prepared.cell, brief, method, prepared.calibration, start),
                       method.overrides);
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <gyrostat/core/filter_type.hpp>
+#include <gyrostat/experiments/study/fleet.hpp>
 
 namespace gyrostat {
 namespace {
@@ -56,7 +57,8 @@ Parameters cell_parameters(const Cell& cell) {
   add(list, "scenario.compass", s.compass);
   for (std::size_t i = 0; i < s.compass.disturbances.size(); ++i)
     add(list, fmt::format("scenario.compass.disturbances.{}", i), s.compass.disturbances[i]);
-  for (std::size_t i = 0; i < s.effects.size(); ++i) {
+  const bool drawn = cell.fleet && cell.fleet->draws_effects();
+  for (std::size_t i = 0; i < s.effects.size() && !drawn; ++i) {
     add(list, fmt::format("scenario.effects.{}", i), s.effects[i]);
     add(list, fmt::format("scenario.effects.{}", s.effects[i].id()), s.effects[i]);
   }

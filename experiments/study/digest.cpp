@@ -22,8 +22,8 @@ struct Fnv {
   std::string text() const { return fmt::format("{:016x}", hash); }
 };
 
-/// Puts the contents of the recording that `object` names in the place of its name.
-void resolve_recording(SortedJson& object, const fs::path& folder) {
+/// Puts the contents of the file that `object` names in the place of its name.
+void resolve_file(SortedJson& object, const fs::path& folder) {
   if (!object.is_object() || !object.contains("file") || !object["file"].is_string()) return;
   object["file"] = file_digest(folder / object["file"].get<std::string>());
 }
@@ -64,9 +64,10 @@ std::string study_digest(const Json& study, const std::string& path) {
       cell.erase("trials");
       cell.erase("stop");
       cell.erase("failure");
-      if (cell.contains("pieces")) resolve_recording(cell["pieces"], folder);
-      if (cell.contains("scenario") && cell["scenario"].contains("from_recording"))
-        resolve_recording(cell["scenario"]["from_recording"], folder);
+      if (cell.contains("pieces")) resolve_file(cell["pieces"], folder);
+      for (const auto* source : {"from_recording", "from_fleet"})
+        if (cell.contains("scenario") && cell["scenario"].contains(source))
+          resolve_file(cell["scenario"][source], folder);
       canonical["cells"].push_back(std::move(cell));
     }
   return digest(canonical.dump());

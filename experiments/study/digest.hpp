@@ -15,9 +15,9 @@ std::string digest(std::string_view bytes);
 std::string file_digest(const std::filesystem::path& path);
 
 /// Digest of all in a study's JSON that decides an outcome: its seed, and its cells with their
-/// grids expanded, whatever the order of keys, and the contents of the recordings they name. The
-/// title, the numbers of trials, what counts as a failure and the failure budget decide none.
-/// `path` is the study file's.
+/// grids expanded, whatever the order of keys, and the contents of the recordings and fleets they
+/// name. The title, the numbers of trials, what counts as a failure and the failure budget decide
+/// none. `path` is the study file's.
 std::string study_digest(const Json& study, const std::string& path);
 
 }  // namespace gyrostat

@@ -1,5 +1,8 @@
 #include <gyrostat/experiments/study/scenario_reading.hpp>
 
+#include <filesystem>
+
+#include <gyrostat/experiments/study/fleet_reading.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/generators/environment/temperature/quiet_room.hpp>
 #include <gyrostat/generators/environment/temperature/recorded.hpp>
@@ -55,10 +58,37 @@ void read_recorded(JsonObject object, const std::string& folder, FittedRecording
   }
 }
 
+/// Which parameters the object under `key` gives.
+void note_stated(JsonObject& object, const std::string& key, std::span<const FieldInfo> fields,
+                 std::set<std::string>& stated) {
+  if (auto child = object.child(key))
+    for (const auto& field : fields)
+      if (child->has(std::string(field.name))) stated.emplace(field.name);
+}
+
+/// The nominal unit of the fleet that the object names.
+std::shared_ptr<Fleet> read_nominal(JsonObject object, const std::string& folder,
+                                    FittedRecordings& fits, Scenario& scenario) {
+  const auto file = object.required_text("file");
+  object.finish();
+  auto fleet = read_fleet((std::filesystem::path(folder) / file).lexically_normal().string(), fits);
+  scenario = fleet->nominal();
+  return fleet;
+}
+
 }  // namespace
 
-Scenario read_scenario(JsonObject object, const std::string& folder, FittedRecordings& fits) {
+Scenario read_scenario(JsonObject object, const std::string& folder, FittedRecordings& fits,
+                       std::shared_ptr<const Fleet>* fleet) {
   Scenario scenario;
+  std::shared_ptr<Fleet> drawn_from;
+  object.with_child("from_fleet", [&](JsonObject& named) {
+    if (fleet == nullptr)
+      throw InputError(named.place(), "sensors are drawn in the trials of a study alone");
+    if (object.has("from_recording"))
+      throw InputError(named.place(), "stands beside \"from_recording\"; give one of them");
+    drawn_from = read_nominal(named, folder, fits, scenario);
+  });
   const bool recording_read = object.with_child("from_recording", [&](JsonObject& recorded) {
     read_recorded(recorded, folder, fits, scenario);
   });
@@ -70,13 +100,14 @@ Scenario read_scenario(JsonObject object, const std::string& folder, FittedRecor
     });
   };
   nested("random_error", scenario.random_error);
-  if (recording_read && object.has("from_recording") &&
-      scenario.random_error.measurement_noise_std_dps == 0.0)
+  const bool fitted = (recording_read && object.has("from_recording")) || drawn_from;
+  if (fitted && scenario.random_error.measurement_noise_std_dps == 0.0)
     throw InputError(
         object.place(),
-        "R is 0, as where the fit to a recording cannot tell R, and then every filter is "
-        "exact; allowed: \"random_error\": {\"measurement_noise_std_dps\": ...} above 0 "
-        "beside \"from_recording\"");
+        fmt::format("R is 0, as where the fit to a recording cannot tell R, and then every filter "
+                    "is exact; allowed: \"random_error\": {{\"measurement_noise_std_dps\": ...}} "
+                    "above 0 beside \"{}\"",
+                    drawn_from ? "from_fleet" : "from_recording"));
   nested("thermal_drift", scenario.thermal_drift);
   object.with_child("temperature", [&](JsonObject& temperature) {
     if (temperature.text("profile", "") != "recorded")
@@ -99,12 +130,23 @@ Scenario read_scenario(JsonObject object, const std::string& folder, FittedRecor
   });
   object.with_child("compass",
                     [&](JsonObject& compass) { scenario.compass = read_compass(compass); });
+  if (object.has("effects")) scenario.effects.clear();
   for (const auto& entry : object.list("effects"))
     object.attempt([&] {
       scenario.effects.push_back(
           read_plugin<Effect>(object.at(*entry.first, entry.second), "effect"));
     });
   object.finish();
+  if (drawn_from) {
+    std::set<std::string> stated;
+    if (object.has("effects")) stated.emplace("effects");
+    object.attempt([&] {
+      note_stated(object, "random_error", field_infos_of<Arima111<double>>, stated);
+      note_stated(object, "thermal_drift", field_infos_of<ThermalDrift<double>>, stated);
+      drawn_from->settle(stated, scenario, object.place_of("from_fleet"));
+    });
+    *fleet = drawn_from;
+  }
   return scenario;
 }
 

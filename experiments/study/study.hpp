@@ -16,6 +16,8 @@
 
 namespace gyrostat {
 
+class Fleet;
+
 /// How the filters of a cell come by their parameters: from a calibration signal of the same
 /// scenario that no trial sees, one for the whole cell or one for each trial.
 struct CalibrationPlan {
@@ -36,7 +38,8 @@ struct TuningPlan {
 struct Cell {
   std::string name;
   std::uint32_t trials = 1000;
-  Scenario scenario;
+  Scenario scenario;                        ///< of a fleet the nominal one, see sensor_of
+  std::shared_ptr<const Fleet> fleet;       ///< where present, each trial draws its sensor from it
   std::shared_ptr<const Series> recording;  ///< where present, trials are successive pieces of it,
   Series calibration_span;                  ///< and this, which comes before, is calibrated on
   CalibrationPlan calibration;

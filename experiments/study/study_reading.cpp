@@ -116,7 +116,7 @@ Cell read_cell(JsonObject object, const std::string& folder, FittedRecordings& f
     cell.trials =
         static_cast<std::uint32_t>(object.number("trials", 1000, study_ranges::trials, "trials"));
     object.with_child("scenario", [&](JsonObject& scenario) {
-      cell.scenario = read_scenario(scenario, folder, fits);
+      cell.scenario = read_scenario(scenario, folder, fits, &cell.fleet);
     });
     object.with_child("calibration",
                       [&](JsonObject& plan) { cell.calibration = read_calibration(plan); });

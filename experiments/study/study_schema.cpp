@@ -115,6 +115,12 @@ Json scenario() {
       {{"from_s", number(ranges::non_negative, 0, "start of the span, s from the first sample")},
        {"to_s", number(ranges::positive, "end of the span, s from the first sample")},
        {"fit", fit_method()}});
+  properties["from_fleet"] =
+      object({{"file", text("the fleet, as `gyrostat diagnose A.csv B.csv ... --json` writes it, "
+                            "relative to the study's folder")}},
+             "each trial's random error, drift and effects drawn from the population of diagnosed "
+             "sensors; other keys override",
+             {"file"});
   properties["random_error"] =
       object(parameters(field_infos_of<Arima111<double>>), "ARIMA(1,1,1) and white noise");
   properties["thermal_drift"] =

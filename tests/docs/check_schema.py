@@ -111,7 +111,8 @@ for path, value in [
         ([*SCENARIO, "temperature"], {"profile": "cycle", "period_s": 0}),
         ([*SCENARIO, "temperature"], {"profile": "cycle", "period": 10}),
         ([*SCENARIO, "compass"], {"noise": 1}), ([*SCENARIO, "compass"], {"disturbances": [{"start_s": -1}]}),
-        ([*SCENARIO, "from_recording"], {"axis": "x"}), ([*SCENARIO, "effects"], [{"effect": "outlier"}]),
+        ([*SCENARIO, "from_recording"], {"axis": "x"}), ([*SCENARIO, "from_fleet"], {"fil": "fleet.json"}),
+        ([*SCENARIO, "effects"], [{"effect": "outlier"}]),
         ([*SCENARIO, "random_error"], {"phi": 1}), ([*SCENARIO, "random_error"], [])]:
     both_refuse(mutated(path, value), f"{'.'.join(map(str, path))} = {json.dumps(value)}")
 

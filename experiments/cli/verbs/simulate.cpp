@@ -3,6 +3,8 @@
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
+#include <gyrostat/experiments/run/trial.hpp>
+#include <gyrostat/experiments/study/fleet.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 
 namespace gyrostat::cli {
@@ -24,10 +26,13 @@ int run(const SimulateArguments& arguments, Console& console) {
   const Cell& cell = cell_named(study, arguments.cell, "--cell");
   require_writable(arguments.out, arguments.study);
   Series series;
-  synthesise(cell.scenario, {study.seed, arguments.trial}, series);
+  Scenario drawn;
+  const auto& sensor = sensor_of(cell, {study.seed, arguments.trial}, drawn);
+  synthesise(sensor, {study.seed, arguments.trial}, series);
   write_series(arguments.out, series);
   console.log << fmt::format("{}: trial {} of {}, {} samples\n", arguments.out, arguments.trial,
                              cell.name, series.size());
+  if (cell.fleet) console.log << fmt::format("its sensor: {}\n", sensor_in_words(sensor));
   return complete;
 }
 

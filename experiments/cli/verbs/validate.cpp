@@ -4,6 +4,7 @@
 #include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
+#include <gyrostat/experiments/study/fleet.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 
 namespace gyrostat::cli {
@@ -33,6 +34,11 @@ int run(const std::string& path, Console& console) {
         "  {}: {} of {}, methods {}\n", sampled ? described(*design) : cell.name,
         counted(cell.trials, "trial"), counted(cell.scenario.sampling.samples(), "sample"),
         fmt::join(ids, ", "));
+    if (cell.fleet)
+      console.out << fmt::format(
+          "    sensors drawn from {}, {} of draws beyond a range and redrawn\n",
+          counted(cell.fleet->units().size(), "unit"),
+          fmt::format("{:.2g} %", 100.0 * cell.fleet->redrawn()));
     if (sampled) c += design->values.size() - 1;
   }
   return complete;

@@ -98,10 +98,12 @@ Replayed replay_trials(const PreparedCell& prepared, std::uint64_t seed, std::ui
     const bool own = cell.calibration.each_trial && cell.needs_calibration();
     const auto calibration =
         own ? calibrate_cell(cell, seed, trial, w.calibration_series) : prepared.calibration;
+    Scenario drawn;
+    const auto& sensor = sensor_of(cell, {seed, trial}, drawn);
     const auto& judged = judged_series(cell, w.series, w.denoised);
     for (std::size_t m = 0; m < cell.methods.size(); ++m) try {
         const auto& method = cell.methods[m];
-        track_method(method, told_parameters(cell, method, calibration, w.series), w.series,
+        track_method(method, told_parameters(cell, sensor, method, calibration, w.series), w.series,
                      w.track);
         seen[trial][m] = look(w.series, judged, w.track, at);
         seen[trial][m].judged = Outcome(judge_track(w.series, judged, w.track)).metric(judging);
