@@ -7,6 +7,7 @@
 #include <gyrostat/experiments/findings/report/report.hpp>
 #include <gyrostat/experiments/findings/run_tables.hpp>
 #include <gyrostat/experiments/findings/sensitivity.hpp>
+#include <gyrostat/experiments/findings/study_tuning.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/experiments/run/time_of_day.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
@@ -194,6 +195,42 @@ std::vector<std::pair<std::string, Drawn>> pictures(const std::string& folder,
   });
 }
 
+/// What `tune` found, kept for what is asked of it.
+struct Tuned {
+  Study study;
+  StudyTuning found;
+};
+
+/// Keyword arguments of Python by their names, as they stand in messages.
+TuningRequest tuning_request(const std::string& metric, const std::string& by,
+                             std::optional<double> above, const std::string& cell,
+                             const std::vector<std::string>& methods,
+                             const std::vector<std::string>& ranges, std::size_t budget,
+                             std::uint32_t fresh) {
+  TuningRequest request;
+  request.metric = metric;
+  request.by = by;
+  request.above = above;
+  request.cell = cell;
+  request.methods = methods;
+  request.ranges = ranges;
+  request.goal.budget = budget;
+  request.goal.fresh = fresh;
+  request.option_prefix = "";
+  return request;
+}
+
+std::shared_ptr<Tuned> tune(const std::string& json, const std::string& path,
+                            const TuningRequest& request, int threads, Work& work) {
+  auto study = parse_study(Json::parse(json), path);
+  RunOptions options;
+  options.threads = threads;
+  options.stop = &work.stop;
+  auto found = tune_study(study, request, options,
+                          [&](const std::string& what, double share) { work.tell(what, share); });
+  return std::make_shared<Tuned>(Tuned{std::move(study), std::move(found)});
+}
+
 void report(const std::string& folder, const std::string& out,
             const std::vector<std::string>& cells, std::optional<std::uint32_t> replay) {
   require_writable(out, fs::path(folder) / Store::file_name);
@@ -228,6 +265,22 @@ void bind_runs(py::module_& module) {
   module.def("failures", &failures);
   module.def("rank", &rank);
   module.def("sensitivity", &sensitivity);
+  py::class_<Tuned, std::shared_ptr<Tuned>>(module, "Tuned")
+      .def("tables", [](const Tuned& t) { return tuning_tables(t.found.cells, t.found.goal); })
+      .def("words", [](const Tuned& t) { return tuning_in_words(t.found.cells, t.found.goal); })
+      .def("json", [](const Tuned& t) { return tuning_json(t.found.cells, t.found.goal).dump(); })
+      .def("study", [](const Tuned& t) {
+        return with_tuned_values(t.study, t.found.cells, t.study.path).dump();
+      });
+  module.def("tune", [](const std::string& json, const std::string& path, const std::string& metric,
+                        const std::string& by, std::optional<double> above, const std::string& cell,
+                        const std::vector<std::string>& methods,
+                        const std::vector<std::string>& ranges, std::size_t budget,
+                        std::uint32_t fresh, int threads, const py::object& progress) {
+    const auto request = tuning_request(metric, by, above, cell, methods, ranges, budget, fresh);
+    return result_of([=](Work& work) { return tune(json, path, request, threads, work); },
+                     progress);
+  });
   module.def("pictures", &pictures);
   module.def("report", &report);
 }

@@ -267,12 +267,13 @@ Json with_tuned_values(const Study& study, const std::vector<CellTuning>& all,
   Json json = Json::parse(study.source);
   const auto folder = fs::absolute(study.path).parent_path();
   const auto out_folder = fs::absolute(out).parent_path();
-  for (auto& cell : json["cells"]) {
-    if (!cell.contains("scenario") || !cell["scenario"].contains("from_recording")) continue;
-    auto& file = cell["scenario"]["from_recording"]["file"];
-    const auto path = (folder / file.get<std::string>()).lexically_normal();
-    file = path.lexically_proximate(out_folder.lexically_normal()).string();
-  }
+  for (auto& cell : json["cells"])
+    for (const auto* source : {"from_recording", "from_fleet"}) {
+      if (!cell.contains("scenario") || !cell["scenario"].contains(source)) continue;
+      auto& file = cell["scenario"][source]["file"];
+      const auto path = (folder / file.get<std::string>()).lexically_normal();
+      file = path.lexically_proximate(out_folder.lexically_normal()).string();
+    }
   for (const auto& tuning : all) {
     auto& cell = json["cells"][tuning.cell];
     const auto& methods = study.cells[tuning.cell].methods;

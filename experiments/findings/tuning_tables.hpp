@@ -27,8 +27,8 @@ std::vector<Table> tuning_tables(const std::vector<CellTuning>& all, const Tunin
 Json tuning_json(const std::vector<CellTuning>& all, const TuningGoal& goal);
 
 /// The study's JSON with the tuned values where fresh trials tell that they are better; the other
-/// methods stay as they are. What a tuned method had to "tune" is taken out. Recordings are named
-/// as seen from the folder of `out`.
+/// methods stay as they are. What a tuned method had to "tune" is taken out. Recordings and
+/// fleets are named as seen from the folder of `out`.
 Json with_tuned_values(const Study& study, const std::vector<CellTuning>& all,
                        const std::string& out);
 

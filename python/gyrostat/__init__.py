@@ -10,6 +10,7 @@
 
     run = gyrostat.run(study)          # a study as a dict or a file; goes on where it ended
     gyrostat.rank(run)
+    gyrostat.tune(study)               # the best parameters of each method
 
 Rates are in dps, temperatures in degrees Celsius, angles in degrees, times in seconds. Numbers come back as NumPy
 arrays; `.frame` of whatever has one is a pandas DataFrame, for which alone pandas is needed. What cannot be done raises
@@ -19,9 +20,9 @@ from ._library import Error, version as __version__
 from ._plugins import Parameter, Sample, effect, filter
 from ._recordings import Recording, read, recording, simulate
 from ._results import Picture, Result, Table
-from ._runs import Run, rank, run, sensitivity
+from ._runs import Run, Tuning, rank, run, sensitivity, tune
 from ._verbs import Application, Diagnosis, allan, apply, diagnose, fit
 
 __all__ = ["Application", "Diagnosis", "Error", "Parameter", "Picture", "Recording", "Result", "Run", "Sample", "Table",
-           "allan", "apply", "diagnose", "effect", "filter", "fit", "rank", "read", "recording", "run", "sensitivity",
-           "simulate"]
+           "Tuning", "allan", "apply", "diagnose", "effect", "filter", "fit", "rank", "read", "recording", "run",
+           "sensitivity", "simulate", "tune"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 import json
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import TYPE_CHECKING, Any, Mapping, Sequence
 
 import numpy as np
 
@@ -119,3 +119,51 @@ def sensitivity(of: Run | str | PathLike[str], *, metric: str = "", method: str 
     """Which parameter of a study's design matters: elasticities, Morris' mu* and sigma, or Sobol' indices, with 95 %
     intervals. points: the mean at every point of the design instead."""
     return Result(_library.sensitivity(_folder(of), metric, method, points))
+
+
+class Tuning(Result):
+    """The best parameters of methods, judged on trials that no search has seen: a table a cell of what each method
+    gains in the metric's unit, then for each method its parameters with 95 % intervals in their own units."""
+
+    def __init__(self, tuned: "_library.Tuned") -> None:
+        super().__init__(tuned.tables())
+        self._tuned = tuned
+
+    @property
+    def answer(self) -> str:
+        """What tuning gains, and which method is then best."""
+        return self._tuned.words()
+
+    @property
+    def json(self) -> dict[str, Any]:
+        """All of it, as `gyrostat tune --json` writes it."""
+        return json.loads(self._tuned.json())
+
+    @property
+    def study(self) -> dict[str, Any]:
+        """The study with the values that fresh trials tell are better, as `gyrostat tune --out` writes it; ready for
+        `run`. Files that it names are relative to where the study was."""
+        return json.loads(self._tuned.study())
+
+    def _words(self) -> list[str]:
+        return [*self.notes, *self.answer.splitlines()]
+
+
+def tune(study: Any, *, metric: str = "bias_rmse", by: str = "mean", above: float | None = None,
+         methods: Sequence[str] = (), cell: str = "", ranges: Mapping[str, tuple[float, float]] | None = None,
+         budget: int = 8000, fresh: int = 400, threads: int = 0, name: str = "study", progress: Any = True) -> Tuning:
+    """Searches the best parameters of each method of a study, and judges them on fresh trials: `gyrostat tune`.
+
+    study: a dict or a file, without a design. metric: the error that is to be small, in its own unit. by: its "mean" over
+    trials, or "cvar95", that of the worst 5 %. above: instead, the probability of an error above this, in the metric's
+    unit. methods: ids of those that are tuned; none: those with a "tune", or every filter. cell: this one alone; empty:
+    all. ranges: (low, high) of parameters by name, in their units, instead of the study's or the default ones. budget:
+    runs of a method over one trial for its search, 400 or more. fresh: trials that judge, 50 or more. threads: 0 for all;
+    the results are the same bytes. name: what a dict is called. progress: True, False, or a function of (what is being
+    done, share). Ctrl-C ends it with nothing found.
+    """
+    text, path = study_json(study, name)
+    written = [f"{parameter}={float(low)!r}:{float(high)!r}" for parameter, (low, high) in (ranges or {}).items()]
+    with shown(progress, "tune") as tell:
+        return Tuning(_library.tune(text, path, metric, by, above, cell, list(methods), written, budget, fresh, threads,
+                                    tell))

@@ -74,6 +74,34 @@ class Studies(InAFolder):
             self.assertIn(repr(table).strip(), printed)
         self.assertGreater(len(gyrostat.sensitivity(run, points=True)[0]), 2)
 
+    def test_tuning_is_the_programs(self):
+        study = small("none", "kf", "stf")
+        with open("small.json", "w") as file:
+            json.dump(study, file)
+        asked = ["--method", "kf", "--range", "phi=0.1:0.9", "--budget", 400, "--fresh", 50, "--by", "cvar95"]
+        printed = program("tune", "small.json", *asked, "--json", "theirs.json", "--out", "tuned.json")[0]
+        heard = []
+        tuned = gyrostat.tune(study, name="small", methods=["kf"], ranges={"phi": (0.1, 0.9)}, budget=400, fresh=50,
+                              by="cvar95", threads=3, progress=lambda what, share: heard.append(share))
+        with open("theirs.json") as theirs, open("tuned.json") as their_study:
+            self.assertEqual(tuned.json, json.load(theirs))
+            self.assertEqual(tuned.study, json.load(their_study))
+        for table in tuned:
+            self.assertIn(repr(table).strip(), printed)
+        self.assertEqual(" ".join(tuned.answer.split()), " ".join(printed.split("\n\n")[0].split()))
+        self.assertIn("<table", tuned._repr_html_())
+        self.assertEqual(list(tuned[0]["method"]), ["kf"])
+        gyrostat.run(tuned.study, "of_tuned", progress=False)
+        for wrong, line in [({"methods": ["kff"]}, "method: unknown method 'kff'; did you mean 'kf'"),
+                            ({"ranges": {"phii": (0, 1)}}, "range phii=0.0:1.0: unknown parameter 'phii'"),
+                            ({"ranges": {"phi": (0, 2)}}, "range phi=0.0:2.0: 2 1 is out of range"),
+                            ({"by": "median"}, "by: unknown measure 'median'"),
+                            ({"above": -1}, "above: -1 is out of range"), ({"fresh": 3}, "fresh: 3 is out of range"),
+                            ({"cell": "stil"}, "cell: unknown cell 'stil'; did you mean 'still'")]:
+            with self.assertRaises(gyrostat.Error) as raised:
+                gyrostat.tune(study, **wrong)
+            self.assertIn(line, str(raised.exception))
+
     def test_all_mistakes_of_a_study_come_in_the_programs_words(self):
         wrong = small("kff", rate_hz=-5)
         with open("wrong.json", "w") as file:
