@@ -53,12 +53,9 @@ TrialMeasure::Value TrialMeasure::of(std::span<const double> errors) const {
       std::count_if(errors.begin(), errors.end(), [](double x) { return std::isnan(x); }));
   if (sums.count < 1.0) return found;
   found.value = sums.mean;
-  if (kind == Kind::probability) {
-    std::tie(found.low, found.high) = wilson_interval(sums.mean * sums.count, sums.count, 0.95);
-    // Rounding must not leave out the 0 or 1 that was seen.
-    if (found.value == 0.0) found.low = 0.0;
-    if (found.value == 1.0) found.high = 1.0;
-  }
+  if (kind == Kind::probability)  // a number of trials, whatever their mean was rounded to
+    std::tie(found.low, found.high) =
+        wilson_interval(std::round(sums.mean * sums.count), sums.count, 0.95);
   if (kind != Kind::probability && sums.count >= 2.0 &&
       (kind == Kind::mean || sums.count >= fewest_for_tail_interval))
     std::tie(found.low, found.high) = skewed_mean_interval(sums, 0.025);

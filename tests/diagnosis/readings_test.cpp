@@ -150,6 +150,13 @@ TEST(WilsonInterval, IsThePublishedOne) {
   EXPECT_NEAR(high, 0.3662, 5e-5);
 }
 
+TEST(WilsonInterval, HoldsTheShareThatWasSeen) {
+  for (int count = 1; count <= 2000; ++count) {
+    EXPECT_EQ(wilson_interval(0, count, 0.95).first, 0.0) << count;
+    EXPECT_EQ(wilson_interval(count, count, 0.95).second, 1.0) << count;
+  }
+}
+
 template <class Entry>
 class LensContract : public testing::Test {};
 
