@@ -7,6 +7,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -27,8 +28,8 @@ struct Definition {
   std::string id, title;
   std::deque<std::string> texts;  ///< of the fields
   std::vector<FieldInfo> fields;
-  std::vector<std::vector<double> Series::*> needs;  ///< of an effect
-  std::vector<double> Series::*changes = nullptr;    ///< of an effect
+  std::vector<std::vector<double> Series::*> needs;    ///< of an effect
+  std::vector<std::vector<double> Series::*> changes;  ///< of an effect: those of its stage
   py::object function;
 
   /// Number, unit, least, greatest, meaning of each parameter.
@@ -172,6 +173,26 @@ struct PythonEffect {
   std::vector<double> parameters;
 };
 
+/// Of a stage with several channels: a dict of those that are changed.
+void take_channels(const Definition& definition, const py::object& answer, Series& series) {
+  std::vector<std::string> names;
+  for (const auto& channel : channels)
+    if (std::ranges::find(definition.changes, channel.values) != definition.changes.end())
+      names.emplace_back(channel.name);
+  if (!py::isinstance<py::dict>(answer))
+    throw py::type_error(
+        fmt::format("a dict is returned of those that change of {}", fmt::join(names, ", ")));
+  for (const auto& [key, changed] : answer.cast<py::dict>()) {
+    const std::string name = py::str(key);
+    if (std::ranges::find(names, name) == names.end())
+      throw py::value_error(unknown_name("channel of this stage", name, names));
+    const auto numbers = column(changed, series.size(), name.c_str());
+    for (const auto& channel : channels)
+      if (channel.name == name)
+        (series.*channel.values).assign(numbers.data(), numbers.data() + numbers.size());
+  }
+}
+
 void apply_in_python(const PythonEffect& effect, Series& series, const Noise& noise) {
   const auto& definition = *effect.definition;
   for (const auto need : definition.needs)
@@ -188,8 +209,9 @@ void apply_in_python(const PythonEffect& effect, Series& series, const Noise& no
     });
     const py::object answer =
         definition.function(signal, deviates, parameters_of(effect.parameters));
+    if (definition.changes.size() > 1) return take_channels(definition, answer, series);
     const auto numbers = column(answer, samples, "the signal");
-    auto& values = series.*definition.changes;
+    auto& values = series.*definition.changes.front();
     values.assign(numbers.data(), numbers.data() + samples);
   });
 }
@@ -232,18 +254,20 @@ void add_filter(const std::string& id, const std::string& title,
   filter_types().add_or_replace(std::move(type));
 }
 
-/// The stages of effects in Python, with the channel that each changes.
+/// The stages of effects in Python, with the channels that each changes.
 struct StageName {
   const char* name;
   Stage stage;
-  std::vector<double> Series::*changes;
+  std::vector<std::vector<double> Series::*> changes;
 };
-constexpr StageName stages[] = {{"sensing", Stage::sensing, &Series::thermal_bias_dps},
-                                {"noise", Stage::noise, &Series::gyro_dps},
-                                {"electronics", Stage::electronics, &Series::gyro_dps},
-                                {"conversion", Stage::conversion, &Series::gyro_dps},
-                                {"transport", Stage::transport, &Series::gyro_dps},
-                                {"compass", Stage::compass, &Series::heading_deg}};
+const StageName stages[] = {
+    {"environment", Stage::environment, {&Series::temperature_C, &Series::rate_ref_dps}},
+    {"sensing", Stage::sensing, {&Series::thermal_bias_dps}},
+    {"noise", Stage::noise, {&Series::gyro_dps}},
+    {"electronics", Stage::electronics, {&Series::gyro_dps}},
+    {"conversion", Stage::conversion, {&Series::gyro_dps}},
+    {"transport", Stage::transport, {&Series::gyro_dps}},
+    {"compass", Stage::compass, {&Series::heading_deg}}};
 
 const StageName& stage_named(const std::string& name, const std::string& place) {
   std::vector<std::string> names;
@@ -262,8 +286,9 @@ void add_effect(const std::string& id, const std::string& title, const std::stri
   const auto& stage = stage_named(stage_name, id + ": stage");
   definition->changes = stage.changes;
   for (const auto& name : needs) definition->needs.push_back(channel_named(name, id + ": needs"));
-  if (std::ranges::find(definition->needs, stage.changes) == definition->needs.end())
-    definition->needs.push_back(stage.changes);
+  for (const auto channel : stage.changes)
+    if (std::ranges::find(definition->needs, channel) == definition->needs.end())
+      definition->needs.push_back(channel);
   EffectType type{};
   type.id = definition->id;
   type.title = definition->title;

@@ -151,7 +151,8 @@ def effect(function: Callable[..., Any] | None = None, *, stage: str = "electron
     signal: the channels so far, by name, as arrays (None: no such channel). noise: `noise(stream)` is a standard normal
     deviate a sample, addressed by seed, trial, effect and stream, so that it moves no other draw. It returns the channel
     of its stage: `thermal_bias_dps` of "sensing", `gyro_dps` of "noise", "electronics", "conversion" and "transport",
-    `heading_deg` of "compass". needs: channels without which it changes nothing, beside that one. The rest is as for
+    `heading_deg` of "compass"; of "environment", before any gyro, a dict of what it changes of `temperature_C` and
+    `rate_ref_dps`. needs: channels without which it changes nothing, beside that one. The rest is as for
     `filter`: parameters, repetition, exceptions, which are the outcome of all methods of the trial.
     """
     if function is None:

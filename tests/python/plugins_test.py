@@ -240,6 +240,31 @@ class Effects(InAFolder):
         self.assertTrue(0 < made.failed < 12, made.failed)
         self.assertIn("RuntimeError: broke", made.failures[0][3])
 
+    def test_the_environment_is_changed_before_the_gyro_meets_it(self):
+        @gyrostat.effect(stage="environment")
+        def sunshine(signal, noise, *, warming_C: gyrostat.Parameter("degC", -50, 50) = 5.0):
+            return {"temperature_C": signal["temperature_C"] + warming_C}
+
+        @gyrostat.effect(stage="environment")
+        def nudge(signal, noise):
+            return {"rate_ref_dps": signal["rate_ref_dps"] + 2.0}
+
+        @gyrostat.effect(stage="environment")
+        def wrong(signal, noise):
+            return {"gyro_dps": signal["gyro_dps"]}
+
+        study = small("none", thermal_drift={"a_dps_per_C": 0.01})
+        scenario = study["cells"][0]["scenario"]
+        plain = gyrostat.simulate(study)
+        scenario["effects"] = [{"effect": "sunshine", "warming_C": 10}, {"effect": "nudge"}]
+        changed = gyrostat.simulate(study)
+        np.testing.assert_allclose(changed["temperature_C"], plain["temperature_C"] + 10, atol=1e-12)
+        np.testing.assert_allclose(changed["rate_ref_dps"], plain["rate_ref_dps"] + 2, atol=1e-12)
+        np.testing.assert_allclose(changed["gyro_dps"], plain["gyro_dps"] + 2 + 0.1, atol=1e-12)
+        scenario["effects"] = [{"effect": "wrong"}]
+        with self.assertRaisesRegex(Exception, "unknown channel of this stage 'gyro_dps'"):
+            gyrostat.simulate(study)
+
     def test_stages_and_channels_are_known_by_name(self):
         with self.assertRaisesRegex(gyrostat.Error, "did you mean 'electronics'"):
             gyrostat.effect(clipped, stage="electronic", name="other")
