@@ -1,11 +1,15 @@
 #include <gyrostat/experiments/run/runner.hpp>
 
 #include <algorithm>
+#include <new>
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+
+#include <gyrostat/core/error.hpp>
+#include <gyrostat/core/interrupt.hpp>
 
 namespace gyrostat {
 
@@ -45,6 +49,28 @@ PreparedCell prepare_cell(const Cell& cell, std::uint64_t seed, int threads) {
   return prepared;
 }
 
+PreparedCell prepare_or_note(const Cell& cell, std::uint64_t seed, int threads) {
+  if (cell.failure) return prepare_cell(cell, seed, threads);
+  try {
+    return prepare_cell(cell, seed, threads);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& failure) {
+    PreparedCell prepared{.cell = cell};
+    prepared.thrown = fmt::format("calibration or tuning: {}", failure.what());
+    auto& fit = prepared.calibration.random_error;
+    for (const auto& field : Arima111<double>::fields())
+      fit.parameters.*(field.member) = fit.standard_errors.*(field.member) = no_value;
+    fit.message = prepared.thrown;
+    prepared.tuned.resize(cell.methods.size());
+    return prepared;
+  }
+}
+
 std::vector<double> run_trials(const PreparedCell& prepared, std::uint64_t seed,
                                const RunOptions& options,
                                const std::function<bool(std::uint32_t trial)>& wanted,
@@ -63,8 +89,11 @@ std::vector<double> run_trials(const PreparedCell& prepared, std::uint64_t seed,
     if (options.stop && options.stop->load(std::memory_order_relaxed)) return;
     const auto pack = std::span(trials).subspan(
         first, std::min<std::size_t>(options.lanes, trials.size() - first));
-    auto records = run_trials_together(cell, prepared.calibration, seed, pack, workspaces.local(),
-                                       prepared.conditions ? &*prepared.conditions : nullptr);
+    auto records =
+        prepared.thrown.empty()
+            ? run_trials_together(cell, prepared.calibration, seed, pack, workspaces.local(),
+                                  prepared.conditions ? &*prepared.conditions : nullptr)
+            : std::vector<Record>(pack.size(), thrown_record(cell, prepared.thrown));
     for (std::size_t l = 0; l < pack.size(); ++l) {
       take(pack[l], std::move(records[l]));
       const std::size_t done = ++finished;
@@ -76,6 +105,7 @@ std::vector<double> run_trials(const PreparedCell& prepared, std::uint64_t seed,
   for (std::size_t m = 0; m < cell.methods.size(); ++m) {
     double seconds = 0.0, steps = 0.0;
     for (const auto& lanes : workspaces) {
+      if (lanes.empty()) continue;  // of trials that were never begun
       const auto& workspace = lanes.front();
       seconds += workspace.seconds[m];
       steps += workspace.steps[m];

@@ -35,10 +35,16 @@ struct PreparedCell {
   Calibration calibration;
   std::vector<TunedMethod> tuned;  ///< one a method, empty values where nothing was to be tuned
   std::optional<SharedConditions> conditions;  ///< what its trials have in common, where they do
+  std::string thrown{};  ///< by its calibration or tuning, and then the outcome of every trial
 };
 
 /// Calibrates, and tunes where methods ask for it.
 PreparedCell prepare_cell(const Cell& cell, std::uint64_t seed, int threads);
+
+/// The same; what a plug-in throws there is noted, so that it costs this cell's trials and no
+/// other's. A lack of memory, InputError and Interrupted are thrown on, and all of it where the
+/// cell's failure is searched for, which cannot do without the calibration.
+PreparedCell prepare_or_note(const Cell& cell, std::uint64_t seed, int threads);
 
 /// Runs those trials of the cell that are `wanted`, on oneTBB, and hands each to `take`, from any
 /// thread. A trial's noise is addressed by its number, so no record depends on the number of

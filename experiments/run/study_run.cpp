@@ -134,7 +134,8 @@ std::vector<RanCell> StudyRun::run() {
 RanCell StudyRun::run_cell(std::uint32_t index) {
   auto& cell = study_.cells[index];
   auto& state = states_[index];
-  RanCell ran{.index = index, .prepared = prepare_cell(cell, study_.seed, options_.threads)};
+  RanCell ran{.index = index, .prepared = prepare_or_note(cell, study_.seed, options_.threads)};
+  if (!ran.prepared.thrown.empty()) say(fmt::format("{}: {}", cell.name, ran.prepared.thrown));
   const bool looks = cell.stop && options_.shard.count == 1;
   if (cell.stop && !looks)
     say(cell.name + ": a shard runs all of its trials; its stop rule is for the merged run");
@@ -177,7 +178,7 @@ void StudyRun::run_design(const Design& design) {
     stretch.so_far.failed = failed_;
     for (auto c = first; c < last && !stopper_.flag(); ++c)
       if (states_[c].missing() > 0)
-        run_missing_of(c, prepare_cell(study_.cells[c], study_.seed, options_.threads), stretch);
+        run_missing_of(c, prepare_or_note(study_.cells[c], study_.seed, options_.threads), stretch);
     store_.note_progress(to_json(stretch.so_far).dump());
   }
   log_.write("design",

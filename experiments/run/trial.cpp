@@ -166,6 +166,16 @@ void append_thrown(Record& record, const std::string& thrown) {
   append(record, nothing, thrown);
 }
 
+}  // namespace
+
+Record thrown_record(const Cell& cell, const std::string& thrown) {
+  Record record;
+  for (std::size_t m = 0; m < cell.methods.size(); ++m) append_thrown(record, thrown);
+  return record;
+}
+
+namespace {
+
 using Clock = std::chrono::steady_clock;
 
 class TrialsTogether {

@@ -80,6 +80,9 @@ void track_trial(const Cell& cell, const Method& method, const Calibration& shar
 /// Trials that this machine runs best side by side: as many as its widest registers hold.
 std::uint32_t default_lanes();
 
+/// The record of a trial that no method could run in.
+Record thrown_record(const Cell& cell, const std::string& thrown);
+
 /// The numbers of trials that may run side by side.
 inline constexpr std::array<std::uint32_t, 4> possible_lanes = {1, 2, 4, 8};
 

@@ -147,8 +147,11 @@ template <class Show>
 void in_full(const ReportSources& from, std::size_t c, const CellSummary& summary,
              const CellRanking& ranking, const Show& show) {
   const auto& cell = from.study.cells[c];
-  const auto prepared = prepare_cell(cell, from.study.seed, from.options.threads);
-  const auto replay = std::min(from.options.replay.value_or(trials_to_replay(cell)), cell.trials);
+  const auto prepared = prepare_or_note(cell, from.study.seed, from.options.threads);
+  const auto replay =
+      prepared.thrown.empty()
+          ? std::min(from.options.replay.value_or(trials_to_replay(cell)), cell.trials)
+          : 0;
   const auto replayed = replay > 0 ? replay_trials(prepared, from.study.seed, replay) : Replayed{};
   const auto values = cell_values(cell, from.store, static_cast<std::uint32_t>(c));
   CellView view{from.study,

@@ -208,6 +208,41 @@ TEST(Plugins, AHangCostsItsOwnTrials) {
   for (const int trial : {0, 1}) EXPECT_FALSE(is_missing(rows.at({trial, "kf"})));
 }
 
+/// A plug-in that fails in the calibration: every trial of its cell has that as its outcome, those
+/// of the cell behind it have the bits that they have alone.
+TEST(Plugins, AFailedCalibrationCostsItsCell) {
+  const TestFolder folder, alone;
+  // Of a bias that is above zero by 20 standard deviations, so that `ending` ends in any signal.
+  const std::string broken =
+      R"({"name": "broken", "trials": 5, "filters": ["none", "kf"], "scenario":
+      {"duration_s": 8, "rate_hz": 50, "thermal_drift": {"c_dps": 1}, "effects": [{"effect": "ending"}]}})";
+  const std::string sound = R"({"name": "c", "trials": 5, "filters": ["none", "kf"], "scenario":
+      {"duration_s": 8, "rate_hz": 50}})";
+  folder.write("s.json", R"({"cells": [)" + broken + ", " + sound + "]}");
+  alone.write("s.json", R"({"cells": [)" + sound + "]}");
+  ASSERT_EQ(run_program(alone, {"run", "s.json"}).exit_code, 0);
+  const auto ended = run_program(folder, with({"run", "s.json"}, "misbehaving"));
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("broken: calibration or tuning: ending"));
+  EXPECT_THAT(ended.err, HasSubstr("5 trials failed"));
+
+  const auto csv = run_program(folder, {"export", "runs/s"}).out;
+  const auto theirs = run_program(alone, {"export", "runs/s"}).out;
+  const auto from_c = [](const std::string& text) { return text.substr(text.find("\nc,")); };
+  EXPECT_EQ(from_c(csv), from_c(theirs));
+  for (const auto& [at, row] : rows_of(csv.substr(0, csv.find("\nc,"))))
+    EXPECT_TRUE(is_missing(row)) << at.first;
+  const auto failures =
+      run_program(folder,
+                  with({"status", "runs/s", "--failures", "--format", "csv"}, "misbehaving"))
+          .out;
+  EXPECT_THAT(failures, HasSubstr("ending"));
+  EXPECT_EQ(run_program(folder, with({"report", "runs/s"}, "misbehaving")).exit_code, 0);
+  const auto over = run_program(
+      folder, with({"run", "s.json", "--out", "strict", "--failure-budget", "0.1"}, "misbehaving"));
+  EXPECT_EQ(over.exit_code, 3) << over.err;
+}
+
 TEST(Plugins, WhatALibraryPrintsDoesNoHarm) {
   const TestFolder folder;
   folder.write("s.json", study_with(R"("sound", "chatting")"));
