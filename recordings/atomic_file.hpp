@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include <gyrostat/recordings/temporary_path.hpp>
+#include <gyrostat/core/temporary_path.hpp>
 
 namespace gyrostat {
 

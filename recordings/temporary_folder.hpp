@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <gyrostat/recordings/temporary_path.hpp>
+#include <gyrostat/core/temporary_path.hpp>
 
 namespace gyrostat {
 

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/core/temporary_path.hpp>
 #include <gyrostat/results/schema.hpp>
 #include <gyrostat/results/store_log.hpp>
 #include <gyrostat/results/store_rows.hpp>
@@ -114,19 +115,20 @@ void create(const fs::path& path, const Manifest& manifest) {
     throw StoreError(fmt::format(
         "{}: is gone, and its log {} is still there; put it back, or remove the log to begin anew",
         path.string(), log_of(path).filename().string()));
-  const auto part = fs::path(path.string() + ".tmp");
-  fs::remove(part);
+  TemporaryPath part(path.string() + ".tmp");
+  fs::remove(part.path());
   {
-    Database database(part, Access::write);
-    // Rows of some KiB fill large pages better.
-    database.run("PRAGMA page_size = 16384");
+    Database database(part.path(), Access::write);
+    // Rows of some KiB fill large pages better. What is not whole goes: it needs no journal.
+    database.run("PRAGMA page_size = 16384; PRAGMA journal_mode = OFF");
     Transaction transaction(database);
     database.run(schema_sql);
     add_study(database, manifest);
     database.run(fmt::format("PRAGMA user_version = {}", schema_version));
     transaction.commit();
   }
-  fs::rename(part, path);
+  fs::rename(part.path(), path);
+  part.keep();
 }
 
 constexpr std::uint64_t all_trials = std::uint64_t{1} << 32;
@@ -377,29 +379,27 @@ Store::Repaired Store::repair(const fs::path& folder, const std::optional<Manife
     throw InputError(folder.string(), fmt::format("there is no {} to be repaired", file_name));
   const Lock lock(folder);
   Repaired result;
-  const auto part = fs::path(path.string() + ".tmp");
+  TemporaryPath part(path.string() + ".tmp");
   try {
     result.log_was_damaged = damage_of_log(path).has_value();
     Database damaged(path, Access::read);
     require_version(damaged);
     const auto manifest = named ? *named : manifest_of(damaged);
-    create(part, manifest);
-    Database sound(part, Access::write);
+    create(part.path(), manifest);
+    Database sound(part.path(), Access::write);
     sound.run("PRAGMA journal_mode = OFF; PRAGMA synchronous = FULL");
     Transaction transaction(sound);
     store_rows::set_cells(sound, manifest.cells);
     salvage(damaged, sound, manifest, result);
     transaction.commit();
   } catch (const sqlite::Error& error) {
-    fs::remove(part);
     throw explained(error);
   }
-  if (result.is_sound()) {
-    fs::remove(part);
-    return result;
-  }
+  if (result.is_sound()) return result;
+  const auto whole = part.path();
+  part.keep();  // whole, and for a moment the only one by its name
   result.aside = renamed(path);
-  fs::rename(part, path);
+  fs::rename(whole, path);
   return result;
 }
 

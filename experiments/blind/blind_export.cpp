@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <gyrostat/core/temporary_path.hpp>
 #include <gyrostat/diagnosis/diagnosis.hpp>
 #include <gyrostat/experiments/blind/blind_check.hpp>
 #include <gyrostat/experiments/blind/blind_labels.hpp>
@@ -14,7 +15,6 @@
 #include <gyrostat/experiments/blind/seal.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
-#include <gyrostat/recordings/temporary_path.hpp>
 
 namespace gyrostat::gap {
 namespace {

@@ -9,8 +9,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <gyrostat/core/temporary_path.hpp>
 #include <gyrostat/experiments/cli/verbs.hpp>
-#include <gyrostat/recordings/temporary_path.hpp>
 
 namespace gyrostat::cli {
 namespace {

@@ -117,7 +117,8 @@ std::string breach(const TestFolder& folder, const Call& call, int signal,
     return fmt::format("took {} ms",
                        std::chrono::duration_cast<std::chrono::milliseconds>(took).count());
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
-    if (entry.path().extension() == ".tmp") return "left " + entry.path().string();
+    if (entry.path().filename().string().find(".tmp") != std::string::npos)
+      return "left " + entry.path().string();
   return "";
 }
 

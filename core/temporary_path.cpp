@@ -1,4 +1,4 @@
-#include <gyrostat/recordings/temporary_path.hpp>
+#include <gyrostat/core/temporary_path.hpp>
 
 #include <mutex>
 #include <set>
