@@ -2,57 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
-#include <tuple>
 
 #include <fmt/format.h>
 
-#include <gyrostat/analysis/statistics/random_effects.hpp>
 #include <gyrostat/core/error.hpp>
 
 namespace gyrostat {
 namespace {
 
-constexpr double most_apart = 1000.0;  ///< of one kind of sensor: a factor
 constexpr std::uint64_t most_attempts = 1000;
-
-/// theta of a unit; where delta1 is 0 there is none.
-double ratio_of(const Scenario& scenario) { return scenario.random_error.theta(); }
-
-/// The law of a parameter from its values, where `error` has their standard errors or a NaN.
-FleetLaw law_of(const FieldInfo& field, std::size_t units, const std::vector<std::size_t>& members,
-                const std::vector<double>& values, const std::vector<double>& errors) {
-  FleetLaw law{.name = std::string(field.name),
-               .unit = std::string(field.unit),
-               .allowed = field.range,
-               .direction = std::vector<double>(units)};
-  law.mean = values.front();
-  const bool constant =
-      std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
-  if (constant) return law;  // one unit alone, a choice, a step of the converter
-
-  law.logarithmic = field.range.from == 0.0 &&
-                    std::none_of(values.begin(), values.end(), [](double v) { return v <= 0.0; });
-  const bool known =
-      std::all_of(errors.begin(), errors.end(), [](double e) { return std::isfinite(e) && e > 0; });
-  std::vector<MemberValue> on_scale;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double error = known ? errors[i] : 0.0;
-    on_scale.push_back(law.logarithmic ? MemberValue{std::log(values[i]), error / values[i]}
-                                       : MemberValue{values[i], error});
-  }
-  const auto population = random_effects(on_scale);
-  law.mean = population.mean;
-  law.scale = std::hypot(population.spread, population.mean_error);
-  law.degrees = static_cast<double>(values.size()) - 1.0;
-  double plain_mean = 0.0, squares = 0.0;
-  for (const auto& v : on_scale) plain_mean += v.value / static_cast<double>(on_scale.size());
-  for (const auto& v : on_scale) squares += (v.value - plain_mean) * (v.value - plain_mean);
-  for (std::size_t i = 0; i < members.size(); ++i)
-    law.direction[members[i]] = (on_scale[i].value - plain_mean) / std::sqrt(squares);
-  return law;
-}
 
 template <class P>
 void put(P& parameters, const FleetLaw& law, double value) {
@@ -61,19 +20,6 @@ void put(P& parameters, const FleetLaw& law, double value) {
 }
 
 constexpr std::string_view ratio_name = "delta2_dps / delta1_dps";
-
-/// Which effect of a unit is the same as which of another: its name, form, and which of its kind.
-using EffectKey = std::tuple<std::string, std::string, int>;
-
-std::vector<EffectKey> keys_of(const Scenario& scenario) {
-  std::vector<EffectKey> keys;
-  for (const auto& effect : scenario.effects) {
-    EffectKey key{std::string(effect.id()), form_of(effect), 0};
-    while (std::find(keys.begin(), keys.end(), key) != keys.end()) ++std::get<2>(key);
-    keys.push_back(key);
-  }
-  return keys;
-}
 
 }  // namespace
 
@@ -84,15 +30,6 @@ std::string form_of(const Effect& effect) {
       form +=
           fmt::format("{}{} {:g}", form.empty() ? "" : ", ", described.name, effect.value(field));
   return form;
-}
-
-double FleetLaw::value_at(double on_scale) const {
-  return logarithmic ? std::exp(on_scale) : on_scale;
-}
-
-bool FleetLaw::takes(double value) const {
-  const bool near = !logarithmic || std::abs(std::log(value) - mean) <= std::log(most_apart);
-  return std::isfinite(value) && allowed.contains(value) && near;
 }
 
 /// The deviates of one attempt: one a unit, and the squares that Student's law divides by.
@@ -121,6 +58,19 @@ Fleet::Fleet(std::vector<FleetUnit> units, const std::string& place) : units_(st
   if (units_.size() < 2)
     throw InputError(place, fmt::format("a fleet of {}; the next one is foretold from 2 or more",
                                         units_.size() == 1 ? "1 unit" : "no unit"));
+  require_one_rate(place);
+  add_laws();
+  Found found;
+  for (std::size_t u = 0; u < units_.size(); ++u) {
+    const auto keys = keys_of(units_[u].scenario);
+    for (std::size_t e = 0; e < keys.size(); ++e) found[keys[e]].emplace_back(u, e);
+    effect_laws_.emplace_back(keys.size());
+  }
+  add_effect_laws(found);
+  make_nominal(found);
+}
+
+void Fleet::require_one_rate(const std::string& place) const {
   const double rate_hz = units_.front().scenario.sampling.rate_hz;
   for (const auto& unit : units_)
     if (std::abs(unit.scenario.sampling.rate_hz / rate_hz - 1.0) > 0.01)
@@ -129,21 +79,26 @@ Fleet::Fleet(std::vector<FleetUnit> units, const std::string& place) : units_(st
                                           "sample",
                                           unit.name, unit.scenario.sampling.rate_hz,
                                           units_.front().name, rate_hz));
+}
+
+void Fleet::add_laws() {
   std::vector<std::size_t> all(units_.size());
   for (std::size_t u = 0; u < all.size(); ++u) all[u] = u;
   const std::vector<double> unknown(units_.size(), std::nan(""));
   const auto add = [&](const FieldInfo& field, const auto& value_of) {
     std::vector<double> values;
     for (const auto& unit : units_) values.push_back(value_of(unit.scenario));
-    laws_.push_back(law_of(field, units_.size(), all, values, unknown));
+    laws_.push_back(fleet_law(field, units_.size(), all, values, unknown));
   };
-  by_ratio_ = std::all_of(units_.begin(), units_.end(), [](const auto& unit) {
-    return ranges::stationary.contains(ratio_of(unit.scenario));
+  // delta2 is drawn by theta = delta2 / delta1.
+  const bool by_ratio = std::all_of(units_.begin(), units_.end(), [](const auto& unit) {
+    return ranges::stationary.contains(unit.scenario.random_error.theta());
   });
   const auto errors = field_infos_of<Arima111<double>>;
   for (std::size_t f = 0; f < errors.size(); ++f)
-    if (by_ratio_ && errors[f].name == "delta2_dps")
-      add({.name = ratio_name, .unit = "1", .range = ranges::stationary, .doc = ""}, ratio_of);
+    if (by_ratio && errors[f].name == "delta2_dps")
+      add({.name = ratio_name, .unit = "1", .range = ranges::stationary, .doc = ""},
+          [](const Scenario& s) { return s.random_error.theta(); });
     else
       add(errors[f], [&](const Scenario& s) {
         return s.random_error.*(Arima111<double>::fields()[f].member);
@@ -153,13 +108,19 @@ Fleet::Fleet(std::vector<FleetUnit> units, const std::string& place) : units_(st
     add(drifts[f], [&](const Scenario& s) {
       return s.thermal_drift.*(ThermalDrift<double>::fields()[f].member);
     });
+}
 
-  std::map<EffectKey, std::vector<std::pair<std::size_t, std::size_t>>> found;
-  for (std::size_t u = 0; u < units_.size(); ++u) {
-    const auto keys = keys_of(units_[u].scenario);
-    for (std::size_t e = 0; e < keys.size(); ++e) found[keys[e]].emplace_back(u, e);
-    effect_laws_.emplace_back(keys.size());
+std::vector<Fleet::EffectKey> Fleet::keys_of(const Scenario& scenario) {
+  std::vector<EffectKey> keys;
+  for (const auto& effect : scenario.effects) {
+    EffectKey key{std::string(effect.id()), form_of(effect), 0};
+    while (std::find(keys.begin(), keys.end(), key) != keys.end()) ++std::get<2>(key);
+    keys.push_back(key);
   }
+  return keys;
+}
+
+void Fleet::add_effect_laws(const Found& found) {
   for (const auto& [key, members] : found) {
     std::vector<std::size_t> with;
     for (const auto& [u, e] : members) with.push_back(u);
@@ -173,13 +134,15 @@ Fleet::Fleet(std::vector<FleetUnit> units, const std::string& place) : units_(st
                                 ? errors_of_unit[e][f]
                                 : std::nan(""));
       }
-      auto law = law_of(first.fields()[f], units_.size(), with, values, of_values);
+      auto law = fleet_law(first.fields()[f], units_.size(), with, values, of_values);
       law.name = fmt::format("{}.{}", first.id(), law.name);
-      for (const auto& [u, e] : members) effect_laws_[u][e].fields.push_back(law);
+      for (const auto& [u, e] : members) effect_laws_[u][e].push_back(law);
     }
   }
+}
 
-  nominal_.sampling.rate_hz = rate_hz;
+void Fleet::make_nominal(const Found& found) {
+  nominal_.sampling.rate_hz = units_.front().scenario.sampling.rate_hz;
   for (const auto& law : laws_) {
     put(nominal_.random_error, law, law.value_at(law.mean));
     put(nominal_.thermal_drift, law, law.value_at(law.mean));
@@ -191,7 +154,7 @@ Fleet::Fleet(std::vector<FleetUnit> units, const std::string& place) : units_(st
     const auto [u, e] = members.front();
     auto& effect = nominal_.effects.emplace_back(units_[u].scenario.effects[e]);
     for (std::size_t f = 0; f < effect.fields().size(); ++f) {
-      const auto& law = effect_laws_[u][e].fields[f];
+      const auto& law = effect_laws_[u][e][f];
       effect.value(f) = law.value_at(law.mean);
     }
   }
@@ -249,7 +212,7 @@ bool Fleet::try_draw(const Scenario& nominal, std::size_t unit, const Deviates& 
   drawn.effects = units_[unit].scenario.effects;
   for (std::size_t e = 0; e < drawn.effects.size(); ++e)
     for (std::size_t f = 0; f < drawn.effects[e].fields().size(); ++f) {
-      const auto& law = effect_laws_[unit][e].fields[f];
+      const auto& law = effect_laws_[unit][e][f];
       drawn.effects[e].value(f) = deviates.value(law);
       if (law.takes(drawn.effects[e].value(f))) continue;
       *beyond = &law;

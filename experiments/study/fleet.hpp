@@ -1,12 +1,15 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <map>
 #include <set>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gyrostat/core/random.hpp>
+#include <gyrostat/experiments/study/fleet_law.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
 namespace gyrostat {
@@ -22,27 +25,6 @@ struct FleetUnit {
 /// "stages 2": an effect's parameters that are whole numbers choose between laws, so that its
 /// others mean something else.
 std::string form_of(const Effect& effect);
-
-/// What is known of a parameter of the next unit:
-///   on its scale, x = mean + sqrt(spread^2 + mean_error^2) t,  t of Student's law,
-/// the posterior prediction of random effects (Higgins, Thompson and Spiegelhalter, Journal of the
-/// Royal Statistical Society A 172, 2009; with the mean's error after Hartung and Knapp). Without
-/// errors of their own, n units with standard deviation s make it mean + s sqrt(1 + 1/n) t(n-1).
-struct FleetLaw {
-  std::string name, unit;
-  Range allowed;
-  bool logarithmic = false;  ///< its scale: where it can be positive alone and is so in all units
-  double mean = 0.0;         ///< on its scale
-  double scale = 0.0;        ///< sqrt(spread^2 + mean_error^2); 0: a constant, the mean
-  double degrees = 0.0;      ///< of freedom: units that have it, less one
-  /// By unit: its share of the differences, of unit length. Laws of one draw weigh the same
-  /// deviates by it, so that parameters that go together in the units do so in the draw.
-  std::vector<double> direction;
-
-  double value_at(double on_scale) const;
-  /// Within the allowed range, and where it is logarithmic within a factor of 1000 of the mean.
-  bool takes(double value) const;
-};
 
 /// The population that diagnosed units of one kind are from, and its next unit: random error and
 /// thermal drift by their FleetLaws; the effects of one of the units, each as likely, their
@@ -83,10 +65,17 @@ class Fleet {
   void draw(const Scenario& nominal, const Noise& noise, Scenario& drawn) const;
 
  private:
-  struct EffectLaws {
-    std::vector<FleetLaw> fields;
-  };
+  /// Which effect of a unit is the same as which of another: its name, form, and which of its kind;
+  /// with the units that have it and its place in each.
+  using EffectKey = std::tuple<std::string, std::string, int>;
+  using Found = std::map<EffectKey, std::vector<std::pair<std::size_t, std::size_t>>>;
   class Deviates;
+
+  static std::vector<EffectKey> keys_of(const Scenario& scenario);
+  void require_one_rate(const std::string& place) const;
+  void add_laws();
+  void add_effect_laws(const Found& found);
+  void make_nominal(const Found& found);
 
   bool is_drawn(const FleetLaw& law) const { return !stated_.contains(law.name); }
   /// Whether all that is drawn lies in range; else `beyond` is a parameter that does not.
@@ -95,8 +84,7 @@ class Fleet {
 
   std::vector<FleetUnit> units_;
   std::vector<FleetLaw> laws_;
-  std::vector<std::vector<EffectLaws>> effect_laws_;  ///< by unit and effect
-  bool by_ratio_ = true;  ///< delta2 is drawn by theta = delta2 / delta1
+  std::vector<std::vector<std::vector<FleetLaw>>> effect_laws_;  ///< by unit, effect and field
   std::set<std::string> stated_;
   Scenario nominal_;
   double redrawn_ = 0.0;
