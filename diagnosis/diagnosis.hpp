@@ -55,7 +55,7 @@ struct Included {
   std::vector<Effect> parameters;  ///< fitted; several where it is there several times
   /// Of the first of them: where the recording tells, between which values each field lies with
   /// 95 %; NaN elsewhere.
-  std::vector<std::array<double, 2>> intervals;
+  std::vector<std::array<double, 2>> intervals{};
 };
 
 /// What named effects leave, modelled without a name.

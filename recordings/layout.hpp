@@ -19,8 +19,8 @@ struct RecordingLayout {
       columns;  ///< channel → column, its unit in brackets where it has one; or number → channel
   std::map<std::string, std::string> units;  ///< channel → unit, whatever the column says
   std::string place = "the recording";       ///< that messages about the layout itself name
-  std::string preset;        ///< the id of the file's format; empty: known by its content
-  std::string topic;         ///< of a log that holds several gyros; empty: the one most often there
+  std::string preset{};      ///< the id of the file's format; empty: known by its content
+  std::string topic{};       ///< of a log that holds several gyros; empty: the one most often there
   double rate_hz = 0.0;      ///< of the samples, in place of their times; 0: times are in the file
   double resample_hz = 0.0;  ///< of an even clock that samples are put on; 0: as they are
 };

@@ -12,10 +12,10 @@
 namespace gyrostat::gap {
 namespace {
 
-constexpr std::ptrdiff_t reach = 4;  ///< samples of the rate before and after
-constexpr std::size_t taps = 2 * reach + 1;
+constexpr std::ptrdiff_t rate_reach = 4;  ///< samples of the rate before and after
+constexpr std::size_t taps = 2 * rate_reach + 1;
 constexpr std::array levels = {0.02, 0.1, 0.25, 0.4, 0.6, 0.75, 0.9, 0.98};
-constexpr std::size_t columns = taps + levels.size() + 1;
+constexpr std::size_t regressor_columns = taps + levels.size() + 1;
 
 }  // namespace
 
@@ -29,34 +29,36 @@ double log_gain_of_motion(const Conditions& conditions, const std::vector<double
   std::array<double, levels.size()> bends{};
   for (std::size_t k = 0; k < levels.size(); ++k) bends[k] = quantile(there, levels[k]);
 
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(columns, columns);
-  Eigen::VectorXd with_left = Eigen::VectorXd::Zero(columns);
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(regressor_columns, regressor_columns);
+  Eigen::VectorXd with_left = Eigen::VectorXd::Zero(regressor_columns);
   double squares = 0.0, count = 0.0;
-  Eigen::VectorXd row(columns);
+  Eigen::VectorXd row(regressor_columns);
   for (const auto& span : conditions.spans(Part::train))
-    for (auto i = static_cast<std::ptrdiff_t>(span.first) + reach;
-         i + reach < static_cast<std::ptrdiff_t>(span.last); ++i) {
+    for (auto i = static_cast<std::ptrdiff_t>(span.first) + rate_reach;
+         i + rate_reach < static_cast<std::ptrdiff_t>(span.last); ++i) {
       const auto at = [&](std::ptrdiff_t k) { return rate[static_cast<std::size_t>(k)]; };
       const double value = left_dps[static_cast<std::size_t>(i)];
-      if (is_missing(value) || is_missing(at(i - reach)) || is_missing(at(i + reach))) continue;
-      for (std::ptrdiff_t lag = -reach; lag <= reach; ++lag) row[lag + reach] = at(i + lag);
+      if (is_missing(value) || is_missing(at(i - rate_reach)) || is_missing(at(i + rate_reach)))
+        continue;
+      for (std::ptrdiff_t lag = -rate_reach; lag <= rate_reach; ++lag)
+        row[lag + rate_reach] = at(i + lag);
       for (std::size_t k = 0; k < bends.size(); ++k)
         row[static_cast<Eigen::Index>(taps + k)] = std::max(0.0, at(i) - bends[k]);
-      row[columns - 1] = 1.0;
+      row[regressor_columns - 1] = 1.0;
       if (!row.allFinite()) continue;
       products.selfadjointView<Eigen::Lower>().rankUpdate(row);
       with_left += value * row;
       squares += value * value;
       count += 1.0;
     }
-  if (count < 10.0 * columns) return 0.0;
+  if (count < 10.0 * regressor_columns) return 0.0;
   const Eigen::MatrixXd normal = products.selfadjointView<Eigen::Lower>();
   // A motion of few frequencies has taps that are alike.
   Eigen::MatrixXd ridged = normal;
   ridged.diagonal() += 1e-9 * normal.diagonal();
   const double explained = with_left.dot(ridged.ldlt().solve(with_left));
   const double share = std::clamp(explained / std::max(squares, 1e-300), 0.0, 1.0 - 1e-12);
-  return -0.5 * count * std::log1p(-share) - 0.5 * static_cast<double>(columns);
+  return -0.5 * count * std::log1p(-share) - 0.5 * static_cast<double>(regressor_columns);
 }
 
 }  // namespace gyrostat::gap

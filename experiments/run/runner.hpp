@@ -11,8 +11,8 @@ namespace gyrostat {
 
 /// What came out of a cell. Trials that were not run (after an interrupt) are absent.
 struct CellResult {
-  Calibration calibration;
-  std::vector<TunedMethod> tuned;  ///< one a method, empty values where nothing was to be tuned
+  Calibration calibration{};
+  std::vector<TunedMethod> tuned{};  ///< one a method, empty values where nothing was to be tuned
   std::vector<std::optional<Record>> trials;  ///< by trial number
   std::vector<double> nanoseconds_per_step;   ///< one a method, its metrics included
 
@@ -26,15 +26,15 @@ struct RunOptions {
   int threads = 0;                          ///< 0: as many as the machine has
   const std::atomic<bool>* stop = nullptr;  ///< once true, running trials finish and no more start
   std::uint32_t lanes = default_lanes();    ///< trials side by side; changes no byte of the result
-  std::function<void(std::size_t finished)> progress;  ///< called from any thread
+  std::function<void(std::size_t finished)> progress{};  ///< called from any thread
 };
 
 /// A cell with its calibration, and with tuned values fixed.
 struct PreparedCell {
   Cell cell;
-  Calibration calibration;
-  std::vector<TunedMethod> tuned;  ///< one a method, empty values where nothing was to be tuned
-  std::optional<SharedConditions> conditions;  ///< what its trials have in common, where they do
+  Calibration calibration{};
+  std::vector<TunedMethod> tuned{};  ///< one a method, empty values where nothing was to be tuned
+  std::optional<SharedConditions> conditions{};  ///< what its trials have in common, where they do
   std::string thrown{};  ///< by its calibration or tuning, and then the outcome of every trial
 };
 

@@ -271,8 +271,12 @@ TYPED_TEST(ThermalFilter, KeepsItsBiasWithoutACompassOnRequest) {
     for (std::size_t i = 0; i <= back; ++i) {
       const double estimate = filter.step(samples[i]).estimate_dps;
       if (i == 40 * steps_per_epoch - 1) before = estimate;
-      if (i >= 40 * steps_per_epoch && i < back) EXPECT_EQ(estimate, before) << i;
-      if (i == back) EXPECT_NE(estimate, before);
+      if (i >= 40 * steps_per_epoch && i < back) {
+        EXPECT_EQ(estimate, before) << i;
+      }
+      if (i == back) {
+        EXPECT_NE(estimate, before);
+      }
     }
   }
 }

@@ -129,13 +129,14 @@ TEST(SlowLaw, HasTheCovariancesOfMeans) {
            (lag == 0 ? slow.white : 0.0);
   };
   // By sums over 400 points a cluster.
-  constexpr int points = 400;
+  constexpr int points_a_cluster = 400;
   const auto integrated = [&](int lag) {
     double sum = 0.0;
-    for (int i = 0; i < points; ++i)
-      for (int j = 0; j < points; ++j)
-        sum += std::exp(-std::abs(lag + (i - j) / double{points}) * interval_s / memory_s);
-    return variance * sum / (points * points) + (lag == 0 ? noise : 0.0);
+    for (int i = 0; i < points_a_cluster; ++i)
+      for (int j = 0; j < points_a_cluster; ++j)
+        sum +=
+            std::exp(-std::abs(lag + (i - j) / double{points_a_cluster}) * interval_s / memory_s);
+    return variance * sum / (points_a_cluster * points_a_cluster) + (lag == 0 ? noise : 0.0);
   };
   for (const int lag : {0, 1, 2, 30})
     EXPECT_NEAR(of_the_law(lag) / integrated(lag), 1.0, 1e-5) << lag;

@@ -172,8 +172,9 @@ TEST(BlindCheck, CtrlCEndsItInAMomentAndTheSameGoesOn) {
   EXPECT_THAT(ended.err, HasSubstr("stopped early"));
   EXPECT_THAT(ended.err, Not(HasSubstr("ended with status")));
   for (const auto& [name, contents] : folder.contents())
-    if (name.starts_with("out/diagnoses/") && name.ends_with(".json"))
+    if (name.starts_with("out/diagnoses/") && name.ends_with(".json")) {
       EXPECT_TRUE(Json::accept(contents)) << name;
+    }
 }
 
 }  // namespace

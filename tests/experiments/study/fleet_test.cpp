@@ -324,7 +324,9 @@ TEST(FromFleet, ThreadsLanesAndShardsChangeNoBit) {
       for (const auto& shard : {Shard{1, 1}, Shard{1, 3}, Shard{2, 3}, Shard{3, 3}}) {
         const auto got = numbers(cell, many, shard);
         for (std::uint32_t t = 0; t < cell.trials; ++t)
-          if (shard.owns(t)) EXPECT_TRUE(same(got[t], expected[t])) << lanes << " lanes, " << t;
+          if (shard.owns(t)) {
+            EXPECT_TRUE(same(got[t], expected[t])) << lanes << " lanes, " << t;
+          }
       }
     }
     EXPECT_FALSE(same(expected[0], expected[1]));
