@@ -13,10 +13,11 @@ struct Diagnosis;
 /// What came out, in one sentence that needs no statistics.
 std::string answer(const Diagnosis& diagnosis);
 
+/// How much of the gap what has no name closes; empty where nothing.
+std::string remainder_in_words(const Diagnosis& diagnosis);
+
 /// How many metrics of the filters came nearer to the recording, and how many moved away from it;
 /// empty where nothing was added.
-/// How much of the gap what has no name closes; empty where nothing.
-std::string remainder_in_words(const Diagnosis& d);
 std::string transfer_in_words(const Diagnosis& diagnosis);
 
 /// What to record next, and how surely that decides; empty where nothing is open.

@@ -572,6 +572,7 @@ Diagnosis Work::run() {
   measure_shrinkage();
   keep_bands();
   took("shrinkage");
+  result_.line_sources = line_sources(recording_, result_.enriched.effects);
   tell("running the filters", 0.92);
   result_.transfer =
       transfer(simulator_, recording_, result_.baseline, result_.enriched, transfer_replicas);

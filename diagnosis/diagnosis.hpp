@@ -9,6 +9,7 @@
 #include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/diagnosis/likelihood/nameless.hpp>
 #include <gyrostat/diagnosis/likelihood/unexplained.hpp>
+#include <gyrostat/diagnosis/line_source.hpp>
 #include <gyrostat/diagnosis/next_experiment.hpp>
 #include <gyrostat/diagnosis/portrait.hpp>
 #include <gyrostat/diagnosis/transfer.hpp>
@@ -97,9 +98,10 @@ struct Diagnosis {
   std::vector<Cause> causes;  ///< those of the set, then their rivals
   Remainder remainder;
   Verdict verdict = Verdict::none();
-  bool claimed = false;                 ///< the causes were given, not found
-  std::vector<Verdict> verdict_set;     ///< what the recording cannot rule out
-  std::vector<Enrichment> enrichments;  ///< of the baseline, one after another
+  bool claimed = false;                   ///< the causes were given, not found
+  std::vector<Verdict> verdict_set;       ///< what the recording cannot rule out
+  std::vector<Enrichment> enrichments;    ///< of the baseline, one after another
+  std::vector<LineWitness> line_sources;  ///< of those effects that are lines
   std::vector<Shortfall> not_assessable;
   std::vector<Transfer> transfer;
   NextExperiment next;  ///< empty where nothing is open

@@ -102,6 +102,14 @@ Json to_json(const Diagnosis& d) {
     found["gap_without"] = e.gap_without;
     json["effects"].push_back(found);
   }
+  json["line_sources"] = Json::array();
+  for (const auto& line : d.line_sources)
+    json["line_sources"].push_back({{"effect", line.effect},
+                                    {"frequency_hz", line.frequency_hz},
+                                    {"source", name_of(line.source)},
+                                    {"channel", line.channel},
+                                    {"coherence", line.coherence},
+                                    {"p", line.p_value}});
   json["remainder"] = {{"gap", d.gap_after}, {"where", departures_json(d.where_after)}};
   json["remainder"]["closed_with"] = d.remainder.parts.empty() ? d.closed : d.remainder.closed;
   json["remainder"]["with"] = Json::array();

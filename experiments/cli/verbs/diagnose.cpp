@@ -41,7 +41,7 @@ struct DiagnoseArguments {
   SpanOption span;
   FormatOption format;
   std::string json_out, html_out, scenario_out, figures_out, claim;
-  bool timing = false;
+  bool timing = false, fleet = false;
   gap::DiagnosisOptions options;
   SimulatedArguments simulated;
   WatchArguments watch;
@@ -124,8 +124,11 @@ void print_several(const std::vector<gap::FleetMember>& members, const std::stri
                    Format format, Console& console) {
   if (format == Format::text) {
     console.out << gap::shared_in_words(members) << "\n\n";
-    for (const auto& m : members)
-      console.out << fmt::format("{}: {}\n", m.name, gap::answer(m.diagnosis));
+    for (const auto& m : members) {
+      const auto sources = gap::in_words(m.diagnosis.line_sources);
+      console.out << fmt::format("{}: {}{}{}\n", m.name, gap::answer(m.diagnosis),
+                                 sources.empty() ? "" : " ", sources);
+    }
     console.out << '\n';
   }
   console.out << render(gap::member_tables(members, kind), format);
@@ -141,6 +144,8 @@ int run(DiagnoseArguments& arguments, Console& console) {
   if (!arguments.simulated.out.empty()) throw InputError("--out-simulated", "needs --simulated");
   const auto rules = arguments.watch.rules(arguments.options.significance);
   const auto all = each_of(arguments.recording, further);
+  if (arguments.fleet && all.size() < 2)
+    throw InputError("--fleet", "1 recording; allowed: 2 or more, as A.csv B.csv, or --axis all");
   if (all.size() > 1)
     refuse(of_one(arguments),
            "is of one recording and axis; of several there are tables and --json");
@@ -192,6 +197,7 @@ void add_diagnose(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("further", arguments->simulated.further,
                    "further sensors of its kind: each is diagnosed, then what they share; beside "
                    "--simulated, further recordings of the same sensor");
+  verb->add_flag("--fleet", arguments->fleet, "insist on several sensors, axes or parts");
   arguments->span.add_to(verb);
   verb->add_option("--simulated", arguments->simulated.simulated,
                    "traces of your own simulator: how it differs from the recording");
