@@ -1,6 +1,6 @@
 #!/bin/sh
 # Diagnoses both fleets again, axis by axis, into fleet.json; needs a release build and
-# ../shared/recordings. About half an hour of processor time. page.py then fills the page.
+# ../shared/recordings. About three minutes of processor time. page.py then fills the page.
 set -eu
 cd "$(dirname "$0")/../../.."
 recordings=${GYROSTAT_RECORDINGS:-$PWD/../shared/recordings}
