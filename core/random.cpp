@@ -50,11 +50,17 @@ NormalStream::NormalStream(std::uint64_t seed, std::uint32_t trial, std::string_
     : seed_(seed), stream_hash_(fnv1a(stream)), trial_(trial) {}
 
 NormalStream::NormalStream(std::uint64_t seed, std::uint32_t trial, std::string_view stream,
-                           std::span<const NoiseShare> shares, std::vector<double>* tape)
-    : seed_(seed), stream_hash_(fnv1a(stream)), trial_(trial), shares_(shares), tape_(tape) {}
+                           std::span<const NoiseShare> shares, std::vector<double>* tape,
+                           std::span<const double> shift)
+    : seed_(seed),
+      stream_hash_(fnv1a(stream)),
+      trial_(trial),
+      shares_(shares),
+      shift_(shift),
+      tape_(tape) {}
 
 double NormalStream::normal(std::uint64_t sample) const {
-  double sum = 0.0;
+  double sum = sample < shift_.size() ? shift_[sample] : 0.0;
   for (const auto& share : shares_) sum += share.weight * normal_of(share.trial, sample);
   const double value = shares_.empty() ? normal_of(trial_, sample) : sum;
   if (tape_ != nullptr) {
@@ -72,7 +78,8 @@ void NormalStream::fill(std::uint64_t first, std::span<double> out) const {
     for (std::size_t at = 0; at < out.size(); at += piece.size()) {
       const auto part = out.subspan(at, std::min(piece.size(), out.size() - at));
       const auto drawn = std::span(piece).first(part.size());
-      std::fill(part.begin(), part.end(), 0.0);
+      for (std::size_t i = 0; i < part.size(); ++i)
+        part[i] = first + at + i < shift_.size() ? shift_[first + at + i] : 0.0;
       for (const auto& share : shares_) {
         fill_of(share.trial, first + at, drawn);
         for (std::size_t i = 0; i < part.size(); ++i) part[i] += share.weight * drawn[i];

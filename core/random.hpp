@@ -41,10 +41,12 @@ class NormalStream {
  public:
   NormalStream(std::uint64_t seed, std::uint32_t trial, std::string_view stream);
   /// Mixed of trials: each deviate is the sum of `shares` of theirs, a standard normal one again
-  /// where the squares of the weights add up to 1. It is written to `tape`, if any. Shares and tape
-  /// outlive the stream; no shares: `trial` alone.
+  /// where the squares of the weights add up to 1, and of `shift` at its sample, as far as that
+  /// goes. It is written to `tape`, if any. All three outlive the stream; no shares: `trial` alone,
+  /// unshifted.
   NormalStream(std::uint64_t seed, std::uint32_t trial, std::string_view stream,
-               std::span<const NoiseShare> shares, std::vector<double>* tape);
+               std::span<const NoiseShare> shares, std::vector<double>* tape,
+               std::span<const double> shift = {});
 
   /// The deviate at `sample`.
   double normal(std::uint64_t sample) const;
@@ -62,6 +64,7 @@ class NormalStream {
   std::uint64_t stream_hash_;
   std::uint32_t trial_;
   std::span<const NoiseShare> shares_{};
+  std::span<const double> shift_{};
   std::vector<double>* tape_ = nullptr;
 };
 
@@ -76,10 +79,16 @@ struct Noise {
   std::uint32_t trial = 0;
   std::span<const NoiseShare> shares{};  ///< none: `trial` alone; kept by who makes the noise
   NoiseTape* tape = nullptr;             ///< hears of every deviate; for one thread
+  const NoiseTape* shift = nullptr;      ///< added to deviates that are mixed by shares
+  std::string_view place{};              ///< before the names of streams, in tape and shift
 
   NormalStream stream(std::string_view name) const {
     if (shares.empty() && tape == nullptr) return {seed, trial, name};
-    return {seed, trial, name, shares, tape == nullptr ? nullptr : &(*tape)[std::string(name)]};
+    const auto key = std::string(place).append(name);
+    std::span<const double> added;
+    if (shift != nullptr)
+      if (const auto found = shift->find(key); found != shift->end()) added = found->second;
+    return {seed, trial, name, shares, tape == nullptr ? nullptr : &(*tape)[key], added};
   }
 };
 

@@ -79,6 +79,50 @@ std::string sentence(const FailureRule& rule, const FailureFinding& f) {
   return f.method + ": " + event(rule) + ": " + plain_text(f.plain);
 }
 
+/// The failing trials of a method's search, in its cell with that method alone.
+struct FoundFailing {
+  PreparedCell alone;
+  FailingMeans means;
+  std::uint32_t numbers = 0;  ///< of the search
+};
+
+std::optional<FoundFailing> found_failing(const Study& study, std::uint32_t index,
+                                          std::size_t method, const PreparedCell& prepared,
+                                          const std::filesystem::path& folder) {
+  const auto place = folder / failure_folder;
+  if (!study.cells[index].failure || !std::filesystem::exists(place / Store::file_name))
+    return std::nullopt;
+  const Store store = Store::open(place);
+  if (store.manifest().digest != failure_study(study).digest) return std::nullopt;
+  const auto& rule = *study.cells[index].failure;
+  const auto at = failure_index(study, index, method);
+  const FailureSearch search(rule, store, at);
+  if (!search.reached()) return std::nullopt;
+  auto alone = prepared;
+  alone.cell.methods = {prepared.cell.methods[method]};
+  auto means = failing_means(alone, rule, search, store, at, failure_seed(study));
+  if (!means) return std::nullopt;
+  return FoundFailing{std::move(alone), std::move(*means), search.numbers()};
+}
+
+/// What importance sampling says, beside what subset simulation does.
+std::string second_opinion_text(const std::optional<SecondOpinion>& second,
+                                const RareProbability& first, double runs) {
+  const std::string by = "importance sampling along it";
+  if (!second) return by + " cannot be: nothing on its way fails";
+  if (!second->probability)
+    return fmt::format("{} tells nothing: the direction is known too little (closeness {:.2f})", by,
+                       second->closeness);
+  const auto& p = *second->probability;
+  return fmt::format("{}: {} ({} to {}), by {} more trials{}", by, probability(p.probability),
+                     probability(p.low), probability(p.high), second->trials,
+                     disagree(first, p, runs - 1.0)
+                         ? fmt::format("; subset simulation has {}: the two DISAGREE, since there "
+                                       "are other ways to fail, or runs have missed one",
+                                       probability(first.probability))
+                         : ", which agrees with subset simulation");
+}
+
 /// "white_noise" of "white_noise", "bias_steps" of "bias_steps/wait": what people know it by.
 std::string input_of(const std::string& stream) {
   const auto start = stream.starts_with("calibration/") ? std::string("calibration/").size() : 0;
@@ -209,22 +253,27 @@ Table failure_levels(const Cell& cell, const std::vector<FailureFinding>& findin
 std::optional<FailureSignal> found_signal(const Study& study, std::uint32_t index,
                                           std::size_t method, const PreparedCell& prepared,
                                           const std::filesystem::path& folder) {
-  const auto place = folder / failure_folder;
-  if (!study.cells[index].failure || !std::filesystem::exists(place / Store::file_name))
-    return std::nullopt;
-  const Store store = Store::open(place);
-  if (store.manifest().digest != failure_study(study).digest) return std::nullopt;
+  const auto found = found_failing(study, index, method, prepared, folder);
+  if (!found) return std::nullopt;
+  return failure_signal(found->alone, *study.cells[index].failure, found->means,
+                        failure_seed(study));
+}
+
+std::optional<FailureHow> how_it_fails(const Study& study, std::uint32_t index, std::size_t method,
+                                       const PreparedCell& prepared,
+                                       const std::filesystem::path& folder) {
+  const auto found = found_failing(study, index, method, prepared, folder);
+  if (!found) return std::nullopt;
   const auto& rule = *study.cells[index].failure;
-  const auto at = failure_index(study, index, method);
-  const FailureSearch search(rule, store, at);
-  if (!search.reached()) return std::nullopt;
-  auto alone = prepared;
-  alone.cell.methods = {prepared.cell.methods[method]};
-  return failure_signal(alone, rule, search, store, at, failure_seed(study));
+  const auto signal = failure_signal(found->alone, rule, found->means, failure_seed(study));
+  if (!signal) return std::nullopt;
+  return FailureHow{*signal, second_opinion(found->alone, rule, found->means, found->numbers,
+                                            failure_seed(study))};
 }
 
 Table driver_table(const Study& study, const Cell& cell, const FailureFinding& finding,
-                   const FailureSignal& signal) {
+                   const FailureHow& how) {
+  const auto& signal = how.signal;
   Table table{.title = fmt::format("{}: how {} fails", cell.name, finding.method),
               .columns = {{"input", ""}, {"share of the design point", "%"}}};
   std::map<std::string, double> inputs;
@@ -253,6 +302,8 @@ Table driver_table(const Study& study, const Cell& cell, const FailureFinding& f
                    ", where subset simulation has {}: there are other ways to fail, or the edge is "
                    "curved",
                    probability(finding.rare->probability))));
+  table.notes.push_back(second_opinion_text(how.second, *finding.rare,
+                                            static_cast<double>(finding.search->runs().size())));
   return table;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gyrostat/core/table.hpp>
+#include <gyrostat/experiments/run/failure_second_opinion.hpp>
 #include <gyrostat/experiments/run/failure_signal.hpp>
 
 namespace gyrostat {
@@ -44,9 +45,19 @@ std::optional<FailureSignal> found_signal(const Study& study, std::uint32_t inde
                                           std::size_t method, const PreparedCell& prepared,
                                           const std::filesystem::path& folder);
 
-/// What drives it: the share of each noise in the design point. The note compares its distance with
-/// the reliability index: they are the same where the failure is a half-space, or two of them.
+/// The same, and what importance sampling along it says of the probability.
+struct FailureHow {
+  FailureSignal signal;
+  std::optional<SecondOpinion> second;
+};
+std::optional<FailureHow> how_it_fails(const Study& study, std::uint32_t index, std::size_t method,
+                                       const PreparedCell& prepared,
+                                       const std::filesystem::path& folder);
+
+/// What drives it: the share of each noise in the design point. Notes compare the probability with
+/// that of a flat edge at the design point's distance, and with importance sampling's: they are the
+/// same where the failure is a half-space, or two of them, and the last where it is one mode.
 Table driver_table(const Study& study, const Cell& cell, const FailureFinding& finding,
-                   const FailureSignal& signal);
+                   const FailureHow& how);
 
 }  // namespace gyrostat

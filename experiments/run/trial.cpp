@@ -91,7 +91,9 @@ std::vector<double> judge_track(const Series& series, const Series& judged, cons
 
 Noise calibration_noise(std::uint64_t seed, std::uint32_t trial) { return {~seed, trial}; }
 
-Noise calibration_noise(const Noise& trial) { return {~trial.seed, trial.trial, trial.shares}; }
+Noise calibration_noise(const Noise& trial) {
+  return {~trial.seed, trial.trial, trial.shares, trial.tape, trial.shift, "calibration/"};
+}
 
 ParameterMap told_parameters(const Cell& cell, const Scenario& sensor, const Method& method,
                              const Calibration& calibration, const Series& series) {

@@ -25,9 +25,9 @@ void add_drivers(const FailureArguments& arguments, const Study& study, std::uin
   const auto& methods = study.cells[index].failure->methods;
   for (std::size_t i = 0; i < findings.size(); ++i) {
     if (!findings[i].rare) continue;
-    const auto signal = found_signal(study, index, methods[i], prepared, arguments.folder);
-    if (signal)
-      tables.push_back(driver_table(study, study.cells[index], findings[i], *signal));
+    const auto how = how_it_fails(study, index, methods[i], prepared, arguments.folder);
+    if (how)
+      tables.push_back(driver_table(study, study.cells[index], findings[i], *how));
     else
       tables.back().notes.push_back(findings[i].method +
                                     ": failing trials have no deviates in common that fail alone");
@@ -64,7 +64,7 @@ void add_failure(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("folder", arguments->folder, "folder of a run, as runs/<study>")->required();
   verb->add_option("--cell", arguments->cell, "this cell alone");
   verb->add_flag("--how", arguments->how,
-                 "what drives each failure: the most likely failing signal");
+                 "what drives each failure, and a second opinion on its probability");
   arguments->format.add_to(verb);
   verb->footer(failure_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

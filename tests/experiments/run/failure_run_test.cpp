@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <gyrostat/analysis/statistics/distributions.hpp>
+#include <gyrostat/experiments/run/failure_second_opinion.hpp>
 #include <gyrostat/experiments/run/failure_signal.hpp>
 #include <gyrostat/tests/program.hpp>
 
@@ -92,8 +93,11 @@ TEST(FailureRun, OfALinearGaussianCellIsTheExactProbability) {
 
   const Store store = Store::open(folder.path() / failure_folder);
   const auto prepared = prepare_cell(study.cells[0], study.seed, 1);
-  const auto signal =
-      failure_signal(prepared, *study.cells[0].failure, search, store, 0, failure_seed(study));
+  const auto& rule = *study.cells[0].failure;
+  const auto seed = failure_seed(study);
+  const auto means = failing_means(prepared, rule, search, store, 0, seed);
+  ASSERT_TRUE(means);
+  const auto signal = failure_signal(prepared, rule, *means, seed);
   ASSERT_TRUE(signal);
   // A linear failure's design point is as far as its reliability index, and each input's share
   // that in the variance. The means of eight runs' failing trials, of some twenty that are
@@ -104,6 +108,39 @@ TEST(FailureRun, OfALinearGaussianCellIsTheExactProbability) {
   EXPECT_NEAR(signal->drivers.at("white_noise"), white_variance() / whole, 0.1);
   EXPECT_NEAR(signal->drivers.at("random_error"), walk_variance() / whole, 0.1);
   EXPECT_EQ(signal->same_side, 1.0);
+
+  const auto second = second_opinion(prepared, rule, *means, search.numbers(), seed);
+  ASSERT_TRUE(second && second->probability);
+  // Along the very direction, 4,000 trials tell a half-space of 1e-6 to a twentieth; this one is
+  // known to a few degrees. Four of its own standard errors: one false failure in 16,000 sets of
+  // seeds, were they known.
+  EXPECT_GT(second->closeness, 0.8);
+  EXPECT_LT(second->probability->variation, 0.15);
+  EXPECT_NEAR(std::log(second->probability->probability / 1e-6), 0.0,
+              5.4 * second->probability->variation);
+  EXPECT_FALSE(disagree(told(search), *second->probability, 7.0));
+}
+
+/// A metric that is bad to both sides: half of the trials are moved against the direction.
+TEST(FailureRun, ASecondOpinionHasBothSides) {
+  const TestFolder folder;
+  auto text = Json::parse(study_of(0.5e-5).source);
+  text["cells"][0]["failure"]["metric"] = "heading_worst";
+  text["cells"][0]["scenario"]["random_error"]["measurement_noise_std_dps"] = 0.001;
+  text["cells"][0]["scenario"]["random_error"]["delta1_dps"] = 1.0;
+  const auto study = parse_study(text, "both.json");
+  const auto search = run(study, folder.path(), {});
+  ASSERT_TRUE(search.reached());
+  const Store store = Store::open(folder.path() / failure_folder);
+  const auto prepared = prepare_cell(study.cells[0], study.seed, 1);
+  const auto& rule = *study.cells[0].failure;
+  const auto seed = failure_seed(study);
+  const auto means = failing_means(prepared, rule, search, store, 0, seed);
+  ASSERT_TRUE(means);
+  EXPECT_LT(means->same_side, 0.9);
+  const auto second = second_opinion(prepared, rule, *means, search.numbers(), seed);
+  ASSERT_TRUE(second && second->probability);
+  EXPECT_FALSE(disagree(told(search), *second->probability, 7.0));
 }
 
 TEST(FailureRun, AnInterruptedSearchGoesOnToTheSameBytesOnAnyThreadsAndLanes) {
@@ -138,6 +175,7 @@ TEST(FailureRun, IsToldByTheProgramAndReplayed) {
   EXPECT_EQ(how.exit_code, 0) << how.err;
   EXPECT_THAT(how.out, HasSubstr("linear: how none fails"));
   EXPECT_THAT(how.out, HasSubstr("agrees with subset simulation"));
+  EXPECT_THAT(how.out, HasSubstr("importance sampling along it: "));
   const auto replayed = run_program(folder, {"replay", "s:linear:failure:none"});
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
   EXPECT_THAT(replayed.out, HasSubstr("the most likely failing signal"));
