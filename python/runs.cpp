@@ -8,6 +8,7 @@
 #include <gyrostat/experiments/findings/run_tables.hpp>
 #include <gyrostat/experiments/findings/sensitivity.hpp>
 #include <gyrostat/experiments/findings/study_tuning.hpp>
+#include <gyrostat/experiments/run/failure_run.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/experiments/run/time_of_day.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
@@ -60,13 +61,16 @@ Ended run(const RunArguments& arguments, Work& work) {
   if (!arguments.until.empty()) until = next_time_of_day(arguments.until, std::time(nullptr));
   make_result_folder(arguments.folder);
   Stopper stopper(work.stop, until);
-  StudyRun run(std::move(study), arguments.folder,
-               {.threads = arguments.threads, .mismatch = mismatch_named(arguments.mismatch)},
-               stopper, {.progress = [&](const CellProgress& now) {
-                 work.tell(to_text(now), now.trials ? double(now.finished) / now.trials : 1.0);
-               }});
+  const StudyRunOptions options{.threads = arguments.threads,
+                                .mismatch = mismatch_named(arguments.mismatch)};
+  const RunWatcher watcher{.progress = [&](const CellProgress& now) {
+    work.tell(to_text(now), now.trials ? double(now.finished) / now.trials : 1.0);
+  }};
+  StudyRun run(std::move(study), arguments.folder, options, stopper, watcher);
   try {
-    const auto tables = run_tables(run.study(), run.store(), run.run(), arguments.folder);
+    const auto ran = run.run();
+    run_failures(run.study(), run.store(), ran, arguments.folder, options, stopper.flag(), watcher);
+    const auto tables = run_tables(run.study(), run.store(), ran, arguments.folder);
     write_results(arguments.folder, run.store(), tables);
     const bool over = run.over_budget();
     run.log().write("end", {{"stopped", stopper.flag().load()}, {"failed", run.failed()}});

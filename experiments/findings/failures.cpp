@@ -89,18 +89,16 @@ struct FoundFailing {
 std::optional<FoundFailing> found_failing(const Study& study, std::uint32_t index,
                                           std::size_t method, const PreparedCell& prepared,
                                           const std::filesystem::path& folder) {
-  const auto place = folder / failure_folder;
-  if (!study.cells[index].failure || !std::filesystem::exists(place / Store::file_name))
-    return std::nullopt;
-  const Store store = Store::open(place);
-  if (store.manifest().digest != failure_study(study).digest) return std::nullopt;
+  if (!study.cells[index].failure) return std::nullopt;
+  const auto store = failure_store(study, folder);
+  if (!store) return std::nullopt;
   const auto& rule = *study.cells[index].failure;
   const auto at = failure_index(study, index, method);
-  const FailureSearch search(rule, store, at);
+  const FailureSearch search(rule, *store, at);
   if (!search.reached()) return std::nullopt;
   auto alone = prepared;
   alone.cell.methods = {prepared.cell.methods[method]};
-  auto means = failing_means(alone, rule, search, store, at, failure_seed(study));
+  auto means = failing_means(alone, rule, search, *store, at, failure_seed(study));
   if (!means) return std::nullopt;
   return FoundFailing{std::move(alone), std::move(*means), search.numbers()};
 }
@@ -144,21 +142,31 @@ std::uint32_t failure_index(const Study& study, std::uint32_t index, std::size_t
                    "no failure is asked for of " + study.cells[index].methods[method].id);
 }
 
+std::optional<Store> failure_store(const Study& study, const std::filesystem::path& folder) {
+  const auto place = folder / failure_folder;
+  if (!std::filesystem::exists(place / Store::file_name)) return std::nullopt;
+  auto store = Store::open(place);
+  if (store.manifest().digest != failure_study(study).digest) return std::nullopt;
+  return store;
+}
+
 std::vector<FailureFinding> failure_findings(const Study& study, const Store& plain,
                                              std::uint32_t index,
                                              const std::filesystem::path& folder) {
+  return failure_findings(study, plain, index, failure_store(study, folder));
+}
+
+std::vector<FailureFinding> failure_findings(const Study& study, const Store& plain,
+                                             std::uint32_t index,
+                                             const std::optional<Store>& searches) {
   const auto& cell = study.cells[index];
   const auto& rule = *cell.failure;
-  const auto place = folder / failure_folder;
-  std::optional<Store> store;
-  if (std::filesystem::exists(place / Store::file_name)) store.emplace(Store::open(place));
-  if (store && store->manifest().digest != failure_study(study).digest) store.reset();
   std::vector<FailureFinding> findings;
   for (const auto m : rule.methods) {
     auto& f = findings.emplace_back(
         FailureFinding{cell.methods[m].id, plain_failures(plain, index, cell, m), {}, {}, {}});
-    if (f.plain.is_enough() || !store) continue;
-    f.search.emplace(rule, *store, failure_index(study, index, m));
+    if (f.plain.is_enough() || !searches) continue;
+    f.search.emplace(rule, *searches, failure_index(study, index, m));
     if (!f.search->reached()) {
       f.rarer_than = bound_of(*f.search);
       continue;

@@ -24,11 +24,18 @@ struct FailureFinding {
   std::optional<double> rarer_than;     ///< where the search has ended and not every run did
 };
 
+/// The store of a study's searches in a run's folder; nothing where there is none, or one of other
+/// rules.
+std::optional<Store> failure_store(const Study& study, const std::filesystem::path& folder);
+
 /// What a run's folder tells of the failure of a cell, number `index` of `study`; one finding a
 /// method of its rule. `plain` is the run's store.
 std::vector<FailureFinding> failure_findings(const Study& study, const Store& plain,
                                              std::uint32_t index,
                                              const std::filesystem::path& folder);
+std::vector<FailureFinding> failure_findings(const Study& study, const Store& plain,
+                                             std::uint32_t index,
+                                             const std::optional<Store>& searches);
 
 /// One row a method, with a sentence for each as notes.
 Table failure_table(const Cell& cell, const std::vector<FailureFinding>& findings);

@@ -4,6 +4,7 @@
 
 #include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/findings/error_tables.hpp>
+#include <gyrostat/experiments/findings/failure_sensitivity.hpp>
 #include <gyrostat/experiments/findings/failures.hpp>
 #include <gyrostat/experiments/findings/ranking.hpp>
 #include <gyrostat/experiments/findings/ranking_words.hpp>
@@ -41,15 +42,18 @@ void add_cell(const Cell& cell, const Store& store, const RanCell& ran, RunTable
     all.timings.push_back(timing_table(cell, ran.nanoseconds_per_step));
 }
 
-void add_designs(Study study, const Store& store, RunTables& all) {
+void add_designs(Study study, const Store& store, const std::filesystem::path& folder,
+                 RunTables& all) {
   std::erase_if(study.designs, [](const Design& design) { return !design.is_sampled(); });
   if (study.designs.empty()) return;
-  const auto found = sensitivities(study, store);
-  for (const auto& sensitivity : found)
-    if (const auto sentence = sensitivity_sentence(sensitivity); !sentence.empty())
-      all.answer += (all.answer.empty() ? "" : " ") + sentence + ".";
-  for (auto& table : sensitivity_tables(found, study)) all.tables.push_back(std::move(table));
-  all.points = point_tables(found, study);
+  for (const auto& found :
+       {sensitivities(study, store), failure_sensitivities(study, store, folder)}) {
+    for (const auto& sensitivity : found)
+      if (const auto sentence = sensitivity_sentence(sensitivity); !sentence.empty())
+        all.answer += (all.answer.empty() ? "" : " ") + sentence + ".";
+    for (auto& table : sensitivity_tables(found, study)) all.tables.push_back(std::move(table));
+    for (auto& table : point_tables(found, study)) all.points.push_back(std::move(table));
+  }
 }
 
 }  // namespace
@@ -72,7 +76,7 @@ RunTables run_tables(const Study& study, const Store& store, const std::vector<R
       all.tables.push_back(failure_table(cell, failure_findings(study, store, r.index, folder)));
   }
   all.answer = answer_in_words(rankings);
-  add_designs(study, store, all);
+  add_designs(study, store, folder, all);
   return all;
 }
 

@@ -17,22 +17,14 @@ namespace {
 /// most_groups.
 constexpr std::size_t most_groups = 100;
 
-/// One metric of one method over the points of a design.
-struct Collected {
-  Outputs outputs;
-  std::vector<double> means{}, standard_errors{};
-  std::vector<std::size_t> failed{};  ///< trials, by point
-  std::size_t missing = 0, most = 0, empty_points = 0;
-};
-
 /// The metric of each of `methods`, in one pass over the design's trials.
-std::vector<Collected> collect(const Study& study, const CellTrials& trials_of,
-                               const Design& design, const std::vector<std::size_t>& methods,
-                               std::size_t metric) {
+std::vector<DesignOutputs> collect(const Study& study, const CellTrials& trials_of,
+                                   const Design& design, const std::vector<std::size_t>& methods,
+                                   std::size_t metric) {
   const std::size_t points = design.values.size();
   const std::uint32_t trials = study.cells[design.first_cell].trials;
   const std::size_t groups = std::min<std::size_t>(trials, most_groups);
-  std::vector<Collected> all(methods.size(), {.outputs = Outputs(points, groups)});
+  std::vector<DesignOutputs> all(methods.size(), {.outputs = Outputs(points, groups)});
   std::vector<std::vector<double>> values(methods.size()), sums(methods.size()),
       counts(methods.size());
   for (std::size_t i = 0; i < points; ++i) {
@@ -56,12 +48,7 @@ std::vector<Collected> collect(const Study& study, const CellTrials& trials_of,
     });
     for (std::size_t m = 0; m < methods.size(); ++m) {
       auto& c = all[m];
-      const auto summary = summarise(values[m]);
-      c.means.push_back(summary.mean);
-      c.standard_errors.push_back(summary.std / std::sqrt(static_cast<double>(summary.count)));
-      c.missing += summary.missing;
-      c.most = std::max(c.most, values[m].size());
-      c.empty_points += summary.count == 0;
+      c.add_point(values[m]);
       for (std::size_t g = 0; g < groups; ++g) c.outputs.at(i, g) = sums[m][g] / counts[m][g];
     }
   }
@@ -111,6 +98,43 @@ void estimate(const Design& design, const Outputs& outputs, Resampler& resampler
 
 }  // namespace
 
+void DesignOutputs::add_point(std::span<const double> values) {
+  const auto summary = summarise(values);
+  means.push_back(summary.mean);
+  standard_errors.push_back(summary.std / std::sqrt(static_cast<double>(summary.count)));
+  missing += summary.missing;
+  most = std::max(most, values.size());
+  empty_points += summary.count == 0;
+}
+
+Sensitivity sensitivity_of(const Design& design, const std::string& method, const std::string& name,
+                           const std::string& unit, const DesignOutputs& outputs,
+                           Resampler& resampler) {
+  Sensitivity s{.design = design.name,
+                .kind = name_of(design.kind),
+                .method = method,
+                .metric = name,
+                .unit = unit,
+                .trials = outputs.most,
+                .missing_values = outputs.missing,
+                .points = design.values.size(),
+                .failed_points = outputs.empty_points,
+                .failures = outputs.failed};
+  for (const auto& parameter : design.parameters) {
+    s.parameters.push_back(parameter.name);
+    s.units.push_back(parameter.unit);
+  }
+  for (const auto& point : design.values) {
+    auto& row = s.coordinates.emplace_back();
+    for (const auto& value : point) row.push_back(number_of(value));
+  }
+  s.labels = design.labels;
+  s.means = outputs.means;
+  s.standard_errors = outputs.standard_errors;
+  estimate(design, outputs.outputs, resampler, s);
+  return s;
+}
+
 std::vector<Sensitivity> sensitivities(const Study& study, const Store& store) {
   return sensitivities(study, store, {});
 }
@@ -145,32 +169,10 @@ std::vector<Sensitivity> sensitivities(const Study& study, const CellTrials& tri
     known = known || !methods.empty();
     const auto collected = collect(study, trials, design, methods, metric);
     Resampler resampler(study.seed, "bootstrap/" + design.name);
-    for (std::size_t m = 0; m < methods.size(); ++m) {
-      const auto& c = collected[m];
-      Sensitivity s{.design = design.name,
-                    .kind = name_of(design.kind),
-                    .method = cell.methods[methods[m]].id,
-                    .metric = name,
-                    .unit = std::string(metric_types()[metric].unit),
-                    .trials = c.most,
-                    .missing_values = c.missing,
-                    .points = design.values.size(),
-                    .failed_points = c.empty_points,
-                    .failures = c.failed};
-      for (const auto& parameter : design.parameters) {
-        s.parameters.push_back(parameter.name);
-        s.units.push_back(parameter.unit);
-      }
-      for (const auto& point : design.values) {
-        auto& row = s.coordinates.emplace_back();
-        for (const auto& value : point) row.push_back(number_of(value));
-      }
-      s.labels = design.labels;
-      s.means = c.means;
-      s.standard_errors = c.standard_errors;
-      estimate(design, c.outputs, resampler, s);
-      all.push_back(std::move(s));
-    }
+    for (std::size_t m = 0; m < methods.size(); ++m)
+      all.push_back(sensitivity_of(design, cell.methods[methods[m]].id, name,
+                                   std::string(metric_types()[metric].unit), collected[m],
+                                   resampler));
   }
   if (!known) throw InputError("--method", unknown_name("method", choice.method, ids));
   return all;

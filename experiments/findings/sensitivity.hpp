@@ -46,6 +46,22 @@ struct Sensitivity {
 /// Whether a design of that kind says what matters; the points of one that does serve it alone.
 bool has_sensitivities(DesignKind kind);
 
+/// One number of one method over the points of a design.
+struct DesignOutputs {
+  Outputs outputs;
+  std::vector<double> means{}, standard_errors{};
+  std::vector<std::size_t> failed{};  ///< trials, by point
+  std::size_t missing = 0, most = 0, empty_points = 0;
+
+  /// The next point's mean and its standard error, of values of which some may be missing.
+  void add_point(std::span<const double> values);
+};
+
+/// What a design says of such a number, `name` in `unit`.
+Sensitivity sensitivity_of(const Design& design, const std::string& method, const std::string& name,
+                           const std::string& unit, const DesignOutputs& outputs,
+                           Resampler& resampler);
+
 /// Which metric, and of which method; empty: the judging metric, all methods but the oracle.
 struct SensitivityChoice {
   std::string metric{}, method{};

@@ -104,14 +104,13 @@ void search_failure(Store& store, std::uint32_t index, const PreparedCell& prepa
   auto badness = stored_badness(rule, store, index, search.numbers());
   MovesTogether together(prepared, rule, seed, options, stop);
   if (watcher.begin) watcher.begin(prepared.cell.name, search.numbers());
+  StoreWriter writer(store);
   while (!stop) {
     const auto moves = search.asked();
     if (moves.empty()) break;
-    StoreWriter writer(store, [](std::span<const TrialRow>) {});
     const bool all = together.run(
         search, moves, badness,
         [&](std::uint32_t trial, const Record& r) { writer.push(row_of(index, trial, r)); });
-    writer.finish();
     if (!all) break;
     std::vector<double> values;
     for (const auto& move : moves) values.push_back(badness[move.trial]);
@@ -122,6 +121,7 @@ void search_failure(Store& store, std::uint32_t index, const PreparedCell& prepa
                         .trials = search.numbers(),
                         .widest = {}});
   }
+  writer.finish();
   if (watcher.end) watcher.end();
 }
 
@@ -225,10 +225,11 @@ void run_failures(const Study& study, const Store& plain, std::span<const RanCel
         std::find_if(ran.begin(), ran.end(), [&](const RanCell& r) { return r.index == c; });
     for (const auto m : cell.failure->methods) {
       const auto at = index++;
-      if (stop || of_cell == ran.end() || plain_failures(plain, c, cell, m).is_enough()) continue;
-      auto prepared = of_cell->prepared;
+      if (stop || plain_failures(plain, c, cell, m).is_enough()) continue;
+      auto prepared = of_cell != ran.end() ? of_cell->prepared
+                                           : prepare_or_note(cell, study.seed, options.threads);
       prepared.cell.name = failures.cells[at].name;
-      prepared.cell.methods = {of_cell->prepared.cell.methods[m]};
+      prepared.cell.methods = {prepared.cell.methods[m]};
       search_failure(store, at, prepared, *cell.failure, failure_seed(study), options, stop,
                      watcher);
     }

@@ -64,8 +64,9 @@ struct PlainFailures {
 PlainFailures plain_failures(const Store& store, std::uint32_t index, const Cell& cell,
                              std::size_t method);
 
-/// Looks for the failures of the cells that were run, where plain trials do not tell them, from
-/// where the store in `folder`/failure ends. Trials run side by side and on any number of threads;
+/// Looks for the failures of a study's cells, where plain trials do not tell them, from where the
+/// store in `folder`/failure ends. Cells that are not among `ran` (points of a design) are prepared
+/// anew. Trials run side by side and on any number of threads;
 /// which there are depends on the outcomes of those before alone. `plain` is the run's own store.
 void run_failures(const Study& study, const Store& plain, std::span<const RanCell> ran,
                   const std::filesystem::path& folder, const StudyRunOptions& options,

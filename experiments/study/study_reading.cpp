@@ -196,9 +196,6 @@ void add_design(GrowingStudy& growing, const Json& cell, const std::string& plac
   if (design.is_sampled() && cell.contains("stop"))
     throw InputError(place + ".stop",
                      "all points of a design of this kind run as many trials; leave it out");
-  if (design.is_sampled() && cell.contains("failure"))
-    throw InputError(place + ".failure",
-                     "points of a design of this kind are not asked for it; a \"grid\" is");
   design.first_cell = study.cells.size();
   for (const auto& [point, point_place] : cells_of(design, cell, place))
     add_read_cell(growing, point, point_place, place, folder, fits, mistakes);
