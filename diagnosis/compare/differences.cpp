@@ -56,6 +56,11 @@ struct Weight {
   double log_odds = 0.0, parameters = 1.0;
 };
 
+/// Log-likelihood that each side loses by the other's form of an effect, which may be none.
+struct Losses {
+  double real = 0.0, simulated = 0.0;
+};
+
 /// The common form costs least where it lies between both.
 Weight by_losses(double loss_real, double loss_simulated, double parameters) {
   const double both = loss_real + loss_simulated;
@@ -76,6 +81,18 @@ Weight by_errors(const Found& real, const Found& simulated) {
   return evidence;
 }
 
+/// Read off the values themselves, by no likelihood.
+bool is_read_off(const CauseType& cause) {
+  return cause.id == "quantization" || cause.id == "saturation" || cause.id == "stale_samples";
+}
+
+/// Whether TraceStudy::loss_with knows what another form of the effect costs.
+bool has_loss(const CauseType& cause) {
+  return !is_read_off(cause) && cause.signature != Signature::slow &&
+         (cause.enter != nullptr || cause.signature == Signature::repeated) &&
+         cause.effect().stage() != Stage::compass;
+}
+
 class DifferenceSearch {
  public:
   DifferenceSearch(const StudiedSide& real, const StudiedSide& simulated, const Matched& matched,
@@ -89,6 +106,7 @@ class DifferenceSearch {
   void compare(const CauseType& cause);
   void one_side_alone(const CauseType& cause, const Found& real, const Found& simulated);
   Weight evidence_of(const CauseType& cause, const Found& real, const Found& simulated) const;
+  Losses losses_of(const CauseType& cause, const Found& real, const Found& simulated) const;
   /// Log odds with which the traces of a side would show these effects, had they been added.
   double would_show(const StudiedSide& side, std::string_view name,
                     const std::vector<Effect>& effects) const;
@@ -127,33 +145,45 @@ void DifferenceSearch::one_side_alone(const CauseType& cause, const Found& real,
                                       const Found& simulated) {
   const bool lacks = simulated.effects.empty();
   const auto& has_it = lacks ? real : simulated;
-  const double shown = would_show(lacks ? simulated_ : real_, cause.id, has_it.effects);
+  const auto& other_side = lacks ? simulated_ : real_;
+  const auto losses = has_loss(cause) ? losses_of(cause, real, simulated) : Losses{};
+  const double here = has_loss(cause) ? (lacks ? losses.real : losses.simulated) : has_it.log_odds;
+  const double there = has_loss(cause) ? (lacks ? losses.simulated : losses.real)
+                                       : would_show(other_side, cause.id, has_it.effects);
+  const double parameters = has_loss(cause) ? double(cause.free_parameters.size()) : 1.0;
   Difference difference{.effect = std::string(cause.id),
                         .how = lacks ? Differs::lacks : Differs::too_much,
                         .real = real.effects,
                         .simulated = simulated.effects,
                         .addition = {}};
   difference.addition.effects = instead_of(cause, real.effects, simulated.effects);
-  if (keep(difference, by_losses(has_it.log_odds, shown, 1.0))) return;
+  if (keep(difference, by_losses(here, there, parameters))) return;
   result_.undecided.push_back(
       {difference.effect,
-       fmt::format("found in the {} (log odds {:.1f}); the {} would show it with log odds of "
-                   "{:.1f}, which is too little to say that it is not there",
-                   lacks ? "recording" : "simulated traces", has_it.log_odds,
-                   lacks ? "simulated traces" : "recording", shown)});
+       fmt::format("found in the {} (worth {:.1f} nats of likelihood); that the {} have it as well "
+                   "would cost them {:.1f} nats, which is too little to say that it is not there",
+                   lacks ? "recording" : "simulated traces", here,
+                   lacks ? "simulated traces" : "recordings", there)});
 }
 
 Weight DifferenceSearch::evidence_of(const CauseType& cause, const Found& real,
                                      const Found& simulated) const {
   if (cause.id == "quantization" || cause.id == "saturation")
     return by_losses(read_off_the_values, read_off_the_values, 1.0);
-  const bool has_law = cause.enter != nullptr || cause.signature == Signature::repeated;
-  if (cause.signature == Signature::slow || !has_law) return by_errors(real, simulated);
-  double loss_real = 0.0, loss_simulated = 0.0;
-  for (const auto& trace : real_.traces) loss_real += trace->loss_with(cause.id, simulated.effects);
+  if (!has_loss(cause)) return by_errors(real, simulated);
+  const auto losses = losses_of(cause, real, simulated);
+  return by_losses(losses.real, losses.simulated,
+                   static_cast<double>(cause.free_parameters.size()));
+}
+
+Losses DifferenceSearch::losses_of(const CauseType& cause, const Found& real,
+                                   const Found& simulated) const {
+  Losses losses;
+  for (const auto& trace : real_.traces)
+    losses.real += trace->loss_with(cause.id, simulated.effects);
   for (const auto& trace : simulated_.traces)
-    loss_simulated += trace->loss_with(cause.id, real.effects);
-  return by_losses(loss_real, loss_simulated, static_cast<double>(cause.free_parameters.size()));
+    losses.simulated += trace->loss_with(cause.id, real.effects);
+  return losses;
 }
 
 void DifferenceSearch::compare(const CauseType& cause) {

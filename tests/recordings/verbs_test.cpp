@@ -52,7 +52,7 @@ TEST(Verbs, AllRecordingsGoThroughTheVerbs) {
       const auto ended = run_program(here, words);
       if (std::string_view(row.name).starts_with("cubesat") && std::string_view(verb) != "allan") {
         EXPECT_EQ(ended.exit_code, 2);
-        EXPECT_THAT(ended.err, AllOf(HasSubstr("is 25 bursts"), HasSubstr("--resample 0.0033")));
+        EXPECT_THAT(ended.err, AllOf(HasSubstr("is 25 bursts"), HasSubstr("--from and --to")));
         continue;
       }
       EXPECT_EQ(ended.exit_code, 0) << verb << ' ' << row.name << ": " << ended.err;
