@@ -174,23 +174,37 @@ double median_interval(const std::vector<double>& t_s) {
   return intervals.empty() ? 0.0 : median(std::move(intervals));
 }
 
-void require_dense(const Series& series, std::string_view place) {
-  constexpr std::size_t one_sample_in = 4, long_pause = 50;
-  std::size_t present = 0, bursts = 0, pause = long_pause;
-  for (const double rate : series.gyro_dps) {
-    const bool is_there = !std::isnan(rate);
-    if (is_there && pause >= long_pause) ++bursts;
-    pause = is_there ? 0 : pause + 1;
-    present += is_there ? 1 : 0;
+void require_dense(const Series& series, std::string_view place, double from_s) {
+  constexpr std::size_t one_sample_in = 4, long_pause = 50, fewest_means = 50;
+  struct Burst {
+    std::size_t first, last, samples;
+  };
+  std::vector<Burst> bursts;
+  std::size_t present = 0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    if (std::isnan(series.gyro_dps[i])) continue;
+    if (bursts.empty() || i - bursts.back().last > long_pause) bursts.push_back({i, i, 0});
+    bursts.back().last = i;
+    ++bursts.back().samples;
+    ++present;
   }
   if (present * one_sample_in >= series.size()) return;
+  if (bursts.empty()) throw InputError(place, "has no sample there: the recording pauses");
+  const auto longest = std::ranges::max_element(bursts, {}, &Burst::samples);
+  const double start = from_s + series.t_s[longest->first] - series.t_s.front();
+  const double end = from_s + series.t_s[longest->last] - series.t_s.front();
   throw InputError(
       place,
-      fmt::format("is {} bursts at {:.4g} Hz: {:.2g} % of that clock's samples are there, at "
-                  "least 25 % are needed. Take one burst (--from, --to), or a mean of each: "
-                  "--resample {:.2g}",
-                  bursts, series.rate_hz(), percent(present, series.size()),
-                  static_cast<double>(std::max<std::size_t>(bursts, 2) - 1) / series.duration_s()));
+      fmt::format(
+          "is {} bursts at {:.4g} Hz: {:.2g} % of that clock's samples are there, at least 25 % "
+          "are needed. The longest burst has {} samples, from {:.6g} to {:.6g} s: take it or "
+          "another by --from and --to{}; gyrostat allan takes them all",
+          bursts.size(), series.rate_hz(), percent(present, series.size()), longest->samples,
+          std::floor(10.0 * start) / 10.0, std::ceil(10.0 * end) / 10.0,
+          bursts.size() < fewest_means
+              ? std::string()
+              : fmt::format(", or a mean of each: --resample {:.2g}",
+                            static_cast<double>(bursts.size() - 1) / series.duration_s())));
 }
 
 bool is_even(const std::vector<double>& t_s) {

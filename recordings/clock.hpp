@@ -40,8 +40,9 @@ EvenRecording evenly_sampled(Series series, std::string_view place, std::size_t 
                              double resample_hz = 0.0);
 
 /// Throws InputError at `place` where fewer than one sample in four of an even clock is there, as
-/// of short bursts with long pauses: no model of a series is told by that.
-void require_dense(const Series& series, std::string_view place);
+/// of short bursts with long pauses: no model of a series is told by that. It names the longest of
+/// them, in seconds from a sample `from_s` before the first.
+void require_dense(const Series& series, std::string_view place, double from_s = 0.0);
 
 /// Whether every interval is within 10 % of the median one.
 bool is_even(const std::vector<double>& t_s);

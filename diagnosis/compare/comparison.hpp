@@ -74,14 +74,18 @@ struct Comparison {
 /// Whether they differ is asked of segments, each read by all lenses, by relabelling (two_samples).
 /// In what they differ is asked of likelihoods: the set of effects of every trace is found
 /// (find_set), and an effect is a difference where one form for both sides costs too much. With D
-/// the log-likelihood that the one side loses by the other's form and A that which the other loses
-/// by the one's, the best form in between costs about D A / (D + A) (both fall as the square of the
-/// way to it). Of an effect that one side lacks, A is the odds with which it would be found in that
-/// side's traces were it added to them. Twice that is chi-square. Slow curves and what is read off
+/// the log-likelihood that the one side loses by the other's form, or without the effect, and A
+/// that which the other loses by the one's, the best form in between costs about D A / (D + A)
+/// (both fall as the square of the way to it). Twice that is chi-square. Whatever noise the other
+/// side has may stand in for what is held. Of a slow curve that one side lacks, A is what it would
+/// be worth in that side's traces were it added to them. Sizes of slow curves and what is read off
 /// single samples are compared by their parameters and standard errors (Wald).
 ///
 /// Where segments differ, that there is a difference is known at half of the significance, and an
-/// effect is named at the other half; where they do not, at that half for all effects together.
+/// effect is named at the other half; where they do not, at that half for all effects together: for
+/// as many as are looked for where one side alone has it, that it is there, and for as many as were
+/// found, that the other lacks it. Noise that every segment holds (white, coloured, of a line) is a
+/// difference only where segments differ.
 ///
 /// Which effects are there is decided by the train parts; how far the gap closes once they are
 /// added to the simulated traces, by the parts held out.

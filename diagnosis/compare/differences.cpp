@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -54,6 +56,21 @@ std::vector<Effect> instead_of(const CauseType& cause, std::vector<Effect> real,
 /// Evidence for one form each, and how many parameters it is about.
 struct Weight {
   double log_odds = 0.0, parameters = 1.0;
+  /// Where one side alone has it: that this side has it at all.
+  std::optional<double> there = {};
+};
+
+/// Noise that every segment holds and that is fast beside one. Whether it differs, segments tell
+/// without a model of it; a likelihood, whose form is not exactly nature's, tells two halves of one
+/// recording apart.
+bool is_in_every_segment(const CauseType& cause) {
+  return cause.enter != nullptr && (cause.effect().stage() == Stage::noise ||
+                                    cause.id == "vibration" || cause.id == "wandering_line");
+}
+
+/// Log-likelihood that each side loses by the other's form of an effect, which may be none.
+struct Losses {
+  double real = 0.0, simulated = 0.0;
 };
 
 /// The common form costs least where it lies between both.
@@ -76,6 +93,18 @@ Weight by_errors(const Found& real, const Found& simulated) {
   return evidence;
 }
 
+/// Read off the values themselves, by no likelihood.
+bool is_read_off(const CauseType& cause) {
+  return cause.id == "quantization" || cause.id == "saturation" || cause.id == "stale_samples";
+}
+
+/// Whether TraceStudy::loss_with knows what another form of the effect costs.
+bool has_loss(const CauseType& cause) {
+  return !is_read_off(cause) && cause.signature != Signature::slow &&
+         (cause.enter != nullptr || cause.signature == Signature::repeated) &&
+         cause.effect().stage() != Stage::compass;
+}
+
 class DifferenceSearch {
  public:
   DifferenceSearch(const StudiedSide& real, const StudiedSide& simulated, const Matched& matched,
@@ -89,36 +118,54 @@ class DifferenceSearch {
   void compare(const CauseType& cause);
   void one_side_alone(const CauseType& cause, const Found& real, const Found& simulated);
   Weight evidence_of(const CauseType& cause, const Found& real, const Found& simulated) const;
+  Losses losses_of(const CauseType& cause, const Found& real, const Found& simulated) const;
   /// Log odds with which the traces of a side would show these effects, had they been added.
-  double would_show(const StudiedSide& side, std::string_view name,
+  double would_show(const StudiedSide& side, const CauseType& cause,
                     const std::vector<Effect>& effects) const;
   void compare_noise(std::string_view name, double (TraceStudy::*value)() const,
                      double (TraceStudy::*loss)(double) const, double least);
+  /// Whether likelihoods may say that it differs.
+  bool says(const CauseType& cause) const {
+    return options_.segments_differ || !is_in_every_segment(cause);
+  }
 
   const StudiedSide &real_, &simulated_;
   const Matched& matched_;
   const DifferenceOptions& options_;
+  double found_ = 0.0;  ///< effects, on either side
   Differences result_;
 };
 
 bool DifferenceSearch::keep(Difference difference, const Weight& evidence) {
   difference.log_odds = evidence.log_odds;
-  const double by_chance = chi_squared_upper_tail(2.0 * evidence.log_odds, evidence.parameters);
-  difference.p =
-      options_.segments_differ ? by_chance : std::min(1.0, matched_.compared * by_chance);
+  const auto chance = [&](double odds) {
+    return chi_squared_upper_tail(2.0 * odds, evidence.parameters);
+  };
+  const double by_chance = chance(evidence.log_odds);
+  if (options_.segments_differ)
+    difference.p = by_chance;
+  else if (evidence.there)  // an effect of all was found; that it differs is asked of those found
+    difference.p =
+        std::min(1.0, std::max(matched_.compared * chance(*evidence.there), found_ * by_chance));
+  else
+    difference.p = std::min(1.0, matched_.compared * by_chance);
   if (difference.p > options_.level) return false;
   result_.found.push_back(std::move(difference));
   return true;
 }
 
-double DifferenceSearch::would_show(const StudiedSide& side, std::string_view name,
+double DifferenceSearch::would_show(const StudiedSide& side, const CauseType& cause,
                                     const std::vector<Effect>& effects) const {
   double odds = 0.0;
   for (std::size_t k = 0; k < side.traces.size(); ++k) {
-    const auto with = side.traces[k]->mended({.effects = effects},
-                                             {options_.seed, static_cast<std::uint32_t>(k)});
-    odds +=
-        TraceStudy(with, options_.seed, matched_.without, options_.interrupt, {}).log_odds(name);
+    const auto& plain = *side.traces[k];
+    const TraceStudy with(
+        plain.mended({.effects = effects}, {options_.seed, static_cast<std::uint32_t>(k)}),
+        options_.seed, matched_.without, options_.interrupt, {});
+    // A slow curve shows, whichever of its likes it is then taken for.
+    odds += cause.signature == Signature::slow
+                ? std::max(0.0, with.found().gain - plain.found().gain)
+                : with.log_odds(cause.id);
   }
   return odds;
 }
@@ -127,33 +174,61 @@ void DifferenceSearch::one_side_alone(const CauseType& cause, const Found& real,
                                       const Found& simulated) {
   const bool lacks = simulated.effects.empty();
   const auto& has_it = lacks ? real : simulated;
-  const double shown = would_show(lacks ? simulated_ : real_, cause.id, has_it.effects);
+  const auto& other_side = lacks ? simulated_ : real_;
+  double here = has_it.log_odds, there = 0.0;
+  if (has_loss(cause)) {
+    const auto losses = losses_of(cause, real, simulated);
+    here = lacks ? losses.real : losses.simulated;
+    there = lacks ? losses.simulated : losses.real;
+  } else {
+    if (cause.signature == Signature::slow) {
+      here = 0.0;
+      for (const auto& trace : (lacks ? real_ : simulated_).traces) here += trace->worth(cause.id);
+    }
+    there = would_show(other_side, cause, has_it.effects);
+  }
+  auto evidence =
+      by_losses(here, there, has_loss(cause) ? double(cause.free_parameters.size()) : 1.0);
+  evidence.there = here;
   Difference difference{.effect = std::string(cause.id),
                         .how = lacks ? Differs::lacks : Differs::too_much,
                         .real = real.effects,
                         .simulated = simulated.effects,
                         .addition = {}};
   difference.addition.effects = instead_of(cause, real.effects, simulated.effects);
-  if (keep(difference, by_losses(has_it.log_odds, shown, 1.0))) return;
+  if (says(cause) && keep(difference, evidence)) return;
+  if (!says(cause)) {
+    result_.undecided.push_back(
+        {difference.effect, fmt::format("found in the {}, but segments of both are alike",
+                                        lacks ? "recording" : "simulated traces")});
+    return;
+  }
   result_.undecided.push_back(
       {difference.effect,
-       fmt::format("found in the {} (log odds {:.1f}); the {} would show it with log odds of "
-                   "{:.1f}, which is too little to say that it is not there",
-                   lacks ? "recording" : "simulated traces", has_it.log_odds,
-                   lacks ? "simulated traces" : "recording", shown)});
+       fmt::format("found in the {} (worth {:.1f} nats of likelihood); that the {} have it as well "
+                   "would cost them {:.1f} nats, which is too little to say that it is not there",
+                   lacks ? "recording" : "simulated traces", here,
+                   lacks ? "simulated traces" : "recordings", there)});
 }
 
 Weight DifferenceSearch::evidence_of(const CauseType& cause, const Found& real,
                                      const Found& simulated) const {
   if (cause.id == "quantization" || cause.id == "saturation")
     return by_losses(read_off_the_values, read_off_the_values, 1.0);
-  const bool has_law = cause.enter != nullptr || cause.signature == Signature::repeated;
-  if (cause.signature == Signature::slow || !has_law) return by_errors(real, simulated);
-  double loss_real = 0.0, loss_simulated = 0.0;
-  for (const auto& trace : real_.traces) loss_real += trace->loss_with(cause.id, simulated.effects);
+  if (!has_loss(cause)) return by_errors(real, simulated);
+  const auto losses = losses_of(cause, real, simulated);
+  return by_losses(losses.real, losses.simulated,
+                   static_cast<double>(cause.free_parameters.size()));
+}
+
+Losses DifferenceSearch::losses_of(const CauseType& cause, const Found& real,
+                                   const Found& simulated) const {
+  Losses losses;
+  for (const auto& trace : real_.traces)
+    losses.real += trace->loss_with(cause.id, simulated.effects);
   for (const auto& trace : simulated_.traces)
-    loss_simulated += trace->loss_with(cause.id, real.effects);
-  return by_losses(loss_real, loss_simulated, static_cast<double>(cause.free_parameters.size()));
+    losses.simulated += trace->loss_with(cause.id, real.effects);
+  return losses;
 }
 
 void DifferenceSearch::compare(const CauseType& cause) {
@@ -174,7 +249,7 @@ void DifferenceSearch::compare(const CauseType& cause) {
                         .simulated = simulated.effects,
                         .addition = {}};
   difference.addition.effects = instead_of(cause, real.effects, simulated.effects);
-  (void)keep(difference, evidence_of(cause, real, simulated));
+  if (says(cause)) (void)keep(difference, evidence_of(cause, real, simulated));
 }
 
 void DifferenceSearch::compare_noise(std::string_view name, double (TraceStudy::*value)() const,
@@ -197,20 +272,35 @@ void DifferenceSearch::compare_noise(std::string_view name, double (TraceStudy::
   (void)keep(difference, by_losses(loss_real, loss_simulated, 1.0));
 }
 
+/// The noises of `other` that `side` has not under any name, allowed to its traces.
+void allow_noises_of(const StudiedSide& other, const StudiedSide& side) {
+  std::vector<Effect> noises;
+  for (const auto& cause : cause_types())
+    if (has_loss(cause) && cause.enter != nullptr && side.found(cause.id).effects.empty())
+      std::ranges::copy(other.found(cause.id).effects, std::back_inserter(noises));
+  for (const auto& trace : side.traces) trace->allow(noises);
+}
+
 Differences DifferenceSearch::run() {
+  allow_noises_of(real_, simulated_);
+  allow_noises_of(simulated_, real_);
   auto tell = [&, done = 0.0](std::string_view name) mutable {
     options_.interrupt.check();
     if (options_.progress) options_.progress(std::string(name), done / matched_.compared);
     done += 1.0;
   };
+  for (const auto& cause : cause_types())
+    if (!real_.found(cause.id).effects.empty() || !simulated_.found(cause.id).effects.empty())
+      found_ += 1.0;
   for (const auto& cause : cause_types()) {
     if (std::ranges::find(matched_.without, cause.id) != matched_.without.end()) continue;
     tell(cause.id);
     compare(cause);
   }
   tell(white_noise);
-  compare_noise(white_noise, &TraceStudy::white_std_dps, &TraceStudy::loss_with_white,
-                least_of_white);
+  if (options_.segments_differ)
+    compare_noise(white_noise, &TraceStudy::white_std_dps, &TraceStudy::loss_with_white,
+                  least_of_white);
   tell(random_walk);
   compare_noise(random_walk, &TraceStudy::walk_dps_per_sqrt_s, &TraceStudy::loss_with_walk,
                 least_of_walk);

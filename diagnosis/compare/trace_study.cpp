@@ -93,9 +93,32 @@ double TraceStudy::best_likelihood(const Scenario& scenario, std::string_view he
   return fitter->maximise(scenario, iterations, Jumping::yes, held).log_likelihood;
 }
 
+double TraceStudy::worth(std::string_view name) const {
+  prepare();
+  const auto& effects = standing_.scenario.effects;
+  for (std::size_t k = 0; k < effects.size(); ++k)
+    if (effects[k].id() == name)
+      return std::max(0.0, standing_.score - bench_->without(standing_, k).score);
+  return 0.0;
+}
+
+void TraceStudy::allow(std::vector<Effect> effects) {
+  allowed_ = std::move(effects);
+  free_likelihood_.reset();
+}
+
+double TraceStudy::best_allowed(const Scenario& scenario, std::string_view held) const {
+  const double alone = best_likelihood(scenario, held);
+  Scenario more = scenario;
+  for (const auto& effect : allowed_)
+    if (effect.id() != held) more.effects.push_back(effect);
+  if (more.effects.size() == scenario.effects.size()) return alone;
+  return std::max(alone, best_likelihood(more, held));
+}
+
 double TraceStudy::loss_of(const Scenario& other, std::string_view held) const {
-  const double here = best_likelihood(standing_.scenario, {});
-  return std::max(0.0, here - best_likelihood(other, held));
+  if (!free_likelihood_) free_likelihood_ = best_allowed(standing_.scenario, {});
+  return std::max(0.0, *free_likelihood_ - best_allowed(other, held));
 }
 
 double TraceStudy::loss_with(std::string_view name, const std::vector<Effect>& others) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,7 +26,8 @@ class TraceStudy {
   const FoundSet& found() const { return found_; }
   /// The fitted effects of that name.
   std::vector<Effect> effects(std::string_view name) const;
-  /// Log odds of the set against it without that effect; 0 where it is not in the set.
+  /// Log odds of the set against the best with something else in place of that effect; 0 where it
+  /// is not in the set.
   double log_odds(std::string_view name) const;
   /// The rate error of a gyro under the trace's conditions, without a drift fitted to it; its
   /// values are rounded to `resolution_dps` before (0: not).
@@ -37,6 +39,12 @@ class TraceStudy {
   /// Standard errors of the fields of the first effect of that name; NaN where none is known.
   std::vector<double> errors_of(std::string_view name) const;
 
+  /// Log odds of the set against it without that effect, whatever else could stand there; 0 where
+  /// it is not in the set.
+  double worth(std::string_view name) const;
+  /// Effects of the other side that join its set wherever a loss is asked for, starting from these
+  /// parameters: what the one explains by them and the other by something else is no difference.
+  void allow(std::vector<Effect> effects);
   /// The log-likelihood that the trace loses where the effects of that name have the parameters of
   /// `others`, all else fitted anew; 0 where the effect has no law, or is a slow curve.
   double loss_with(std::string_view name, const std::vector<Effect>& others) const;
@@ -50,6 +58,8 @@ class TraceStudy {
   void prepare() const;
   /// With all fitted but what is held.
   double best_likelihood(const Scenario& scenario, std::string_view held) const;
+  /// With the effects allowed or without, whichever is likelier.
+  double best_allowed(const Scenario& scenario, std::string_view held) const;
   double loss_of(const Scenario& other, std::string_view held) const;
 
   Series series_;
@@ -58,6 +68,8 @@ class TraceStudy {
   FoundSet found_;
   mutable std::unique_ptr<SetBench> bench_;
   mutable Standing standing_;
+  std::vector<Effect> allowed_;
+  mutable std::optional<double> free_likelihood_;
 };
 
 }  // namespace gyrostat::gap

@@ -151,6 +151,23 @@ struct RecordingOption {
     return cut(series, seconds(first - z.begin()), seconds(z.rend() - last - 1), file);
   }
 
+  /// Throws InputError, naming the nearest samples, where the recording pauses all over the span.
+  static void require_samples(const Series& series, const SpanOption& span,
+                              const std::string& file) {
+    double before = -1.0, after = -1.0;
+    for (std::size_t i = 0; i < series.size() && after < 0.0; ++i) {
+      if (series.gyro_dps[i] != series.gyro_dps[i]) continue;
+      const double at = series.t_s[i] - series.t_s.front();
+      if (at >= span.from_s && at < span.to_s) return;
+      (at < span.from_s ? before : after) = at;
+    }
+    throw InputError(file + ": --from, --to",
+                     fmt::format("the recording pauses between {:g} and {:g} s{}{}", span.from_s,
+                                 span.to_s,
+                                 before < 0.0 ? "" : fmt::format("; it was there to {:.6g} s", before),
+                                 after < 0.0 ? "" : fmt::format("; it is there from {:.6g} s", after)));
+  }
+
   /// Short bursts with long pauses, which only an Allan deviation is told by.
   enum class Bursts { refused, taken };
 
@@ -158,10 +175,16 @@ struct RecordingOption {
   Series read(std::ostream& log, const SpanOption& span = {},
               std::span<const std::string_view> wanted = {},
               Bursts bursts = Bursts::refused) const {
-    auto series = read_all(log, wanted).series;
-    if (span.is_part_of(series))
-      series = between_samples(cut(series, span.from_s, span.to_s, file + ": --from, --to"), file);
-    if (bursts == Bursts::refused) require_dense(series, file);
+    auto whole = read_all(log, wanted).series;
+    if (!span.is_part_of(whole)) {
+      if (bursts == Bursts::refused) require_dense(whole, file);
+      return whole;
+    }
+    auto series = cut(whole, span.from_s, span.to_s, file + ": --from, --to");
+    require_samples(whole, span, file);
+    series = between_samples(series, file);
+    if (bursts == Bursts::refused)
+      require_dense(series, file, series.t_s.front() - whole.t_s.front());
     return series;
   }
 };

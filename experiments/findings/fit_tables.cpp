@@ -139,7 +139,14 @@ FitTables fit_tables(const Series& series, std::span<const FitMethod> methods,
     const double share =
         static_cast<double>(found.fits.size()) / static_cast<double>(methods.size());
     if (progress) progress(called, share);
-    auto& fit = found.fits.emplace_back(fitted(series, method, name));
+    try {
+      found.fits.push_back(fitted(series, method, name));
+    } catch (const InputError& mistake) {
+      if (is_first) throw;  // another method could do with what there is
+      table.notes.push_back(fmt::format("{} left out: {}", called, mistake.what()));
+      continue;
+    }
+    auto& fit = found.fits.back();
     auto& error = fit.random_error;
     if (progress && by_likelihood) progress(called + ", intervals", share + 0.1);
     const auto intervals = error.cluster > 1

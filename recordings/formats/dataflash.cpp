@@ -177,12 +177,12 @@ ColumnTable read(const FormatSource& source) {
 
 }  // namespace
 
-/// A DataFlash log of ArduPilot (.bin), which describes its own messages by FMT (ArduPilot,
+/// A DataFlash log of ArduPilot (.bin), which begins by describing its own messages by FMT (ArduPilot,
 /// LogStructure.h): TimeUS in µs, GyrX, GyrY, GyrZ in rad/s, AccX, … in m/s², T in °C.
 RecordingFormat format() {
   return {
       .title = "ArduPilot DataFlash (.bin): IMU or GYR messages",
-      .recognises = [](const FormatHead& head) { return head.starts_with("\xa3\x95\x80\x80\x59"); },
+      .recognises = [](const FormatHead& head) { return head.starts_with("\xa3\x95\x80"); },
       .read = read};
 }
 

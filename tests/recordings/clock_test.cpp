@@ -14,6 +14,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 /// Uniform in [0, 1), the same everywhere.
 struct Uniform {
@@ -121,6 +122,21 @@ TEST(Clock, LostSamplesAreNotTakenForStampsOfArrival) {
     EXPECT_THAT(even.note, HasSubstr("missing"));
   } catch (const InputError& mistake) {
     EXPECT_THAT(mistake.what(), HasSubstr("--resample"));
+  }
+}
+
+TEST(Clock, OfBurstsTheLongestIsNamed) {
+  std::vector<double> t;
+  for (const int at : {0, 3000, 6000})
+    for (int i = 0; i < (at == 3000 ? 250 : 240); ++i) t.push_back(0.02 * (at + i));
+  const auto bursts = evenly_sampled(at_times(t), "x").series;
+  try {
+    require_dense(bursts, "x", 100.0);
+    FAIL();
+  } catch (const InputError& mistake) {
+    EXPECT_THAT(mistake.what(),
+                AllOf(HasSubstr("is 3 bursts at 50 Hz"), HasSubstr("250 samples, from 160 to 165"),
+                      Not(HasSubstr("--resample"))));
   }
 }
 

@@ -223,6 +223,13 @@ TEST(Formats, ALogSaysWhichTopicsItHas) {
   EXPECT_THROW(read_recording(folder.path() / "log.bin", "z", layout), InputError);
 }
 
+TEST(Formats, DataFlashMayBeginWithAnyDescription) {
+  constexpr std::size_t first_description = 89;  // that of descriptions themselves
+  const TestFolder folder;
+  folder.write("log.bin", dataflash_bytes().substr(first_description));
+  EXPECT_EQ(read_recording(folder.path() / "log.bin", "z").format, "dataflash");
+}
+
 std::string refusal(const std::filesystem::path& path, const RecordingLayout& layout = {}) {
   try {
     read_recording(path, "z", layout);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <gyrostat/tests/program.hpp>
@@ -52,13 +53,37 @@ TEST(Verbs, AllRecordingsGoThroughTheVerbs) {
       const auto ended = run_program(here, words);
       if (std::string_view(row.name).starts_with("cubesat") && std::string_view(verb) != "allan") {
         EXPECT_EQ(ended.exit_code, 2);
-        EXPECT_THAT(ended.err, AllOf(HasSubstr("is 25 bursts"), HasSubstr("--resample 0.0033")));
+        EXPECT_THAT(ended.err, AllOf(HasSubstr("is 25 bursts"), HasSubstr("--from and --to")));
         continue;
       }
       EXPECT_EQ(ended.exit_code, 0) << verb << ' ' << row.name << ": " << ended.err;
       EXPECT_THAT(ended.err, HasSubstr(row.said)) << row.name;
       EXPECT_THAT(ended.out, Not(HasSubstr("nan"))) << verb << ' ' << row.name;
     }
+}
+
+TEST(Verbs, BurstsAreRefusedWithWhatCanBeDone) {
+  const TestFolder here;
+  std::string rows = "t_s,gyro_dps\n";
+  for (const int first : {0, 15000})
+    for (int i = 0; i < 250; ++i)
+      rows += fmt::format("{:.2f},{}\n", 0.02 * (first + i), (i * 7919) % 101);
+  here.write("bursts.csv", rows);
+  const auto refused = run_program(here, {"apply", "bursts.csv"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("is 2 bursts"), HasSubstr("from 0 to 5 s")));
+  const auto pause = run_program(here, {"fit", "bursts.csv", "--from", "10", "--to", "100"});
+  EXPECT_EQ(pause.exit_code, 2);
+  EXPECT_THAT(pause.err, AllOf(HasSubstr("pauses between 10 and 100 s"), HasSubstr("to 4.98 s"),
+                               HasSubstr("from 300 s")));
+  EXPECT_EQ(run_program(here, {"apply", "bursts.csv", "--from", "0", "--to", "5"}).exit_code, 0);
+  // Of one burst, moments can tell nothing; the likelihood can.
+  const auto fit = run_program(here, {"fit", "bursts.csv", "--from", "0", "--to", "5"});
+  EXPECT_THAT(fit.out, AllOf(HasSubstr("likelihood  "), HasSubstr("moments left out: bursts.csv"),
+                             HasSubstr("at least 512 are needed")));
+  EXPECT_EQ(run_program(here, {"fit", "bursts.csv", "--from", "0", "--to", "5", "--method", "moments"})
+                .exit_code,
+            2);
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ struct ApplyArguments {
   FormatOption format;
   std::string config;
   std::string out;
+  SpanOption span;
   std::string fit = "likelihood";
   double calibration_fraction = 0.25;
 };
@@ -36,7 +37,7 @@ int run(const ApplyArguments& arguments, Console& console) {
     source = ParameterSource::defaults;
     methods = read_application_config(arguments.config);
   }
-  const Series series = arguments.recording.read(console.log);
+  const Series series = arguments.recording.read(console.log, arguments.span);
   if (!arguments.out.empty()) require_writable(arguments.out, arguments.recording.file);
 
   Application application;
@@ -75,6 +76,7 @@ void add_apply(CLI::App& program, Console& console, int& exit_code) {
       ->check(within(0.01, 0.99))
       ->excludes(config)
       ->capture_default_str();
+  arguments->span.add_to(verb);
   arguments->format.add_to(verb);
   verb->footer(apply_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
