@@ -104,10 +104,15 @@ std::string transfer_in_words(const Diagnosis& d) {
     return std::count_if(d.transfer.begin(), d.transfer.end(),
                          [&](const auto& t) { return t.moved == moved; });
   };
+  const auto did = [&](Moved moved, std::string_view one, std::string_view several) {
+    const auto number = count(moved);
+    return fmt::format("{} {}", number, number == 1 ? one : several);
+  };
   return fmt::format(
-      "Of {} numbers that the filters show, {} come nearer to the recording, {} move away "
-      "and {} stay as they were.",
-      d.transfer.size(), count(Moved::closer), count(Moved::away), count(Moved::nowhere));
+      "Of {} that the filters show, {}, {} and {}.", counted(d.transfer.size(), "number"),
+      did(Moved::closer, "comes nearer to the recording", "come nearer to the recording"),
+      did(Moved::away, "moves away", "move away"),
+      did(Moved::nowhere, "stays as it was", "stay as they were"));
 }
 
 std::string next_in_words(const Diagnosis& d) {
@@ -127,7 +132,7 @@ std::string evidence_in_words(const Diagnosis& d) {
       "part: from {:.3g} to {:.3g} spreads of a reading.",
       chance_in_words(d.p_before), chance_in_words(d.p_after), d.gap_before, d.gap_after);
   for (std::size_t k = 0; k < d.effects.size(); ++k)
-    text += fmt::format("{}{} {:.2f}", k == 0 ? " Probability of being there: " : ", ",
+    text += fmt::format("{}{} {:.2f}", k == 0 ? " Inclusion probability: " : ", ",
                         d.effects[k].effect, d.effects[k].inclusion);
   if (!d.effects.empty())
     text +=

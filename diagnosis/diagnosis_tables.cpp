@@ -33,7 +33,7 @@ std::vector<Table> diagnosis_tables(const Diagnosis& d, const std::string& name)
   if (d.where.empty()) where.notes.push_back("nowhere");
   Table causes{.title = name + ": causes",
                .columns = {{"effect", ""},
-                           {"probability", "1"},
+                           {"posterior probability", "1"},
                            {"log score gained", "nat"},
                            {"recovered", "1"},
                            {"gap after", "spreads"},
@@ -42,6 +42,9 @@ std::vector<Table> diagnosis_tables(const Diagnosis& d, const std::string& name)
   for (const auto& c : d.causes)
     causes.rows.push_back({c.effect, c.probability, c.log_score, c.recovered, c.gap_after, c.closed,
                            parameters_in_words(c.scenario.effects.back())});
+  causes.notes.push_back(
+      "posterior probability: of being what the recording has and the simulator lacks; the "
+      "inclusion probability of an effect, times what its set recovers where something is left");
   Table steps{.title = name + ": the gap on the held-out part, step by step",
               .columns = {{"added", ""}, {"gap", "spreads"}}};
   for (const auto& e : d.enrichments)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -37,17 +38,36 @@ auto about(const std::string& file, const Work& work) {
   }
 }
 
-/// A check of an option's value, which is a finite number.
-inline CLI::Validator within(double low, double high) {
-  return {[range = Range{.from = low, .to = high}](const std::string& text) {
+/// A check of an option's value, which is a finite number of this unit.
+inline CLI::Validator within(double low, double high, const std::string& unit = "") {
+  return {[range = Range{.from = low, .to = high}, unit](const std::string& text) {
             double value = 0.0;
-            const bool fits = CLI::detail::lexical_cast(text, value) && range.contains(value);
-            return fits ? std::string{}
-                        : fmt::format("'{}' is out of range; allowed: {}", text,
-                                      values_in_words(range));
+            const bool is_number = CLI::detail::lexical_cast(text, value);
+            return is_number && range.contains(value)
+                       ? std::string{}
+                       : fmt::format("'{}' is {}; allowed: {}", text,
+                                     is_number ? "out of range" : "no number",
+                                     values_in_words(range, unit));
           },
           "NUMBER"};
 }
+
+/// A check of an option's value, which is a whole number.
+inline CLI::Validator whole(std::uint64_t low, std::uint64_t high) {
+  const auto allowed = fmt::format("{} to {}", low, high);
+  return {[low, high, allowed](const std::string& text) {
+            std::uint64_t value = 0;
+            const bool is_whole = CLI::detail::lexical_cast(text, value);
+            return is_whole && value >= low && value <= high
+                       ? std::string{}
+                       : fmt::format("'{}' is {}; allowed: {}", text,
+                                     is_whole ? "out of range" : "no whole number",
+                                     "whole numbers from " + allowed);
+          },
+          allowed};
+}
+inline constexpr std::uint64_t most_trials = 4294967295;  ///< of a cell
+inline constexpr std::uint64_t largest_seed = std::uint64_t{1} << 53;
 
 /// A span of the recording, in seconds from its first sample.
 struct SpanOption {
@@ -56,9 +76,9 @@ struct SpanOption {
 
   void add_to(CLI::App* verb) {
     verb->add_option("--from", from_s, "start of the span, s from the first sample")
-        ->check(within(0.0, 1e12));
+        ->check(within(0.0, 1e12, "s"));
     verb->add_option("--to", to_s, "end of the span, s from the first sample")
-        ->check(within(0.0, 1e12));
+        ->check(within(0.0, 1e12, "s"));
   }
   bool is_part_of(const Series& series) const {
     return from_s > 0.0 || to_s <= series.duration_s();
@@ -100,11 +120,11 @@ struct RecordingOption {
     verb->add_option("--topic", topic, "of a log that has several gyros")->type_name("NAME");
     verb->add_option("--rate", rate_hz, "samples a second, for a file without times")
         ->type_name("HZ")
-        ->check(within(1e-6, 1e7));
+        ->check(within(1e-6, 1e7, "Hz"));
     verb->add_option("--resample", resample_hz,
                      "put the samples on an even clock, where their rate changes")
         ->type_name("HZ")
-        ->check(within(1e-6, 1e7));
+        ->check(within(1e-6, 1e7, "Hz"));
   }
 
   RecordingLayout layout() const {

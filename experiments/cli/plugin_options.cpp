@@ -27,7 +27,7 @@ void PluginArguments::add_to(CLI::App* verb, const std::string& libraries_as) {
       ->allow_extra_args(false);
   verb->add_option("--plugin-limit", options.limit_s,
                    "time in which either answers a block of samples, s")
-      ->check(within(0.01, 1e6))
+      ->check(within(0.01, 1e6, "s"))
       ->capture_default_str();
 }
 

@@ -8,6 +8,7 @@
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/findings/consistency.hpp>
+#include <gyrostat/experiments/findings/told.hpp>
 #include <gyrostat/experiments/run/trial.hpp>
 
 namespace gyrostat {
@@ -92,7 +93,7 @@ Table calibration_table(const Cell& cell, const Calibration& fit, const CellSumm
     using P = std::remove_cvref_t<decltype(fitted)>;
     for (const auto& f : P::fields())
       table.rows.push_back({std::string(f.name), std::string(f.unit), fitted.*(f.member),
-                            errors.*(f.member),
+                            told(errors.*(f.member)),
                             unknown ? TableCell() : TableCell(truth.*(f.member))});
   };
   add(fit.random_error.parameters, fit.random_error.standard_errors, cell.scenario.random_error);

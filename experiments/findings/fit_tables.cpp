@@ -12,6 +12,7 @@
 #include <gyrostat/analysis/fits/arima_intervals.hpp>
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/experiments/findings/told.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
 
 namespace gyrostat {
@@ -26,8 +27,8 @@ void add_rows(Table& table, const std::string& method, const P& fitted, const P&
   for (const auto& field : P::fields()) {
     const auto [from, to] = i < intervals.size() ? intervals[i++] : std::array{no_value, no_value};
     table.rows.push_back({method, std::string(field.name), std::string(field.unit),
-                          fitted.*(field.member), cell(from), cell(to),
-                          cell(errors.*(field.member)), std::string(field.doc)});
+                          fitted.*(field.member), told(from), told(to),
+                          told(errors.*(field.member)), std::string(field.doc)});
   }
 }
 

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include <gyrostat/diagnosis/diagnosis.hpp>
+#include <gyrostat/diagnosis/diagnosis_tables.hpp>
 #include <gyrostat/diagnosis/physical.hpp>
 
 namespace gyrostat::gap {
@@ -68,11 +69,26 @@ TEST(Answer, NothingCloserIsNotCalledCloser) {
 
 TEST(Answer, CountsWhatMovedAway) {
   EXPECT_EQ(transfer_in_words(with_two_effects()),
-            "Of 3 numbers that the filters show, 1 come nearer to the recording, 1 move "
-            "away and 1 stay as they were.");
+            "Of 3 numbers that the filters show, 1 comes nearer to the recording, 1 moves away "
+            "and 1 stays as it was.");
   auto d = with_two_effects();
+  d.transfer = {d.transfer[0], d.transfer[0], d.transfer[1], d.transfer[1]};
+  EXPECT_EQ(transfer_in_words(d),
+            "Of 4 numbers that the filters show, 2 come nearer to the recording, 2 move away and "
+            "0 stay as they were.");
   d.enrichments.resize(1);
   EXPECT_EQ(transfer_in_words(d), "");
+}
+
+// An effect's inclusion and the posterior of a cause differ where the set leaves something open.
+TEST(Answer, EachProbabilityHasItsName) {
+  auto d = with_two_effects();
+  d.causes.resize(1);
+  d.causes[0].scenario.effects = d.effects[0].parameters;
+  EXPECT_THAT(evidence_in_words(d), HasSubstr("Inclusion probability: vibration 0.99"));
+  for (const auto& table : diagnosis_tables(d, "r"))
+    for (const auto& column : table.columns) EXPECT_NE(column.name, "probability");
+  EXPECT_EQ(diagnosis_tables(d, "r").front().columns[1].name, "posterior probability");
 }
 
 TEST(Answer, ReadingsAreToldInTheirUnits) {

@@ -22,3 +22,7 @@ gyrostat_consumer(Examples.DiagnoseRecording -DPROJECT=examples/diagnose_recordi
 gyrostat_consumer(Examples.OwnFilter -DPROJECT=examples/own_filter
                   -DARGUMENTS=${PROJECT_SOURCE_DIR}/examples/own_filter/study.json
                   "-DSAYS=beats leaky_mean_200 in bias_rmse by" ${consume})
+
+add_test(NAME Install.TheContainerRecipeBuildsAndRuns
+         COMMAND ${DEBIAN_PYTHON} ${install_tests}/check_container.py ${PROJECT_SOURCE_DIR})
+set_tests_properties(Install.TheContainerRecipeBuildsAndRuns PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED:" TIMEOUT 3600 COST 90)

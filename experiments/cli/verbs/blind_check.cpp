@@ -131,7 +131,7 @@ void add_blind_check(CLI::App& program, Console& console, int& exit_code) {
                    "folder of recordings, labels and diagnoses (default: runs/<name>)");
   verb->add_option("--recordings", arguments->recordings,
                    "of each effect and strength, instead of the file's")
-      ->check(CLI::Range(1U, 4294967295U));
+      ->check(whole(1, most_trials));
   verb->add_option("--tables", arguments->tables,
                    "folder to write the tables to, tables.json and CSV, as a page reads them");
   auto* exported = verb->add_option(
@@ -140,7 +140,7 @@ void add_blind_check(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--seed", arguments->seed,
                    "of the exported recordings (default: a secret one, for who knows the check and "
                    "its seed knows the labels)")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 53))
+      ->check(whole(1, largest_seed))
       ->needs(exported);
   auto* answers =
       verb->add_option("--score", arguments->answers, "folder of answers, a JSON a recording")

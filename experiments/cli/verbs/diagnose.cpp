@@ -219,6 +219,7 @@ void add_diagnose(CLI::App& program, Console& console, int& exit_code) {
       "--claim", arguments->claim,
       "judge the effects of this study (as --scenario writes it) instead of looking for causes");
   verb->add_option("--seed", arguments->options.seed, "of all simulated noise")
+      ->check(whole(0, largest_seed))
       ->capture_default_str();
   verb->footer(diagnose_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

@@ -87,7 +87,7 @@ void add_export_model(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--cell", arguments->cell, "cell of the study (default: the first)");
   verb->add_option("--averaging", arguments->options.averaging_s,
                    "averaging time, s, up to which an inflation of N is to cover what is left out")
-      ->check(within(1e-6, 1e6))
+      ->check(within(1e-6, 1e6, "s"))
       ->capture_default_str();
   verb->add_flag("--inflate", arguments->options.inflate, "write N so inflated");
   verb->footer(export_model_examples);

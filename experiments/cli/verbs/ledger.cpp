@@ -39,7 +39,7 @@ void add_ledger(CLI::App& program, Console& console, int& exit_code) {
   auto arguments = std::make_shared<LedgerArguments>();
   verb->add_option("ledger", arguments->ledger, "ledger file (JSON)")->required();
   verb->add_option("--trials", arguments->trials, "trials of every cell, instead of the study's")
-      ->check(CLI::Range(2U, 4294967295U));
+      ->check(whole(2, most_trials));
   arguments->format.add_to(verb);
   verb->footer(ledger_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

@@ -36,7 +36,7 @@ void add_match(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("match", arguments->match, "match file (JSON)")->required();
   verb->add_option("--study", arguments->study_out, "write the study at the scenario found");
   verb->add_option("--threads", arguments->threads, "threads (default: all)")
-      ->check(CLI::Range(1, 1024));
+      ->check(whole(1, 1024));
   arguments->format.add_to(verb);
   verb->footer(match_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

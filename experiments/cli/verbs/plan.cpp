@@ -127,14 +127,14 @@ void add_plan(CLI::App& program, Console& console, int& exit_code) {
   auto arguments = std::make_shared<PlanArguments>();
   verb->add_option("study", arguments->study, "study file (JSON)")->required();
   verb->add_option("--trials", arguments->trials, "trials of every cell, instead of the study's")
-      ->check(CLI::Range(1U, 4294967295U));
+      ->check(whole(1, most_trials));
   verb->add_option("--threads", arguments->pilot.threads, "threads of the run (default: all)")
-      ->check(CLI::Range(1, 1024));
+      ->check(whole(1, 1024));
   verb->add_option("--shards", arguments->shards, "parts that the study is run in")
-      ->check(CLI::Range(1, 1000000))
+      ->check(whole(1, 1000000))
       ->capture_default_str();
   verb->add_option("--pilot", arguments->pilot.seconds, "seconds for which each cell is tried")
-      ->check(within(0.01, 3600.0))
+      ->check(within(0.01, 3600.0, "s"))
       ->capture_default_str();
   arguments->format.add_to(verb);
   verb->footer(plan_examples);

@@ -120,10 +120,10 @@ void add_publish(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("page", arguments->folder, "folder with page.json and page.md")->required();
   verb->add_option("--out", arguments->out, "folder to write to (default: the page's own)");
   verb->add_option("--threads", arguments->threads, "threads (default: all)")
-      ->check(CLI::Range(1, 1024));
+      ->check(whole(1, 1024));
   verb->add_option("--trials", arguments->trials,
                    "trials of every cell; tuning and matching shortened")
-      ->check(CLI::Range(2U, 4294967295U));
+      ->check(whole(2, most_trials));
   verb->add_flag("--text", arguments->text,
                  "make text and figures again from tables.json, running nothing");
   verb->add_flag("--check", arguments->check,

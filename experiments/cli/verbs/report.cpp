@@ -60,9 +60,9 @@ void add_report(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--replay", arguments->options.replay,
                    "trials simulated again for pictures over time (default: 2 to 64 by the length "
                    "of a trial)")
-      ->check(CLI::Range(0U, 100000U));
+      ->check(whole(0, 100000));
   verb->add_option("--threads", arguments->options.threads, "threads (default: all)")
-      ->check(CLI::Range(1, 1024));
+      ->check(whole(1, 1024));
   verb->footer(report_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });
 }

@@ -134,9 +134,9 @@ void add_run(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("study", arguments->study, "study file (JSON)")->required();
   verb->add_option("--out", arguments->out, "folder for the results (default: runs/<study>)");
   verb->add_option("--threads", arguments->threads, "threads (default: all)")
-      ->check(CLI::Range(1, 1024));
+      ->check(whole(1, 1024));
   verb->add_option("--trials", arguments->trials, "trials of every cell, instead of the study's")
-      ->check(CLI::Range(1U, 4294967295U));
+      ->check(whole(1, most_trials));
   verb->add_option("--shard", arguments->shard,
                    "run only the trials of part i of n (in a Slurm job array: the task's own)");
   verb->add_option(
@@ -155,7 +155,14 @@ void add_run(CLI::App& program, Console& console, int& exit_code) {
   verb->add_option("--lanes", arguments->lanes,
                    "trials side by side: 1, 2, 4 or 8 (default: as many as a register holds; the "
                    "same results)")
-      ->check(CLI::IsMember(possible_lanes));
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return std::ranges::any_of(possible_lanes,
+                                       [&](auto lanes) { return text == std::to_string(lanes); })
+                       ? std::string{}
+                       : "'" + text + "' is no number of lanes; allowed: 1, 2, 4 or 8";
+          },
+          "1|2|4|8"));
   arguments->format.add_to(verb);
   verb->footer(run_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

@@ -44,7 +44,9 @@ void add_simulate(CLI::App& program, Console& console, int& exit_code) {
   auto arguments = std::make_shared<SimulateArguments>();
   verb->add_option("study", arguments->study, "study file (JSON)")->required();
   verb->add_option("--cell", arguments->cell, "cell of the study (default: the first)");
-  verb->add_option("--trial", arguments->trial, "trial number, from 0")->capture_default_str();
+  verb->add_option("--trial", arguments->trial, "trial number, from 0")
+      ->check(whole(0, most_trials))
+      ->capture_default_str();
   verb->add_option("--out", arguments->out, "CSV, CSV.gz or MATLAB file to write")->required();
   verb->footer(simulate_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

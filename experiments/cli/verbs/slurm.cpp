@@ -77,14 +77,14 @@ void add_slurm(CLI::App& program, Console& console, int& exit_code) {
       "TIME");
   verb->add_option("study", job.study, "study file (JSON)")->required();
   verb->add_option("--shards", job.shards, "tasks of the array")
-      ->check(CLI::Range(1, 1000000))
+      ->check(whole(1, 1000000))
       ->capture_default_str();
   verb->add_option("--threads", job.threads, "threads of each task")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole(1, 1024))
       ->capture_default_str();
   verb->add_option("--time", job.time, "time limit of a task, as 02:00:00")->check(time_limit);
   verb->add_option("--trials", arguments->trials, "trials of every cell, instead of the study's")
-      ->check(CLI::Range(1U, 4294967295U));
+      ->check(whole(1, most_trials));
   verb->add_option("--out", job.folder, "folder that all tasks see (default: runs/<study>)");
   verb->add_option("--file", arguments->file, "file to write (default: <study>.sbatch)");
   verb->footer(slurm_examples);

@@ -134,16 +134,16 @@ void add_tune(CLI::App& program, Console& console, int& exit_code) {
       ->allow_extra_args(false);
   verb->add_option("--budget", arguments->request.goal.budget,
                    "runs of a method over one trial, for its search")
-      ->check(CLI::Range(std::size_t{400}, std::size_t{100'000'000}))
+      ->check(whole(400, 100'000'000))
       ->capture_default_str();
   verb->add_option("--fresh", arguments->request.goal.fresh, "trials that judge what was found")
-      ->check(CLI::Range(50U, 10'000'000U))
+      ->check(whole(50, 10'000'000))
       ->capture_default_str();
   verb->add_option("--out", arguments->out, "write the study with the values that are better")
       ->type_name("STUDY.json");
   verb->add_option("--json", arguments->json, "write all that was found")->type_name("FILE");
   verb->add_option("--threads", arguments->run.threads, "threads (default: all)")
-      ->check(CLI::Range(1, 1024));
+      ->check(whole(1, 1024));
   arguments->format.add_to(verb);
   verb->footer(tune_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

@@ -112,6 +112,20 @@ TEST(FitAnswers, WritesValuesUnderTheirNamesAndPictures) {
   EXPECT_EQ(run_program(folder, {"allan", "r.csv", "--svg", "r.csv"}).exit_code, 2);
 }
 
+// Short plain random walks: whether phi and delta2 are held is the luck of the draw, so there are
+// some of them.
+TEST(FitAnswers, SaysWhatCannotBeToldRatherThanInfinity) {
+  const TestFolder folder;
+  int untold = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    folder.write("r.csv", recording({0.0, 0.01, 0.0, 0.0}, 700, Noise{seed, 0}));
+    const auto out = run_program(folder, {"fit", "r.csv", "--method", "likelihood"}).out;
+    EXPECT_THAT(out, Not(HasSubstr(" inf"))) << out;
+    untold += out.find("cannot be told\n") != out.npos;
+  }
+  EXPECT_GT(untold, 0);
+}
+
 // A walk of long memory far below white noise: phi = -0.9 is as likely as the fit's 0.96.
 TEST(FitAnswers, SaysThatTheLikelihoodHasSeveralMaxima) {
   const TestFolder folder;

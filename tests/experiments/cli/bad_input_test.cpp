@@ -607,14 +607,51 @@ TEST(BadInput, AnOptionOutOfRangeIsToldTheRange) {
   const TestFolder folder;
   folder.write("rec.csv", sound_recording());
   folder.write("study.json", sound_study().dump());
-  expect_refused(folder, {"run", "study.json", "--threads", "0"}, {"--threads", "0", "1 "});
-  expect_refused(folder, {"run", "study.json", "--trials", "0"}, {"--trials", "0", "1 "});
-  expect_refused(folder, {"run", "study.json", "--trials", "ten"}, {"--trials", "ten"});
-  expect_refused(folder, {"simulate", "study.json", "--trial", "-1", "--out", "out.csv"},
-                 {"--trial", "-1"});
+  expect_refused(folder, {"run", "study.json", "--threads", "0"},
+                 {"--threads: '0' is out of range; allowed: whole numbers from 1 to 1024"});
+  expect_refused(
+      folder, {"run", "study.json", "--trials", "ten"},
+      {"--trials: 'ten' is no whole number; allowed: whole numbers from 1 to 4294967295"});
+  for (const char* trial : {"-1", "1.5", "4294967296", "99999999999999999999"})
+    expect_refused(folder, {"simulate", "study.json", "--trial", trial, "--out", "out.csv"},
+                   {"--trial", trial, "whole numbers from 0 to 4294967295"});
+  expect_refused(folder, {"fit", "rec.csv", "--to", "q"},
+                 {"--to: 'q' is no number; allowed: [0, 1e12] s"});
+  expect_refused(folder, {"run", "study.json", "--lanes", "3"},
+                 {"--lanes", "'3'", "allowed: 1, 2, 4 or 8"});
   for (const char* fraction : {"0", "1", "nan"})
     expect_refused(folder, {"apply", "rec.csv", "--calibration", fraction},
                    {"--calibration", fraction, "0.01", "0.99"});
+}
+
+/// The lines of a text that begin so, without the beginning.
+Words lines_after(const std::string& text, const std::string& begin) {
+  Words found;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with(begin)) found.push_back(line.substr(begin.size()));
+  return found;
+}
+
+// By the help of every verb, so that an option yet to come is held to it, too.
+TEST(BadInput, EveryNumericOptionOfEveryVerbIsToldWhatIsExpected) {
+  const TestFolder folder;
+  std::size_t options = 0;
+  for (auto verb : lines_after(run_program(folder, {"--help"}).out, "  ")) {
+    verb = verb.substr(0, verb.find(' '));
+    if (verb.empty() || verb.starts_with('-')) continue;
+    for (const auto& line : lines_after(run_program(folder, {verb, "--help"}).out, "  --")) {
+      const auto option = "--" + line.substr(0, line.find_first_of(" ,"));
+      const auto type = line.substr(std::min(line.size(), option.size() - 1));
+      const bool is_numeric = std::ranges::any_of(
+          Words{"INT", "FLOAT", "HZ"},
+          [&](const auto& name) { return type.starts_with(name) || type.starts_with("U" + name); });
+      if (!is_numeric) continue;
+      ++options;
+      expect_refused(folder, {verb, "x", option, "q"}, {option + ": 'q' is no ", "; allowed: "});
+    }
+  }
+  EXPECT_GT(options, 50U);
 }
 
 TEST(BadInput, AMissingArgumentIsNamed) {
