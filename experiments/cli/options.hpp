@@ -158,17 +158,15 @@ struct RecordingOption {
     return recording;
   }
 
-  /// From the first sample that is there to the last.
-  static Series between_samples(const Series& series, const std::string& file) {
+  /// From the first sample that is there to the last, both of them included.
+  static Series between_samples(const Series& series) {
     const auto& z = series.gyro_dps;
     const auto is_there = [](double value) { return value == value; };
     const auto first = std::find_if(z.begin(), z.end(), is_there);
     const auto last = std::find_if(z.rbegin(), z.rend(), is_there);
     if (first == z.end()) return series;
-    const auto seconds = [&](std::ptrdiff_t sample) {
-      return series.t_s[static_cast<std::size_t>(sample)] - series.t_s.front();
-    };
-    return cut(series, seconds(first - z.begin()), seconds(z.rend() - last - 1), file);
+    return series.slice(static_cast<std::size_t>(first - z.begin()),
+                        static_cast<std::size_t>(last.base() - first));
   }
 
   /// Throws InputError, naming the nearest samples, where the recording pauses all over the span.
@@ -202,7 +200,7 @@ struct RecordingOption {
     }
     auto series = cut(whole, span.from_s, span.to_s, file + ": --from, --to");
     require_samples(whole, span, file);
-    series = between_samples(series, file);
+    series = between_samples(series);
     if (bursts == Bursts::refused)
       require_dense(series, file, series.t_s.front() - whole.t_s.front());
     return series;

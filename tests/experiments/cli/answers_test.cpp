@@ -112,13 +112,12 @@ TEST(FitAnswers, WritesValuesUnderTheirNamesAndPictures) {
   EXPECT_EQ(run_program(folder, {"allan", "r.csv", "--svg", "r.csv"}).exit_code, 2);
 }
 
-// Short plain random walks: whether phi and delta2 are held is the luck of the draw, so there are
-// some of them.
+// In white noise alone there is no phi to be told: about a quarter of such fits hold it at 0.
 TEST(FitAnswers, SaysWhatCannotBeToldRatherThanInfinity) {
   const TestFolder folder;
   int untold = 0;
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    folder.write("r.csv", recording({0.0, 0.01, 0.0, 0.0}, 700, Noise{seed, 0}));
+  for (std::uint64_t seed = 1; seed <= 20 && untold == 0; ++seed) {
+    folder.write("r.csv", recording({0.0, 0.0, 0.0, 0.1}, 600, Noise{seed, 0}));
     const auto out = run_program(folder, {"fit", "r.csv", "--method", "likelihood"}).out;
     EXPECT_THAT(out, Not(HasSubstr(" inf"))) << out;
     untold += out.find("cannot be told\n") != out.npos;

@@ -90,10 +90,11 @@ TEST(Diagnose, TellsOneLineAPhaseWhereNobodyWatchesAndTheAnswerFirst) {
   EXPECT_GE(phases.size(), 3);
 
   EXPECT_TRUE(
-      ended.out.starts_with("rec.csv: To make recordings like this one, the simulator "
-                            "lacks "))
+      ended.out.starts_with("rec.csv: To make recordings like this one, the simulator lacks"))
       << ended.out;
-  EXPECT_THAT(ended.out.substr(0, ended.out.find('\n')), Not(HasSubstr("spreads")));
+  EXPECT_THAT(ended.out.substr(0, ended.out.find("\n\n")), Not(HasSubstr("spreads")));
+  std::istringstream answer(ended.out.substr(0, ended.out.find("causes\n")));
+  for (std::string line; std::getline(answer, line);) EXPECT_LE(line.size(), 80U) << line;
   EXPECT_THAT(folder.read("page.html"), HasSubstr("<h1>rec.csv</h1>"));
   EXPECT_THAT(folder.read("page.html"), Not(HasSubstr(folder.path().string())));
   const auto figures = folder.contents();
