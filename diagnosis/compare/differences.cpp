@@ -176,7 +176,9 @@ void DifferenceSearch::one_side_alone(const CauseType& cause, const Found& real,
   const auto& has_it = lacks ? real : simulated;
   const auto& other_side = lacks ? simulated_ : real_;
   double here = has_it.log_odds, there = 0.0;
-  if (has_loss(cause)) {
+  // What is taken out sample by sample finds its own size and cannot be held at another's.
+  const bool by_law = has_loss(cause) && cause.enter != nullptr;
+  if (by_law) {
     const auto losses = losses_of(cause, real, simulated);
     here = lacks ? losses.real : losses.simulated;
     there = lacks ? losses.simulated : losses.real;
@@ -187,8 +189,7 @@ void DifferenceSearch::one_side_alone(const CauseType& cause, const Found& real,
     }
     there = would_show(other_side, cause, has_it.effects);
   }
-  auto evidence =
-      by_losses(here, there, has_loss(cause) ? double(cause.free_parameters.size()) : 1.0);
+  auto evidence = by_losses(here, there, by_law ? double(cause.free_parameters.size()) : 1.0);
   evidence.there = here;
   Difference difference{.effect = std::string(cause.id),
                         .how = lacks ? Differs::lacks : Differs::too_much,
@@ -302,8 +303,11 @@ Differences DifferenceSearch::run() {
     compare_noise(white_noise, &TraceStudy::white_std_dps, &TraceStudy::loss_with_white,
                   least_of_white);
   tell(random_walk);
-  compare_noise(random_walk, &TraceStudy::walk_dps_per_sqrt_s, &TraceStudy::loss_with_walk,
-                least_of_walk);
+  const auto remembers = [](const auto& trace) { return trace->has_memory(); };
+  if (std::ranges::none_of(real_.traces, remembers) &&
+      std::ranges::none_of(simulated_.traces, remembers))
+    compare_noise(random_walk, &TraceStudy::walk_dps_per_sqrt_s, &TraceStudy::loss_with_walk,
+                  least_of_walk);
   return std::move(result_);
 }
 

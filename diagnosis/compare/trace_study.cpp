@@ -161,6 +161,12 @@ std::vector<double> TraceStudy::errors_of(std::string_view name) const {
   return errors;
 }
 
+bool TraceStudy::has_memory() const {
+  prepare();
+  const auto& error = standing_.scenario.random_error;
+  return error.phi != 0.0 || error.delta2_dps != 0.0;
+}
+
 double TraceStudy::white_std_dps() const {
   prepare();
   return standing_.scenario.random_error.measurement_noise_std_dps;

@@ -51,6 +51,8 @@ class TraceStudy {
   /// The same with another white noise, or with another walk.
   double loss_with_white(double std_dps) const;
   double loss_with_walk(double dps_per_sqrt_s) const;
+  /// Whether what wanders is remembered (ARIMA), and so is no walk of a K.
+  bool has_memory() const;
   double white_std_dps() const;
   double walk_dps_per_sqrt_s() const;
 

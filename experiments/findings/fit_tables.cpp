@@ -155,11 +155,12 @@ FitTables fit_tables(const Series& series, std::span<const FitMethod> methods,
                            : by_likelihood ? likelihood_intervals(series, fit)
                                            : Intervals{};
     add_rows(table, called, error.parameters, error.standard_errors, intervals);
-    table.notes.push_back(called + ": " + error.message);
+    table.notes.push_back(called + (error.converged ? ": " : ": did not converge: ") +
+                          error.message);
     json[called] = keys_and_values(error.parameters, error.standard_errors, intervals);
     json[called]["converged"] = error.converged;
     json[called]["message"] = error.message;
-    found.converged = found.converged && error.converged;
+    found.converged = found.converged || error.converged;
     if (!is_first) continue;
     found.left = left_by_drift(series, fit.thermal, name);
     if (!fit.thermal) continue;

@@ -15,10 +15,11 @@ namespace gyrostat {
 /// IEEE 952 of what the drift leaves.
 struct FitTables {
   std::vector<Table> tables;
-  std::vector<Calibration> fits;  ///< one a method, in the order asked for; later ones only where they can be had
-  bool converged = true;          ///< all of them
-  AllanFindings left;  ///< of the rate without its drift; empty where samples are missing
-  std::string json;    ///< an object: values and intervals under their names
+  std::vector<Calibration>
+      fits;  ///< one a method, in the order asked for; later ones only where they can be had
+  bool converged = false;  ///< one of them at least
+  AllanFindings left;      ///< of the rate without its drift; empty where samples are missing
+  std::string json;        ///< an object: values and intervals under their names
 };
 
 /// What is done, and which share of all that is.

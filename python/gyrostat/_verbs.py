@@ -32,7 +32,7 @@ def allan(data: Any, *, rate_hz: float = 0.0, name: str = "the recording") -> Re
 
 
 class Fit(Result):
-    """Parameters with intervals, then coefficients. `converged`: whether every fit came to an end."""
+    """Parameters with intervals, then coefficients. `converged`: whether one of the fits came to an end."""
 
     converged: bool = False
 
