@@ -4,7 +4,7 @@ option(GYROSTAT_TOGETHER "Compile several sources as one" ON)
 
 # Sources of one folder are compiled together, some `batch` at a time; a folder of few counts as the one above it. Which
 # goes with which is told by their names alone, so that a new source has its own batch compiled anew, and no other. What
-# CMake writes of plug-ins is compiled alone, since every new plug-in changes it.
+# CMake writes of plug-ins is compiled alone, since every new plug-in changes it; so is GYROSTAT_COMPILED_ALONE.
 function(gyrostat_together target batch)
   if(NOT GYROSTAT_TOGETHER OR NOT TARGET ${target})
     return()
@@ -14,7 +14,7 @@ function(gyrostat_together target batch)
   set(groups "")
   foreach(source IN LISTS sources)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${base} OUTPUT_VARIABLE folder)
-    if(folder MATCHES "^${PROJECT_BINARY_DIR}/")
+    if(folder MATCHES "^${PROJECT_BINARY_DIR}/" OR source IN_LIST GYROSTAT_COMPILED_ALONE)
       set_property(SOURCE ${source} TARGET_DIRECTORY ${target} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
       continue()
     endif()
@@ -54,6 +54,9 @@ function(gyrostat_together target batch)
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
+
+# It states the commit, and is compiled again with each.
+set(GYROSTAT_COMPILED_ALONE ${PROJECT_SOURCE_DIR}/experiments/run/build.cpp)
 
 gyrostat_together(gyrostat_recordings 10)
 gyrostat_together(gyrostat_analysis 10)

@@ -67,8 +67,12 @@ class Phase {
   }
   /// Difference of the sums over the two clusters of m samples that start at i.
   double haar(std::size_t i, std::size_t m) const {
-    if (is_complete()) return sum_[i + 2 * m] - 2.0 * sum_[i + m] + sum_[i];
+    if (is_complete()) return haar_of_complete(i, m);
     return cluster(i + m, m) - cluster(i, m);
+  }
+  /// The same, of a rate without missing samples.
+  double haar_of_complete(std::size_t i, std::size_t m) const {
+    return sum_[i + 2 * m] - 2.0 * sum_[i + m] + sum_[i];
   }
 
  private:
@@ -91,8 +95,9 @@ double lag1_autocorrelation(const std::vector<double>& z) {
 /// than white is taken for white: long clusters of a rate that returns to its mean are
 /// anticorrelated, yet do not decorrelate within a sample as blue noise would.
 int power_law_exponent(const Phase& phase, std::size_t m) {
-  constexpr std::size_t enough = std::size_t{1} << 22;
+  constexpr std::size_t enough = std::size_t{1} << 20;
   std::vector<double> z;
+  z.reserve(std::min(enough, phase.size() / m));
   for (std::size_t i = m; i < phase.size() && z.size() < enough; i += m)
     if (const double sum = phase.cluster(i - m, m); !std::isnan(sum)) z.push_back(sum);
   if (z.size() < 3) return 0;
@@ -141,40 +146,109 @@ double equivalent_degrees_of_freedom(int alpha, std::size_t n, std::size_t m) {
   return static_cast<double>(count) / sum;
 }
 
+/// A sum over places, and how many of them there are.
+struct PlaceSum {
+  double sum = 0.0;
+  std::size_t count = 0;
+};
+
+/// Products of values `lag` apart, of which both are there. Eight sums side by side do not wait for
+/// one another; which ones there are hangs on no machine.
+PlaceSum products_of(const std::vector<double>& values, std::size_t lag) {
+  std::array<double, 8> side{}, there{};
+  const std::size_t count = values.size() > lag ? values.size() - lag : 0;
+  const double *from = values.data(), *to = from + (values.size() - count);
+  const auto add = [&](std::size_t i, std::size_t k) {
+    const double product = to[i] * from[i];
+    const bool is_there = product == product;
+    side[k] += is_there ? product : 0.0;
+    there[k] += is_there ? 1.0 : 0.0;
+  };
+  std::size_t i = 0;
+  for (; i + side.size() <= count; i += side.size())
+    for (std::size_t k = 0; k < side.size(); ++k) add(i + k, k);
+  for (; i < count; ++i) add(i, 0);
+  return {std::accumulate(side.begin(), side.end(), 0.0),
+          static_cast<std::size_t>(std::accumulate(there.begin(), there.end(), 0.0))};
+}
+
 /// The same from the rate itself: the overlapping differences of clusters are a stationary series,
 /// and the variance of its mean square is that of a Gaussian one with its own autocovariance, which
 /// ends within two clusters for white noise and random walks, whatever their mixture. About eight
 /// lags a cluster add up to as much as all.
-/// Millions of products tell a covariance as well as all, so of long series every so-manieth is
-/// taken.
+/// Half a million products tell a covariance as well as all, so of long series pieces are taken
+/// that are spread over it.
 double degrees_of_freedom_of(const Phase& phase, std::size_t count, std::size_t m) {
-  constexpr std::size_t enough = std::size_t{1} << 22;
-  const std::size_t step = std::max<std::size_t>(1, m / 8), stride = (count + enough - 1) / enough;
-  std::vector<double> differences(stride == 1 ? count : 0);
-  for (std::size_t i = 0; i < differences.size(); ++i) differences[i] = phase.haar(i, m);
-  const auto difference = [&](std::size_t i) {
-    return stride == 1 ? differences[i] : phase.haar(i, m);
-  };
-  const auto covariance = [&](std::size_t lag) {
-    double sum = 0.0;
-    std::size_t products = 0, places = 0;
-    for (std::size_t i = lag; i < count; i += stride, ++places) {
-      const double product = difference(i) * difference(i - lag);
-      if (std::isnan(product)) continue;
-      sum += product;
-      ++products;
+  constexpr std::size_t enough = std::size_t{1} << 19, least_piece = 4096;
+  const std::size_t step = std::max<std::size_t>(1, m / 8), lags = 2 * m / step;
+  const bool whole = count <= enough;
+  // Within a piece of a long series only the differences that are whole steps apart.
+  const std::size_t stride = whole ? 1 : step, reach = whole ? 2 * m : lags;
+  const std::size_t available = (count + stride - 1) / stride;
+  const std::size_t pieces =
+      whole ? 1 : std::max<std::size_t>(1, std::min(enough, available) / (least_piece + reach));
+  const std::size_t length = std::min(enough, available) / pieces;
+  std::vector<double> differences(length), sums(lags + 1, 0.0);
+  std::vector<std::size_t> products(lags + 1, 0);
+  for (std::size_t p = 0; p < pieces; ++p) {
+    const std::size_t first = p * (available / pieces);
+    for (std::size_t i = 0; i < length; ++i) differences[i] = phase.haar((first + i) * stride, m);
+    for (std::size_t l = 0; l <= lags; ++l) {
+      const auto [sum, there] = products_of(differences, l * (whole ? step : 1));
+      sums[l] += sum;
+      products[l] += there;
     }
-    if (products == places && stride == 1) return sum / static_cast<double>(count);
+  }
+  const auto covariance = [&](std::size_t l) {
+    const std::size_t lag = l * step;
+    if (whole && products[l] == count - lag) return sums[l] / static_cast<double>(count);
     const double share = static_cast<double>(count - lag) / static_cast<double>(count);
-    return products == 0 ? 0.0 : share * sum / static_cast<double>(products);
+    return products[l] == 0 ? 0.0 : share * sums[l] / static_cast<double>(products[l]);
   };
   const double variance = covariance(0);
   double sum = 0.5 * variance * variance;
-  for (std::size_t lag = step; lag <= 2 * m; lag += step) {
-    const double share = 1.0 - static_cast<double>(lag) / static_cast<double>(count);
-    sum += share * covariance(lag) * covariance(lag);
+  for (std::size_t l = 1; l <= lags; ++l) {
+    const double share = 1.0 - static_cast<double>(l * step) / static_cast<double>(count);
+    sum += share * covariance(l) * covariance(l);
   }
   return static_cast<double>(count) * variance * variance / (2.0 * static_cast<double>(step) * sum);
+}
+
+/// Squares of the differences of each cluster size, over all places. A stretch of the phase serves
+/// all sizes while it is in the cache.
+std::vector<PlaceSum> squares_of(const Phase& phase, std::span<const std::size_t> clusters) {
+  constexpr std::size_t stretch = 1 << 15, side_by_side = 8;
+  const std::size_t n = phase.size() - 1;
+  std::vector<PlaceSum> all(clusters.size());
+  std::vector<std::array<double, side_by_side>> sums(clusters.size());
+  for (std::size_t first = 0; first + 2 <= n; first += stretch)
+    for (std::size_t c = 0; c < clusters.size(); ++c) {
+      const std::size_t m = clusters[c];
+      if (first + 2 * m > n) continue;
+      const std::size_t last = std::min(first + stretch, n - 2 * m + 1);
+      auto side = sums[c];
+      if (phase.is_complete()) {
+        std::size_t i = first;
+        for (; i + side_by_side <= last; i += side_by_side)
+          for (std::size_t k = 0; k < side_by_side; ++k) {
+            const double d = phase.haar_of_complete(i + k, m);
+            side[k] += d * d;
+          }
+        for (; i < last; ++i) side[0] += std::pow(phase.haar_of_complete(i, m), 2);
+        all[c].count += last - first;
+      } else {
+        for (std::size_t i = first; i < last; ++i) {
+          const double d = phase.haar(i, m);
+          if (std::isnan(d)) continue;
+          side[i % side_by_side] += d * d;
+          ++all[c].count;
+        }
+      }
+      sums[c] = side;
+    }
+  for (std::size_t c = 0; c < clusters.size(); ++c)
+    all[c].sum = std::accumulate(sums[c].begin(), sums[c].end(), 0.0);
+  return all;
 }
 
 }  // namespace
@@ -203,15 +277,10 @@ std::vector<AllanPoint> overlapping_allan_deviation(std::span<const double> rate
   const Phase phase(rate);
 
   std::vector<AllanPoint> points;
-  for (const std::size_t m : clusters) {
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i + 2 * m <= n; ++i) {
-      const double d = phase.haar(i, m);
-      if (std::isnan(d)) continue;
-      sum += d * d;
-      ++count;
-    }
+  const auto squares = squares_of(phase, clusters);
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    const std::size_t m = clusters[c];
+    const auto [sum, count] = squares[c];
     if (count == 0) continue;  // gaps leave no pair of clusters
     const auto length = static_cast<double>(m);
     const double deviation = std::sqrt(sum / (2.0 * static_cast<double>(count))) / length;

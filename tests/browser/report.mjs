@@ -40,8 +40,8 @@ const drawn = await page.evaluate(async () => {
       const pixels = copy.getImageData(0, 0, width, height).data;
       const wanted = (mark.kind === 'cells' ? mark.fills.map(scales.colour).map(marks.rgb) : [scales.colour(mark.colour)]).map(c => c.match(/\d+(\.\d+)?/g).map(Number));
       let hits = 0;
-      for (let y = Math.ceil(u.bbox.top) + 1; y < u.bbox.top + u.bbox.height - 1; ++y)
-        for (let x = Math.ceil(u.bbox.left) + 1; x < u.bbox.left + u.bbox.width - 1; ++x) {
+      for (let y = Math.ceil(u.bbox.top) + 1; y < u.bbox.top + u.bbox.height - 1 && hits < 8; ++y)
+        for (let x = Math.ceil(u.bbox.left) + 1; x < u.bbox.left + u.bbox.width - 1 && hits < 8; ++x) {
           const at = 4 * (y * width + x);
           if (pixels[at + 3] > 200 && wanted.some(c => near(c, [pixels[at], pixels[at + 1], pixels[at + 2]]))) ++hits;
         }
