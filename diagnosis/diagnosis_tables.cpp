@@ -27,8 +27,9 @@ std::vector<Table> diagnosis_tables(const Diagnosis& d, const std::string& name)
                           {"p, family-wise", "1"}}};
   for (const auto& w : d.where) {
     const Physical value(w.unit);
-    where.rows.push_back({w.lens, w.coordinate, w.from, w.to, value(w.observed), value(w.simulated),
-                          value.unit, w.p_adjusted});
+    where.rows.push_back({w.lens, w.coordinate, w.from,
+                          w.to < Interval::no_end ? TableCell(w.to) : TableCell(),
+                          value(w.observed), value(w.simulated), value.unit, w.p_adjusted});
   }
   if (d.where.empty()) where.notes.push_back("nowhere");
   Table causes{.title = name + ": causes",

@@ -6,6 +6,7 @@
 
 #include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/analysis/statistics/running.hpp>
+#include <gyrostat/core/values.hpp>
 
 namespace gyrostat {
 namespace {
@@ -137,7 +138,10 @@ double SubsetSimulation::bound() const {
   return product;
 }
 
-double RareProbability::reliability_index() const { return normal_upper_quantile(probability); }
+double RareProbability::reliability_index() const {
+  const bool is_certain = probability <= 0.0 || probability >= 1.0;
+  return is_certain ? no_value : normal_upper_quantile(probability);
+}
 
 double RareProbability::plain_trials() const {
   return (1.0 - probability) / (probability * variation * variation);

@@ -344,12 +344,17 @@ std::vector<double> robust_allan_variances(std::span<const double> rate,
       squares.push_back(0.5 * std::pow(phase.haar(i, m) / static_cast<double>(m), 2));
     const auto count = static_cast<double>(squares.size());
     double variance = std::accumulate(squares.begin(), squares.end(), 0.0) / count;
+    double least = variance;  // of what differs from 0
+    for (const double square : squares)
+      if (square > 0.0) least = std::min(least, square);
     for (double change = 1.0; change > 1e-9 && variance > 0.0;) {
       double sum = 0.0;
       for (const double square : squares) sum += std::min(square / variance, cut);
       const double factor = sum / count / expected;
       variance *= factor;
       change = std::abs(factor - 1.0);
+      // All that differs from 0 is cut, and too rare to hold the variance up: it falls for ever.
+      if (factor < 1.0 && variance * cut < least) variance = 0.0;
     }
     variances.push_back(variance);
   }

@@ -78,8 +78,9 @@ std::string readable(const TableCell& cell) {
 
 std::string readable(const TableCell& cell, const TableColumn& column) {
   const auto* number = std::get_if<double>(&cell);
-  return number && column.name == "p" && *number < least_chance ? chance_in_words(*number)
-                                                                : readable(cell);
+  const bool is_chance =
+      column.name == "p" || column.name.starts_with("p, ") || column.name.starts_with("p ");
+  return number && is_chance && *number < least_chance ? chance_in_words(*number) : readable(cell);
 }
 
 std::string exact(const TableCell& cell) {

@@ -275,5 +275,13 @@ TEST(RobustAllan, OfABurstIsBounded) {
   }
 }
 
+/// Of 1,000 differences one is not 0: the estimate ends at 0 rather than fall for ever.
+TEST(RobustAllan, OfARateThatIsAllButConstantIsZero) {
+  std::vector<double> rate(1000, 0.25);
+  rate[500] = 0.75;
+  const std::vector<std::size_t> clusters = {1, 4, 16};
+  for (const double variance : robust_allan_variances(rate, clusters)) EXPECT_EQ(variance, 0.0);
+}
+
 }  // namespace
 }  // namespace gyrostat::allan_test

@@ -128,6 +128,17 @@ TEST(Render, AReaderGetsFourDigits) {
   }
 }
 
+/// No reader believes "1e-300"; a program gets the number.
+TEST(Render, ASmallProbabilityIsToldAsABoundInEveryColumnOfP) {
+  for (const auto* name : {"p", "p, family-wise", "p adjusted"}) {
+    const Table table{.title = "t", .columns = {{name, "1"}}, .rows = {{4.6e-250}, {0.04}}};
+    EXPECT_THAT(rendered(table, Format::text), Not(HasSubstr("e-250"))) << name;
+    EXPECT_THAT(rendered(table, Format::text), HasSubstr("< 1e-6")) << name;
+    EXPECT_THAT(rendered(table, Format::text), HasSubstr("0.04")) << name;
+    EXPECT_THAT(rendered(table, Format::csv), HasSubstr("e-250")) << name;
+  }
+}
+
 TEST(Render, NoValueIsADashForReadersAndNothingForPrograms) {
   for (const TableCell& none : {TableCell{}, cell(nan)}) {
     const Table table = numbers({1.0, none, 2.0});
