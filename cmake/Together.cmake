@@ -55,13 +55,15 @@ function(gyrostat_together target batch)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
+# What is being worked on may be added when CMake is called, so that a change to it compiles nothing else.
+set(GYROSTAT_COMPILED_ALONE "" CACHE STRING "Sources that are compiled by themselves")
 # It states the commit, and is compiled again with each.
-set(GYROSTAT_COMPILED_ALONE ${PROJECT_SOURCE_DIR}/experiments/run/build.cpp)
+list(APPEND GYROSTAT_COMPILED_ALONE ${PROJECT_SOURCE_DIR}/experiments/run/build.cpp)
 
-gyrostat_together(gyrostat_recordings 10)
-gyrostat_together(gyrostat_analysis 10)
-gyrostat_together(gyrostat_results 12)
-gyrostat_together(gyrostat_diagnosis 12)
-gyrostat_together(gyrostat_experiments 12)
-gyrostat_together(gyrostat_cli 14)
-gyrostat_together(gyrostat_python 4)
+gyrostat_together(gyrostat_recordings 36)
+gyrostat_together(gyrostat_analysis 24)
+gyrostat_together(gyrostat_results 36)
+gyrostat_together(gyrostat_diagnosis 28)
+gyrostat_together(gyrostat_experiments 30)
+gyrostat_together(gyrostat_cli 40)
+gyrostat_together(gyrostat_python 8)

@@ -14,7 +14,7 @@ namespace {
 /// Replicas from here on are for fitting, those before for judging.
 constexpr std::uint32_t judging_replicas = 200;
 
-constexpr double step = 0.1;  ///< of a dial, for a difference quotient
+constexpr double dial_step = 0.1;  ///< of a dial, for a difference quotient
 
 std::vector<Dial> noise_dials(const Conditions& conditions) {
   std::vector<Dial> dials;
@@ -62,9 +62,9 @@ BaselineFit linearised(const Simulator& simulator, const Scenario& scenario) {
   const Eigen::VectorXd middle = simulator.mean_train(scenario, judging_replicas, replicas);
   fit.train_jacobian.resize(middle.size(), count);
   for (Eigen::Index d = 0; d < count; ++d) {
-    const Scenario there = moved(scenario, dials, step * Eigen::VectorXd::Unit(count, d));
+    const Scenario there = moved(scenario, dials, dial_step * Eigen::VectorXd::Unit(count, d));
     fit.train_jacobian.col(d) =
-        (simulator.mean_train(there, judging_replicas, replicas) - middle) / step;
+        (simulator.mean_train(there, judging_replicas, replicas) - middle) / dial_step;
   }
   return fit;
 }

@@ -37,11 +37,11 @@ class Simulator {
   void remember_more(std::uint32_t first, std::size_t count);
 
   Series replica(const Scenario& scenario, std::uint32_t number) const;
-  Readings readings(const Series& series, std::span<const Part> of = parts) const;
+  Readings readings(const Series& series, std::span<const Part> of = both_parts) const;
   /// Of replicas [first, first + count), in parallel; the same for any number of threads. A part
   /// that is not asked for has no columns.
   ReplicaReadings ensemble(const Scenario& scenario, std::uint32_t first, std::size_t count,
-                           std::span<const Part> of = parts) const;
+                           std::span<const Part> of = both_parts) const;
   Eigen::VectorXd mean_train(const Scenario& scenario, std::uint32_t first,
                              std::size_t count) const;
 

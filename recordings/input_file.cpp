@@ -12,6 +12,7 @@
 #include <zlib.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/recordings/unpacked_size.hpp>
 
 namespace gyrostat {
 namespace {
@@ -19,8 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t head_bytes = std::size_t{1} << 16;
-/// Numbers as text shrink to a fifth, the same row again and again to a thousandth.
-constexpr std::uint64_t largest_ratio = 100, free_bytes = std::uint64_t{1} << 26;
 
 }  // namespace
 
@@ -110,9 +109,7 @@ std::size_t InputFile::read_unpacked(char* to, std::size_t most) {
   }
   const std::size_t made = room - stream.avail_out;
   out += made;
-  if (out > free_bytes && out > largest_ratio * in)
-    throw InputError(place_, fmt::format("unpacks to more than {} times its size; allowed: numbers",
-                                         largest_ratio));
+  require_plausible_size(place_, in, out, "numbers");
   return made;
 }
 

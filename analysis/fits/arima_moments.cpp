@@ -70,7 +70,7 @@ bool is_sound(const ceres::Jet<double, N>& value) {
   return std::isfinite(value.a) && value.v.allFinite();
 }
 
-struct Residuals {
+struct MomentResiduals {
   const Moments& moments;
 
   /// False at a step too far out for the model to be computed there: Ceres then tries a shorter
@@ -88,9 +88,10 @@ enum class Family { RandomWalk, Full };
 
 ceres::Solver::Summary solve(const Moments& moments, Family family, FreeMoments& free) {
   ceres::Problem problem;
-  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Residuals, ceres::DYNAMIC, 4>(
-                               new Residuals{moments}, static_cast<int>(moments.scales()) + 4),
-                           nullptr, free.data());
+  problem.AddResidualBlock(
+      new ceres::AutoDiffCostFunction<MomentResiduals, ceres::DYNAMIC, 4>(
+          new MomentResiduals{moments}, static_cast<int>(moments.scales()) + 4),
+      nullptr, free.data());
   if (family == Family::RandomWalk)
     problem.SetManifold(free.data(), new ceres::SubsetManifold(4, {0, 2}));
   ceres::Solver::Options options;

@@ -19,9 +19,9 @@ constexpr double first_deviation = 0.3;
 constexpr double least_deviation = 1e-4;
 
 /// Into [0, 1], by reflection at its ends.
-double reflected(double x) {
-  const double folded = std::fabs(std::remainder(x, 2.0));
-  return std::min(folded, 1.0);
+double folded(double x) {
+  const double distance = std::fabs(std::remainder(x, 2.0));
+  return std::min(distance, 1.0);
 }
 
 /// The strategy's constants for n dimensions and a population (tutorial, table 1).
@@ -68,7 +68,7 @@ class Evolution {
     for (int k = 0; k < moves_.cols(); ++k)
       for (int d = 0; d < n_; ++d) moves_(d, k) = noise_.normal(drawn_++);
     moves_ = axes_ * lengths_.asDiagonal() * moves_;
-    return ((deviation_ * moves_).colwise() + mean_).unaryExpr(&reflected);
+    return ((deviation_ * moves_).colwise() + mean_).unaryExpr(&folded);
   }
 
   /// Moves and reshapes the distribution by the candidates' objectives.
@@ -86,7 +86,7 @@ class Evolution {
       move += c_.weights(i) * best;
       spread += c_.weights(i) * best * best.transpose();
     }
-    mean_ = (mean_ + deviation_ * move).unaryExpr(&reflected);
+    mean_ = (mean_ + deviation_ * move).unaryExpr(&folded);
 
     const VectorXd whitened =
         axes_ * lengths_.cwiseInverse().asDiagonal() * (axes_.transpose() * move);

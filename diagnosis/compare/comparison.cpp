@@ -19,7 +19,7 @@ void append(const Addition& more, Addition& to) {
 
 class Comparing {
  public:
-  Comparing(const std::vector<Trace>& recordings, const std::vector<Trace>& simulated,
+  Comparing(const std::vector<NamedSeries>& recordings, const std::vector<NamedSeries>& simulated,
             const ComparisonOptions& options, const DiagnosisProgress& progress,
             const Interrupt& interrupt)
       : recordings_(recordings),
@@ -47,8 +47,8 @@ class Comparing {
     return result_.gap_before > 0.0 ? 1.0 - gap_after / result_.gap_before : 0.0;
   }
 
-  const std::vector<Trace>& recordings_;
-  const std::vector<Trace>& simulated_;
+  const std::vector<NamedSeries>& recordings_;
+  const std::vector<NamedSeries>& simulated_;
   const ComparisonOptions& options_;
   const DiagnosisProgress& progress_;
   const Interrupt& interrupt_;
@@ -180,9 +180,9 @@ std::string_view name_of(Differs how) {
   return "";
 }
 
-Comparison compare(const std::vector<Trace>& recordings, const std::vector<Trace>& simulated,
-                   const ComparisonOptions& options, const DiagnosisProgress& progress,
-                   const Interrupt& interrupt) {
+Comparison compare(const std::vector<NamedSeries>& recordings,
+                   const std::vector<NamedSeries>& simulated, const ComparisonOptions& options,
+                   const DiagnosisProgress& progress, const Interrupt& interrupt) {
   return Comparing(recordings, simulated, options, progress, interrupt).run();
 }
 

@@ -10,7 +10,7 @@
 namespace gyrostat::gap {
 
 /// A recording, or what the user's simulator made in its place.
-struct Trace {
+struct NamedSeries {
   std::string name;
   Series series;  ///< evenly sampled; NaN: missing
 };
@@ -94,8 +94,8 @@ struct Comparison {
 /// changes, or rates of sampling differ by more than one in a hundred.
 ///
 /// Thread safety: as diagnose.
-Comparison compare(const std::vector<Trace>& recordings, const std::vector<Trace>& simulated,
-                   const ComparisonOptions& options, const DiagnosisProgress& progress = {},
-                   const Interrupt& interrupt = {});
+Comparison compare(const std::vector<NamedSeries>& recordings,
+                   const std::vector<NamedSeries>& simulated, const ComparisonOptions& options,
+                   const DiagnosisProgress& progress = {}, const Interrupt& interrupt = {});
 
 }  // namespace gyrostat::gap

@@ -19,7 +19,7 @@ constexpr std::size_t held_out_blocks = 2;
 /// A held-out part is read in so many pieces, so that their spread is known.
 constexpr std::size_t pieces_of_a_part = 4;
 
-void require_comparable(const Trace& trace, const Trace& first) {
+void require_comparable(const NamedSeries& trace, const NamedSeries& first) {
   if (trace.series.size() < fewest_to_compare)
     throw InputError(trace.name, fmt::format("{} samples; at least {} are needed to compare a "
                                              "simulator with a recording",
@@ -39,11 +39,11 @@ void require_comparable(const Trace& trace, const Trace& first) {
 
 }  // namespace
 
-Matched match(const std::vector<Trace>& recordings, const std::vector<Trace>& simulated,
+Matched match(const std::vector<NamedSeries>& recordings, const std::vector<NamedSeries>& simulated,
               std::vector<std::string> without) {
   if (recordings.empty()) throw InputError("recordings", "there are none");
   if (simulated.empty()) throw InputError("--simulated", "there are no traces");
-  const Trace& first = recordings.front();
+  const NamedSeries& first = recordings.front();
   Matched matched;
   matched.rate_hz = first.series.rate_hz();
   matched.without = std::move(without);

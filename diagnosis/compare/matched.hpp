@@ -20,7 +20,7 @@ struct Matched {
 };
 
 /// Throws InputError where traces cannot be compared, as `compare` says.
-Matched match(const std::vector<Trace>& recordings, const std::vector<Trace>& simulated,
+Matched match(const std::vector<NamedSeries>& recordings, const std::vector<NamedSeries>& simulated,
               std::vector<std::string> without);
 
 }  // namespace gyrostat::gap

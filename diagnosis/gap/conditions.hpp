@@ -12,7 +12,7 @@ namespace gyrostat::gap {
 
 /// The two parts of a recording: what the diagnosis may see, and what it is judged on.
 enum class Part { train, held_out };
-inline constexpr std::array parts = {Part::train, Part::held_out};
+inline constexpr std::array both_parts = {Part::train, Part::held_out};
 inline constexpr std::array train_alone = {Part::train};
 constexpr std::size_t index_of(Part part) { return static_cast<std::size_t>(part); }
 

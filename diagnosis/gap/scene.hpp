@@ -14,7 +14,7 @@ namespace gyrostat::gap {
 /// without its gyro or its heading leaves that half empty; of a part that is not asked for there
 /// are no spectra and octaves.
 struct Scene {
-  Scene(const Conditions& conditions, const Series& series, std::span<const Part> of = parts);
+  Scene(const Conditions& conditions, const Series& series, std::span<const Part> of = both_parts);
 
   std::vector<double> rate_error_dps;  ///< gyro minus reference rate and drift, short gaps bridged
   std::span<const double> recorded_dps;   ///< as recorded; the series outlives its scene

@@ -145,7 +145,7 @@ std::vector<char> samples_in_bursts(const Conditions& conditions,
                                     const std::vector<double>& left_dps, const Resonance& line,
                                     const LineShape& shape) {
   std::vector<char> inside(left_dps.size(), 0);
-  for (const Part part : parts) {
+  for (const Part part : both_parts) {
     const auto envelopes = squared_envelopes(conditions, part, left_dps, line, shape.block);
     const auto& spans = conditions.spans(part);
     for (std::size_t s = 0; s < spans.size(); ++s)

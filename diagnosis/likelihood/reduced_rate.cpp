@@ -62,7 +62,7 @@ ReducedRate::ReducedRate(const Conditions& conditions, const std::vector<double>
     return static_cast<double>(there) / static_cast<double>(conditions.cluster());
   };
   double inverse_shares = 0.0, points = 0.0;
-  for (const Part part : parts) {
+  for (const Part part : both_parts) {
     auto& slow = slow_[index_of(part)];
     for (const auto& span : conditions.slow_spans(part))
       for (std::size_t i = span.first; i < span.last; ++i)
@@ -102,7 +102,7 @@ double ReducedRate::white_std_dps() const {
 
 void ReducedRate::reduce_fast(const Conditions& conditions, const std::vector<double>& error_dps) {
   const std::size_t length = grid_->segment();
-  for (const Part part : parts) {
+  for (const Part part : both_parts) {
     std::vector<std::span<const double>> stretches;
     double samples = 0.0;
     for (const auto& span : conditions.spans(part)) {

@@ -275,7 +275,7 @@ std::vector<Span> SetBench::level_blocks() const {
   // Long enough not to follow single samples.
   const std::size_t block = std::max<std::size_t>(conditions_.cluster(), 32);
   std::vector<Span> blocks;
-  for (const Part part : parts)
+  for (const Part part : both_parts)
     for (const auto& span : conditions_.spans(part))
       for (std::size_t first = span.first; first < span.last; first += block)
         blocks.push_back({first, std::min(first + block, span.last)});

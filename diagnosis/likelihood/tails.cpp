@@ -108,8 +108,8 @@ double poisson_upper_tail(double events, double mean) {
 
 /// Outliers come one by one: where wide values crowd more than chance would have it, they are a
 /// burst, or what is left of a motion, and do not count.
-Mixture of_the_scattered(const std::vector<std::size_t>& samples, const std::vector<double>& squares,
-                         double narrow) {
+Mixture of_the_scattered(const std::vector<std::size_t>& samples,
+                         const std::vector<double>& squares, double narrow) {
   constexpr double rare = 1e-4;
   constexpr int most_rounds = 4;
   Mixture mixture = mixture_of(squares, narrow);
@@ -217,7 +217,7 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
   tails.outlier_std_dps = std::sqrt(std::max(mixture.wide - narrow, 0.0));
   tails.white_std_dps = std::sqrt(narrow);
   const double odd = 4.5 * std::sqrt(narrow);
-  for (const Part part : parts)
+  for (const Part part : both_parts)
     for (const auto& span : conditions.spans(part))
       for (std::size_t i = span.first; i < span.last; ++i) {
         double e = given[i];

@@ -25,9 +25,10 @@ std::string first_and_more(const std::vector<std::string>& files) {
   return files.size() == 1 ? first : fmt::format("{} and {} more", first, files.size() - 1);
 }
 
-std::vector<gap::Trace> read_traces(const std::vector<std::string>& files, RecordingOption layout,
-                                    const SpanOption& span, Console& console) {
-  std::vector<gap::Trace> traces;
+std::vector<gap::NamedSeries> read_traces(const std::vector<std::string>& files,
+                                          RecordingOption layout, const SpanOption& span,
+                                          Console& console) {
+  std::vector<gap::NamedSeries> traces;
   for (const auto& file : files) {
     layout.file = file;
     traces.push_back({file, layout.read(console.log, span)});

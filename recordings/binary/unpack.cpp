@@ -10,12 +10,12 @@
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/recordings/text.hpp>
+#include <gyrostat/recordings/unpacked_size.hpp>
 
 namespace gyrostat {
 namespace {
 
 constexpr std::uint64_t largest_chunk = std::uint64_t{1} << 28;
-constexpr std::uint64_t largest_ratio = 100, free_bytes = std::uint64_t{1} << 26;
 
 /// Bytes that came out; more than `text` holds, or damage, are no success.
 bool unpack_lz4(std::string_view packed, std::string& text) {
@@ -69,9 +69,7 @@ std::string_view Unpacker::unpack(std::string_view packed, std::string_view meth
   if (size > largest_chunk || packed.size() > largest_chunk)
     throw InputError(place_, fmt::format("has a chunk of {} MiB; allowed: up to 256 MiB",
                                          std::max<std::uint64_t>(size, packed.size()) >> 20));
-  if (out_ > free_bytes && out_ > largest_ratio * in_)
-    throw InputError(place_, fmt::format("unpacks to more than {} times its size; allowed: a log",
-                                         largest_ratio));
+  require_plausible_size(place_, in_, out_, "a log");
   if (size == 0) return {};
   text_.resize(static_cast<std::size_t>(size));
   const bool done = method == "lz4"    ? unpack_lz4(packed, text_)

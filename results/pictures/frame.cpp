@@ -84,8 +84,8 @@ void add_names_of_x(Frame& f, const Picture& picture) {
 }
 
 void add_words(Frame& f, const Picture& picture) {
-  f.title = wrapped(picture.title, 0.85 * (f.width - 28.0));
-  f.note = wrapped(picture.note, f.width - 28.0);
+  f.title = lines_within(picture.title, 0.85 * (f.width - 28.0));
+  f.note = lines_within(picture.note, f.width - 28.0);
   f.top += 12.0 + 19.0 * count(f.title);
   if (!f.note.empty()) f.bottom += 8.0 + 15.0 * count(f.note);
 }

@@ -32,7 +32,7 @@ std::string shortened(const std::string& text, double room) {
          text.substr(place_of(text, letters - tail));
 }
 
-std::vector<std::string> wrapped(const std::string& text, double room) {
+std::vector<std::string> lines_within(const std::string& text, double room) {
   std::vector<std::string> lines;
   for (std::size_t at = 0; at < text.size();) {
     const auto end = std::min(text.find(' ', at), text.size());

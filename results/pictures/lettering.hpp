@@ -14,6 +14,6 @@ double length_of(const std::string& text);
 std::string shortened(const std::string& text, double room);
 
 /// Lines of whole words, none longer than the room where its words allow.
-std::vector<std::string> wrapped(const std::string& text, double room);
+std::vector<std::string> lines_within(const std::string& text, double room);
 
 }  // namespace gyrostat::render_detail

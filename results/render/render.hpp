@@ -30,8 +30,10 @@ std::string render(std::span<const Table> tables, Format format);
 /// number comes back as the text "inf".
 std::vector<Table> parse_tables(const std::string& json, const std::string& place);
 
-/// Running text in lines as wide as a screen, each with its end.
-std::string wrapped(const std::string& text);
+/// Running text in lines no wider than a screen, each with its end. Its own line breaks and what
+/// lines are indented by stay; what a line is broken into stands `further_in` behind the first
+/// part.
+std::string wrapped(const std::string& text, std::size_t further_in = 0);
 
 namespace render_detail {
 std::string text(const Table& table);

@@ -9,6 +9,8 @@ namespace {
 constexpr std::size_t screen = 80, indent = 2, gap = 3;
 /// A text is not broken into lines shorter than this.
 constexpr std::size_t least_text = 24;
+/// Columns that tell rows apart leave the others at least as much.
+constexpr std::size_t most_of_key = 45;
 
 /// Characters that a terminal shows: UTF-8 continuation bytes are not.
 std::size_t width(const std::string& s) {
@@ -29,15 +31,6 @@ std::vector<std::string> broken(const std::string& text, std::size_t most) {
     begin = end + 1;
   }
   return lines;
-}
-
-/// A paragraph, its lines behind the first further in.
-std::string paragraph(const std::string& text, std::size_t before) {
-  std::string out;
-  for (const auto& line : broken(text, screen - before - indent)) {
-    out += std::string(before + (out.empty() ? 0 : indent), ' ') + line + '\n';
-  }
-  return out;
 }
 
 /// A table as texts, its heads in line 0.
@@ -65,13 +58,20 @@ Grid grid_of(const Table& table) {
   return grid;
 }
 
-/// How many of the first columns say what a row is about.
+/// How many of the first columns say what a row is about: as many as tell rows apart, where these
+/// leave room for others.
 std::size_t key_columns(const Grid& grid) {
-  std::set<std::string> names;
-  for (const auto& line : grid.lines)
-    if (!line.empty()) names.insert(line[0]);
-  const bool names_all = names.size() == grid.lines.size();
-  return names_all || grid.widths.size() < 2 || !grid.left[1] ? 1 : 2;
+  std::size_t used = 0;
+  for (std::size_t count = 1; count < grid.widths.size(); ++count) {
+    used += gap + grid.widths[count - 1];
+    if (used > most_of_key) break;
+    std::set<std::vector<std::string>> keys;
+    for (const auto& line : grid.lines)
+      keys.emplace(line.begin(),
+                   line.begin() + static_cast<std::ptrdiff_t>(std::min(count, line.size())));
+    if (keys.size() == grid.lines.size()) return count;
+  }
+  return grid.widths.size() < 2 || !grid.left[1] ? 1 : 2;
 }
 
 using Columns = std::vector<std::size_t>;
@@ -137,13 +137,14 @@ std::string line_of(const Grid& grid, const std::vector<std::string>& cells,
 /// columns; a long text is broken within its column.
 std::string text(const Table& table) {
   auto grid = grid_of(table);
-  std::string out = paragraph(one_line(table.title), 0);
+  std::string out = wrapped(one_line(table.title), indent);
   const auto parts = parts_of(grid);
   for (const auto& columns : parts) {
     if (&columns != &parts.front()) out += '\n';
     for (const auto& line : grid.lines) out += line_of(grid, line, columns);
   }
-  for (const auto& note : table.notes) out += paragraph(one_line(note), indent);
+  for (const auto& note : table.notes)
+    out += wrapped(std::string(indent, ' ') + one_line(note), indent);
   return out;
 }
 
@@ -151,9 +152,22 @@ std::string text(const Table& table) {
 
 namespace gyrostat {
 
-std::string wrapped(const std::string& text) {
+std::string wrapped(const std::string& text, std::size_t further_in) {
   std::string out;
-  for (const auto& line : render_detail::broken(text, render_detail::screen)) out += line + '\n';
+  for (std::size_t begin = 0; begin < std::max<std::size_t>(1, text.size());) {
+    const auto end = std::min(text.find('\n', begin), text.size());
+    const auto before = std::min(text.find_first_not_of(' ', begin), end) - begin;
+    const auto line = text.substr(begin + before, end - begin - before);
+    const bool fits = before + render_detail::width(line) <= render_detail::screen;
+    const auto most = render_detail::screen - before - (fits ? 0 : further_in);
+    bool is_first = true;
+    for (const auto& part : render_detail::broken(line, most)) {
+      if (!part.empty()) out += std::string(before + (is_first ? 0 : further_in), ' ') + part;
+      out += '\n';
+      is_first = false;
+    }
+    begin = end + 1;
+  }
   return out;
 }
 

@@ -104,7 +104,7 @@ TEST(Octaves, MissingValuesArePassedOver) {
 TEST(Conditions, HoldOutTheThirdAndTheSeventhOfEightBlocks) {
   const Conditions conditions(rich(8000));
   std::vector<int> seen(8000, 0);
-  for (const Part part : parts)
+  for (const Part part : both_parts)
     for (const auto& span : conditions.spans(part))
       for (std::size_t i = span.first; i < span.last; ++i) seen[i] += part == Part::train ? 1 : 10;
   for (std::size_t i = 0; i < seen.size(); ++i)
@@ -172,7 +172,7 @@ TYPED_TEST(LensContract, ReadsFiniteNumbersWhereItLooks) {
   const Series s = rich();
   const Conditions conditions(s);
   const Scene scene(conditions, s);
-  for (const Part part : parts) {
+  for (const Part part : both_parts) {
     const typename TypeParam::type lens(conditions, part);
     ASSERT_FALSE(lens.at.empty());
     std::vector<double> readings(lens.at.size() + 1, -777.0), again = readings;

@@ -106,8 +106,8 @@ TEST(Lettering, CountsLettersNotBytesAndKeepsBothEnds) {
   EXPECT_LE(length_of(name), 12.0 * letter);
   EXPECT_THAT(name, HasSubstr("…"));
   EXPECT_THAT(name, testing::EndsWith("−½"));
-  EXPECT_THAT(wrapped("one two three", 8.0 * letter), ElementsAre("one two", "three"));
-  EXPECT_THAT(wrapped("", 8.0), ElementsAre());
+  EXPECT_THAT(lines_within("one two three", 8.0 * letter), ElementsAre("one two", "three"));
+  EXPECT_THAT(lines_within("", 8.0), ElementsAre());
 }
 
 }  // namespace

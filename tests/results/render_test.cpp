@@ -86,6 +86,24 @@ TEST(Render, TextFitsAScreenAndLosesNothing) {
   EXPECT_THAT(text, HasSubstr("last-one"));
 }
 
+TEST(Render, RunningTextKeepsItsLinesAndWhatTheyAreIndentedBy) {
+  std::string words;
+  for (int i = 0; i < 30; ++i) words += (i ? " word" : "word") + std::to_string(i);
+  const auto lines = lines_of(wrapped("short\n\n    " + words, 2));
+  ASSERT_GT(lines.size(), 4U);
+  EXPECT_EQ(lines[0], "short");
+  EXPECT_EQ(lines[1], "");
+  EXPECT_THAT(lines[2], testing::StartsWith("    word0"));
+  for (std::size_t i = 3; i < lines.size(); ++i)
+    EXPECT_THAT(lines[i], testing::StartsWith("      word"));
+  std::string again;
+  for (std::size_t i = 2; i < lines.size(); ++i) {
+    EXPECT_LE(lines[i].size(), 80U);
+    again += (i > 2 ? " " : "") + lines[i].substr(lines[i].find('w'));
+  }
+  EXPECT_EQ(again, words);
+}
+
 TEST(Render, CsvQuotesWhatWouldBreakARow) {
   const auto lines = rendered(texts({"plain", "a,b", "say \"no\"", "two\nlines"}), Format::csv);
   EXPECT_EQ(lines, "# title\ntext\nplain\n\"a,b\"\n\"say \"\"no\"\"\"\n\"two\nlines\"\n");

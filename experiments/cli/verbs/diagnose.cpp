@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -112,18 +111,9 @@ void write_one(const DiagnoseArguments& arguments, const gap::Diagnosis& diagnos
                        picture_file(picture));
 }
 
-/// Paragraphs in lines as wide as a screen.
-std::string on_a_screen(const std::string& text) {
-  std::istringstream paragraphs(text);
-  std::string out;
-  for (std::string line; std::getline(paragraphs, line);)
-    out += line.empty() ? "\n" : wrapped(line);
-  return out;
-}
-
 void print_one(const DiagnoseArguments& arguments, const gap::Diagnosis& diagnosis,
                const std::string& name, Format format, Console& console) {
-  if (format == Format::text) console.out << on_a_screen(gap::in_words(diagnosis, name)) << '\n';
+  if (format == Format::text) console.out << wrapped(gap::in_words(diagnosis, name)) << '\n';
   console.out << render(gap::diagnosis_tables(diagnosis, name), format);
   if (arguments.timing)
     for (const auto& [part, seconds] : diagnosis.seconds)
@@ -133,11 +123,11 @@ void print_one(const DiagnoseArguments& arguments, const gap::Diagnosis& diagnos
 void print_several(const std::vector<gap::FleetMember>& members, const std::string& kind,
                    Format format, Console& console) {
   if (format == Format::text) {
-    console.out << on_a_screen(gap::shared_in_words(members)) << '\n';
+    console.out << wrapped(gap::shared_in_words(members)) << '\n';
     for (const auto& m : members) {
       const auto sources = gap::in_words(m.diagnosis.line_sources);
-      console.out << on_a_screen(fmt::format("{}: {}{}{}", m.name, gap::answer(m.diagnosis),
-                                             sources.empty() ? "" : " ", sources));
+      console.out << wrapped(fmt::format("{}: {}{}{}", m.name, gap::answer(m.diagnosis),
+                                         sources.empty() ? "" : " ", sources));
     }
     console.out << '\n';
   }

@@ -106,13 +106,15 @@ Json studies(const std::string& folder, bool asked_for) {
 void print(const std::string& kind, const Json& entries, std::ostream& out) {
   out << kind << '\n';
   for (const auto& entry : entries) {
-    out << fmt::format("  {:<20} {}\n", entry["id"].get<std::string>(),
-                       entry["title"].get<std::string>());
+    out << wrapped(fmt::format("  {:<20} {}", entry["id"].get<std::string>(),
+                               entry["title"].get<std::string>()),
+                   2);
     for (const auto& p : entry["parameters"]) {
       const auto unit = p["unit"].get<std::string>();
-      out << fmt::format("      {:<28} {:<10} {:<10} {:<24} {}\n", p["name"].get<std::string>(),
-                         fmt::format("{:g}", p["default"].get<double>()), unit == "1" ? "" : unit,
-                         p["range"].get<std::string>(), p["meaning"].get<std::string>());
+      out << fmt::format("      {} = {:g}{}{}, {}\n", p["name"].get<std::string>(),
+                         p["default"].get<double>(), unit == "1" ? "" : " ",
+                         unit == "1" ? "" : unit, p["range"].get<std::string>());
+      out << wrapped("          " + p["meaning"].get<std::string>());
     }
   }
 }

@@ -23,17 +23,19 @@ std::string described(const Design& design) {
 
 int run(const std::string& path, Console& console) {
   const Study study = read_study(path);
-  console.out << fmt::format("{}: sound. \"{}\", seed {}\n", path, study.title, study.seed);
+  console.out << wrapped(fmt::format("{}: sound. \"{}\", seed {}", path, study.title, study.seed),
+                         2);
   for (std::size_t c = 0; c < study.cells.size(); ++c) {
     const auto& cell = study.cells[c];
     const auto* design = design_of(study, c);
     const bool sampled = design != nullptr && design->is_sampled();
     std::vector<std::string> ids;
     for (const auto& method : cell.methods) ids.push_back(method.id);
-    console.out << fmt::format(
-        "  {}: {} of {}, methods {}\n", sampled ? described(*design) : cell.name,
-        counted(cell.trials, "trial"), counted(cell.scenario.sampling.samples(), "sample"),
-        fmt::join(ids, ", "));
+    console.out << wrapped(
+        fmt::format("  {}: {} of {}, methods {}", sampled ? described(*design) : cell.name,
+                    counted(cell.trials, "trial"),
+                    counted(cell.scenario.sampling.samples(), "sample"), fmt::join(ids, ", ")),
+        2);
     if (cell.fleet)
       console.out << fmt::format(
           "    sensors drawn from {}, {} of draws beyond a range and redrawn\n",

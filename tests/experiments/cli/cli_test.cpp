@@ -460,6 +460,11 @@ TEST(List, EveryDefaultCanBeWrittenIntoAConfig) {
   EXPECT_EQ(folder.read("full.csv"), folder.read("bare.csv"));
 }
 
+/// What a terminal shows: UTF-8 continuation bytes are not.
+auto characters(const std::string& line) {
+  return std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
+}
+
 TEST(List, WithoutArgumentsNamesEveryKindAndPlugin) {
   const TestFolder folder;
   const auto out = run_well(folder, {"list"}).out;
@@ -469,6 +474,7 @@ TEST(List, WithoutArgumentsNamesEveryKindAndPlugin) {
   for (const auto& ids : {filter_types().ids(), effect_types().ids(), metric_types().ids()}) {
     for (const auto& id : ids) EXPECT_THAT(out, HasSubstr("  " + id + " "));
   }
+  for (const auto& line : lines_of(out)) EXPECT_LE(characters(line), 80) << line;
 }
 
 TEST(List, EveryKindIsJsonOnRequest) {
