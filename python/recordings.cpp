@@ -10,6 +10,7 @@
 #include <gyrostat/recordings/clock.hpp>
 #include <gyrostat/recordings/column_table.hpp>
 #include <gyrostat/recordings/format_type.hpp>
+#include <gyrostat/recordings/write_columns.hpp>
 
 namespace gyrostat::python {
 namespace {

@@ -14,8 +14,8 @@
 #include <gyrostat/recordings/column_table.hpp>
 #include <gyrostat/recordings/matlab_integrity.hpp>
 #include <gyrostat/recordings/matlab_library.hpp>
-#include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/recordings/temporary_folder.hpp>
+#include <gyrostat/recordings/write_columns.hpp>
 
 namespace gyrostat {
 namespace {

@@ -61,21 +61,4 @@ void make_even(Recording& recording, std::string_view place, const RecordingLayo
 /// sample 0 from line `first_row` (0: no lines), is more than 10 % off the median interval.
 void require_uniform(const Series& series, std::string_view place, std::size_t first_row = 2);
 
-/// A column to be written.
-struct CsvColumn {
-  std::string name;
-  std::span<const double> values;           ///< NaN becomes a blank cell
-  std::span<const std::string_view> texts;  ///< used when `values` is empty
-};
-
-/// Writes columns of equal length with 17 significant digits, packed when the name ends in .gz, as
-/// `write_atomically` does. Throws InputError when the file cannot be written.
-void write_csv(const std::filesystem::path& path, std::span<const CsvColumn> columns);
-
-/// Writes columns of equal length as MATLAB file where the name ends in .mat, as CSV elsewhere.
-void write_columns(const std::filesystem::path& path, std::span<const CsvColumn> columns);
-
-/// Writes every channel that is present, so that `read_recording` returns the same bits.
-void write_series(const std::filesystem::path& path, const Series& series);
-
 }  // namespace gyrostat

@@ -8,6 +8,7 @@
 
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/recordings/text.hpp>
+#include <gyrostat/recordings/write_columns.hpp>
 
 namespace {
 

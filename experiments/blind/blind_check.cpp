@@ -12,7 +12,7 @@
 #include <gyrostat/experiments/run/process.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
-#include <gyrostat/recordings/recording.hpp>
+#include <gyrostat/recordings/write_columns.hpp>
 
 namespace gyrostat::gap {
 namespace {

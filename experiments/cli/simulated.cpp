@@ -11,6 +11,7 @@
 #include <gyrostat/experiments/findings/comparison_page.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
+#include <gyrostat/recordings/write_columns.hpp>
 
 namespace gyrostat::cli {
 namespace {

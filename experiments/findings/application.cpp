@@ -13,7 +13,7 @@
 #include <gyrostat/analysis/spectra/allan.hpp>
 #include <gyrostat/core/filter_type.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
-#include <gyrostat/recordings/recording.hpp>
+#include <gyrostat/recordings/write_columns.hpp>
 
 namespace gyrostat {
 namespace {

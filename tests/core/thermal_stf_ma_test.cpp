@@ -79,16 +79,20 @@ Gaussian<double, 3> conditioned(const Parameters& p, const std::vector<BiasEpoch
   Eigen::VectorXd M(m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const auto& epoch = epochs[static_cast<std::size_t>(present[static_cast<std::size_t>(i)])];
-    H.row(i) = epoch.regressors.transpose();
+    for (Eigen::Index j = 0; j < 3; ++j) H(i, j) = epoch.regressors(j);
     M(i) = epoch.bias_dps;
     C(i, i) = white_variance(p) + 2.0 * n * n;
     if (i > 0 &&
         present[static_cast<std::size_t>(i)] - present[static_cast<std::size_t>(i - 1)] == 1)
       C(i, i - 1) = C(i - 1, i) = -n * n;
   }
-  const Matrix<double, 3> P = p.initial_covariance();
-  const Eigen::MatrixXd gain = (H * P * H.transpose() + C).ldlt().solve(H * P).transpose();
-  return {p.coefficients() + gain * (M - H * p.coefficients()), P - gain * H * P};
+  const Eigen::MatrixXd P = p.initial_covariance(), HP = H * P;
+  C += HP * H.transpose();
+  const Eigen::VectorXd prior = p.coefficients(), innovation = M - H * prior;
+  const Eigen::MatrixXd solved = Eigen::LDLT<Eigen::MatrixXd>(C).solve(HP);
+  const Eigen::VectorXd mean = prior + solved.transpose() * innovation;
+  const Eigen::MatrixXd covariance = P - solved.transpose() * HP;
+  return {mean, covariance};
 }
 
 TEST(ThermalStfMa, EqualsGaussianConditioningOnEveryPrefix) {
@@ -128,7 +132,8 @@ Nees nees(const Rule& fresh, const Parameters& p, std::size_t count, int trials)
     const auto [mean, covariance] = rule.coefficients();
     const Vector<double, 3> error = mean - drift.coefficients;
     const auto& h = drift.epochs.back().regressors;
-    result.coefficients += error.dot(covariance.llt().solve(error)) / 3.0 / trials;
+    const Eigen::VectorXd e = error, solved = Eigen::LDLT<Eigen::MatrixXd>(covariance).solve(e);
+    result.coefficients += e.dot(solved) / 3.0 / trials;
     const double bias_error = h.dot(error);
     result.bias += bias_error * bias_error / h.dot(covariance * h) / trials;
     result.rmse += bias_error * bias_error / trials;

@@ -13,6 +13,7 @@
 #include <gyrostat/recordings/format_type.hpp>
 #include <gyrostat/recordings/matlab.hpp>
 #include <gyrostat/recordings/recording.hpp>
+#include <gyrostat/recordings/write_columns.hpp>
 #include <gyrostat/tests/program.hpp>
 #include <gyrostat/tests/recordings/log_bytes.hpp>
 

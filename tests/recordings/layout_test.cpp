@@ -12,6 +12,7 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
 #include <gyrostat/recordings/recording.hpp>
+#include <gyrostat/recordings/write_columns.hpp>
 #include <gyrostat/tests/program.hpp>
 
 namespace gyrostat::layout_test {

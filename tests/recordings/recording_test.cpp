@@ -21,6 +21,7 @@
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
+#include <gyrostat/recordings/write_columns.hpp>
 
 #ifndef GYROSTAT_SOURCE_DIR
 #define GYROSTAT_SOURCE_DIR "."

@@ -6,6 +6,7 @@
 #include <gyrostat/experiments/run/trial.hpp>
 #include <gyrostat/experiments/study/fleet.hpp>
 #include <gyrostat/experiments/study/study.hpp>
+#include <gyrostat/recordings/write_columns.hpp>
 
 namespace gyrostat::cli {
 namespace {

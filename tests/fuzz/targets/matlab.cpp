@@ -1,7 +1,7 @@
 #include <vector>
 
 #include <gyrostat/recordings/matlab.hpp>
-#include <gyrostat/recordings/recording.hpp>
+#include <gyrostat/recordings/write_columns.hpp>
 #include <gyrostat/tests/fuzz/recorded.hpp>
 #include <gyrostat/tests/fuzz/target.hpp>
 #include <gyrostat/tests/program.hpp>
