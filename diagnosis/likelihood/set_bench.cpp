@@ -166,7 +166,7 @@ Evidence SetBench::evidence_of(const Standing& standing) const {
   evidence.baseline.effects.clear();
   const auto& points = standing.fitter->reduced().slow(Part::train).points;
   const auto innovations =
-      standing.fitter->terms(standing.fit.scenario, Part::train, Jumping::no).slow.innovations;
+      standing.fitter->terms(standing.fit.scenario, Jumping::no).slow.innovations;
   evidence.slow_innovations.assign(conditions_.slow_size(), 0.0);
   for (std::size_t k = 0; k < innovations.size(); ++k)  // there is none of the first
     evidence.slow_innovations[points[k + 1]] = innovations[k];
@@ -211,7 +211,7 @@ Standing SetBench::with(const Standing& standing, const CauseType& cause,
 
 Standing SetBench::polished(Standing standing) const {
   const auto likelihood = [&](const Scenario& scenario) {
-    return fitter_of(scenario)->terms(scenario, Part::train).log_likelihood;
+    return fitter_of(scenario)->terms(scenario).log_likelihood;
   };
   Scenario scenario = standing.scenario;
   double here = likelihood(scenario);
