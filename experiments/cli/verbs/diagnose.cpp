@@ -133,7 +133,13 @@ void print_one(const DiagnoseArguments& arguments, const gap::Diagnosis& diagnos
 void print_several(const std::vector<gap::FleetMember>& members, const std::string& kind,
                    Format format, Console& console) {
   if (format == Format::text) {
-    console.out << on_a_screen(gap::shared_in_words(members)) << '\n';
+    const bool has_means = std::any_of(members.begin(), members.end(),
+                                       [](const auto& member) { return member.mean_of > 1; });
+    console.out << on_a_screen((has_means ? "Stretches show what is fast, sample by sample; means "
+                                            "of all samples, what is slow. Of the stretches: "
+                                          : "") +
+                               gap::shared_in_words(members))
+                << '\n';
     for (const auto& m : members) {
       const auto sources = gap::in_words(m.diagnosis.line_sources);
       console.out << on_a_screen(fmt::format("{}: {}{}{}", m.name, gap::answer(m.diagnosis),
