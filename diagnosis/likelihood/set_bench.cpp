@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/parallel_invoke.h>
+
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/arima_law.hpp>
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
@@ -216,17 +218,19 @@ Standing SetBench::polished(Standing standing) const {
   Scenario scenario = standing.scenario;
   double here = likelihood(scenario);
   for (int pass = 0; pass < 2; ++pass)
-    for (auto& effect : scenario.effects) {
+    for (std::size_t at = 0; at < scenario.effects.size(); ++at) {
+      auto& effect = scenario.effects[at];
       if (!is_taken_out(effect)) continue;
       const auto& cause = cause_types().named(effect.id(), "effects");
       for (const auto name : cause.free_parameters) {
         const auto f = field_of(effect, name);
         const double middle = effect.value(f);
-        double step = (pass == 0 ? 0.02 : 0.004) * std::max(std::abs(middle), 1e-9);
-        effect.value(f) = middle + step;
-        const double above = likelihood(scenario);
-        effect.value(f) = middle - step;
-        const double below = likelihood(scenario);
+        const double step = (pass == 0 ? 0.02 : 0.004) * std::max(std::abs(middle), 1e-9);
+        Scenario more = scenario, less = scenario;
+        more.effects[at].value(f) = middle + step;
+        less.effects[at].value(f) = middle - step;
+        double above = 0.0, below = 0.0;
+        tbb::parallel_invoke([&] { above = likelihood(more); }, [&] { below = likelihood(less); });
         const double curve = above + below - 2.0 * here;
         double by =
             curve < 0.0 ? 0.5 * step * (below - above) / curve : (above > below ? step : -step);
