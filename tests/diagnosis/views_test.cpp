@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <gyrostat/core/random.hpp>
 #include <gyrostat/core/step.hpp>
 
 namespace gyrostat::gap::views_test {
@@ -84,8 +85,9 @@ TEST(Views, MeansLoseLinesAndGrids) {
     series.gyro_dps[i] = std::sin(2.0 * std::numbers::pi * 3.45 * static_cast<double>(i) / 40.0);
   const auto lines = looked_at(series, {.first = 0, .count = series.size(), .mean_of = 40});
   for (const double mean : lines.gyro_dps) EXPECT_LT(std::abs(mean), 0.02);
+  const NormalStream noise(1, 0, "views");
   for (std::size_t i = 0; i < series.size(); ++i)
-    series.gyro_dps[i] = static_cast<double>((i * 7919 % 10'007) % 3);
+    series.gyro_dps[i] = std::nearbyint(noise.normal(i));
   auto on_grid = looked_at(series, {.first = 0, .count = series.size(), .mean_of = 40}).gyro_dps;
   std::sort(on_grid.begin(), on_grid.end());
   const auto distinct = std::unique(on_grid.begin(), on_grid.end()) - on_grid.begin();
