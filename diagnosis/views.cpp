@@ -81,10 +81,12 @@ std::string in_words(const std::vector<View>& views, std::size_t samples) {
       mean_of = view.mean_of;
     else
       seen += view.count, ++of;
-  return fmt::format(
-      "of {} samples, {} stretches spread over them ({:.2g} %) are looked at sample by sample, for "
-      "what is fast, and all in means of {}, for what is slow",
-      samples, of, 100.0 * static_cast<double>(seen) / static_cast<double>(samples), mean_of);
+  const auto words = fmt::format(
+      "of {} samples, {} stretches spread over them ({:.2g} %) are looked at sample by sample",
+      samples, of, 100.0 * static_cast<double>(seen) / static_cast<double>(samples));
+  if (mean_of == 1) return words;
+  return fmt::format("{}, for what is fast, and all in means of {}, for what is slow", words,
+                     mean_of);
 }
 
 Series looked_at(const Series& recording, const View& view) {

@@ -120,8 +120,8 @@ std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
     throw InputError(file, fmt::format("{} samples; what is of one diagnosis is of up to {}: take "
                                        "a part by --from and --to",
                                        series.size(), gap::most_samples_at_once));
-  if (!is_whole) console.log << fmt::format("{}: {}\n", file, gap::in_words(views, series.size()));
   if (options.claim) std::erase_if(views, [](const auto& view) { return view.mean_of > 1; });
+  if (!is_whole) console.log << fmt::format("{}: {}\n", file, gap::in_words(views, series.size()));
   std::vector<gap::FleetMember> members;
   std::vector<Series> looked_at;
   for (const auto& view : views) {
