@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -86,7 +87,7 @@ class Work {
   void judge_claim();
   Rung rung(const std::string& effect, const Scenario& scenario, std::size_t replicas) const;
   /// The scenario with those of the set's effects that have one of the names, its noise fitted.
-  Scenario with_effects(const std::vector<std::string>& names) const;
+  Scenario with_effects(std::vector<std::string> names);
   void add_intervals(Included& included) const;
   void climb(const std::vector<std::string>& order);
   /// What the recording still shows that the simulator, enriched, does not.
@@ -111,8 +112,9 @@ class Work {
   ReplicaReadings baseline_replicas_;
   FoundSet found_;
   std::vector<LogScore> held_out_without_;  ///< of the set without each of result_.effects
-  std::vector<Rung> rungs_;                 ///< one effect more each
-  std::optional<Rung> completed_;           ///< with what has no name
+  std::map<std::vector<std::string>, Scenario> subsets_;  ///< with_effects() of what was found
+  std::vector<Rung> rungs_;                               ///< one effect more each
+  std::optional<Rung> completed_;                         ///< with what has no name
   Diagnosis result_;
   Clock::time_point since_ = Clock::now();
   double share_ = 0.0;  ///< told
@@ -211,8 +213,12 @@ Rung Work::rung(const std::string& effect, const Scenario& scenario, std::size_t
   return {effect, scenario, std::move(readings)};
 }
 
-Scenario Work::with_effects(const std::vector<std::string>& names) const {
-  if (!options_.claim) return with_drift(found_.subset(names), recording_);
+Scenario Work::with_effects(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  if (!options_.claim) {
+    if (const auto known = subsets_.find(names); known != subsets_.end()) return known->second;
+    return subsets_[names] = with_drift(found_.subset(names), recording_);
+  }
   Scenario scenario = result_.enriched;
   std::erase_if(scenario.effects, [&](const auto& effect) {
     return std::find(names.begin(), names.end(), effect.id()) == names.end();

@@ -78,7 +78,7 @@ Handling handling_of(const Series& recording) {
   return {seconds(before, 0), seconds(after, recording.size() - is_loud.size() * length)};
 }
 
-Series without_handling(const Series& recording, std::vector<std::string>& told) {
+Series without_handling(Series recording, std::vector<std::string>& told) {
   const auto handling = handling_of(recording);
   const auto tell = [&](std::string_view end, double seconds) {
     if (seconds > 0.0)

@@ -19,6 +19,6 @@ struct Handling {
 Handling handling_of(const Series& recording);
 
 /// The recording without its handling; `told` hears of what was left out.
-Series without_handling(const Series& recording, std::vector<std::string>& told);
+Series without_handling(Series recording, std::vector<std::string>& told);
 
 }  // namespace gyrostat::gap

@@ -39,6 +39,21 @@ bool differ(const P& a, const P& b) {
                      [&](const auto& field) { return a.*(field.member) != b.*(field.member); });
 }
 
+bool differ(const Effect& a, const Effect& b) {
+  if (&a.type() != &b.type()) return true;
+  for (std::size_t f = 0; f < a.fields().size(); ++f)
+    if (a.value(f) != b.value(f)) return true;
+  return false;
+}
+
+/// Whether replicas do: in what a scenario makes of a recording's conditions.
+bool replicas_differ(const Scenario& a, const Scenario& b) {
+  return differ(a.compass, b.compass) || differ(a.random_error, b.random_error) ||
+         differ(a.thermal_drift, b.thermal_drift) || a.recorded_noise_dps != b.recorded_noise_dps ||
+         !std::equal(a.effects.begin(), a.effects.end(), b.effects.begin(), b.effects.end(),
+                     [](const auto& x, const auto& y) { return !differ(x, y); });
+}
+
 bool effects_at(const Scenario& scenario, bool compass) {
   return std::any_of(scenario.effects.begin(), scenario.effects.end(),
                      [&](const auto& any) { return (any.stage() == Stage::compass) == compass; });
@@ -127,12 +142,36 @@ ReplicaReadings Simulator::ensemble(const Scenario& scenario, std::uint32_t firs
   ReplicaReadings all;
   for (const Part part : of)
     all[index_of(part)].resize(instrument(part).size(), static_cast<Eigen::Index>(count));
+  const bool of_all = of.size() == both_parts.size();
+  std::vector<const Readings*> known(count, nullptr);
+  if (of_all) {
+    const std::scoped_lock lock(mutex_);
+    const auto& kept = kept_of(scenario);
+    for (std::size_t k = 0; k < count; ++k)
+      if (const auto at = kept.find(first + static_cast<std::uint32_t>(k)); at != kept.end())
+        known[k] = &at->second;
+  }
+  std::vector<Readings> read(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-    const auto of_one = replica_readings(scenario, first + static_cast<std::uint32_t>(k), of);
+    if (known[k] == nullptr)
+      read[k] = replica_readings(scenario, first + static_cast<std::uint32_t>(k), of);
+    const auto& of_one = known[k] == nullptr ? read[k] : *known[k];
     for (const Part part : of)
       all[index_of(part)].col(static_cast<Eigen::Index>(k)) = of_one[index_of(part)];
   });
+  if (!of_all) return all;
+  const std::scoped_lock lock(mutex_);
+  auto& kept = kept_of(scenario);
+  for (std::size_t k = 0; k < count; ++k)
+    if (known[k] == nullptr)
+      kept.try_emplace(first + static_cast<std::uint32_t>(k), std::move(read[k]));
   return all;
+}
+
+std::map<std::uint32_t, Readings>& Simulator::kept_of(const Scenario& scenario) const {
+  for (auto& kept : kept_)
+    if (!replicas_differ(kept.scenario, scenario)) return kept.readings;
+  return kept_.emplace_back(Kept{scenario, {}}).readings;
 }
 
 Eigen::VectorXd Simulator::mean_train(const Scenario& scenario, std::uint32_t first,

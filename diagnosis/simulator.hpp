@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <list>
 #include <map>
+#include <mutex>
 #include <span>
 
 #include <gyrostat/core/interrupt.hpp>
@@ -39,7 +41,8 @@ class Simulator {
   Series replica(const Scenario& scenario, std::uint32_t number) const;
   Readings readings(const Series& series, std::span<const Part> of = both_parts) const;
   /// Of replicas [first, first + count), in parallel; the same for any number of threads. A part
-  /// that is not asked for has no columns.
+  /// that is not asked for has no columns. What was read of both parts is kept: it costs nothing to
+  /// ask for it again.
   ReplicaReadings ensemble(const Scenario& scenario, std::uint32_t first, std::size_t count,
                            std::span<const Part> of = both_parts) const;
   Eigen::VectorXd mean_train(const Scenario& scenario, std::uint32_t first,
@@ -58,6 +61,14 @@ class Simulator {
   double resolution_dps_;
   Scenario remembered_;
   std::map<std::uint32_t, Readings> memory_;
+  /// What was read of the replicas of a scenario.
+  struct Kept {
+    Scenario scenario;
+    std::map<std::uint32_t, Readings> readings;
+  };
+  std::map<std::uint32_t, Readings>& kept_of(const Scenario& scenario) const;
+  mutable std::mutex mutex_;
+  mutable std::list<Kept> kept_;
 };
 
 }  // namespace gyrostat::gap

@@ -38,18 +38,15 @@ struct Diagnosed<effects::Sinusoidal> {
       const NearLine near(values, spans, peak.frequency_hz, interval_s);
       const double resolution =
           slow ? e.scene.slow_spectra[0].resolution_hz : e.scene.spectra[0].resolution_hz;
-      double best = peak.frequency_hz, largest = 0.0;
-      double reach = 1.5 * resolution, step = std::max(0.3 / duration_s, resolution / 400.0);
-      for (int pass = 0; pass < 2; ++pass) {
-        const double centre = best;
-        for (double f = std::max(centre - reach, step); f <= centre + reach; f += step)
-          if (const double a = std::abs(near.at(f)); a > largest) {
-            largest = a;
-            best = f;
-          }
-        reach = step;
-        step /= 8.0;
-      }
+      const double reach = 1.5 * resolution, step = std::max(0.3 / duration_s, resolution / 400.0);
+      double best = near.clearest_hz(peak.frequency_hz - reach, peak.frequency_hz + reach, step);
+      double largest = std::abs(near.at(best));
+      const double centre = best;
+      for (double f = std::max(centre - step, 0.125 * step); f <= centre + step; f += 0.125 * step)
+        if (const double a = std::abs(near.at(f)); a > largest) {
+          largest = a;
+          best = f;
+        }
       keep(e, sine_at(e, best, slow), found);
     }
     // Under the set's own red noise, a line stands out in what cannot be foretold.
@@ -124,6 +121,35 @@ struct Diagnosed<effects::Sinusoidal> {
       std::complex<double> sum = 0.0;
       for (const auto& b : blocks_) sum += b.sum * std::polar(1.0, angle * b.middle);
       return 2.0 * sum / count_;
+    }
+
+    /// Of the frequencies from one to another, a step apart, where the line is largest; each block
+    /// turns on from one of them to the next.
+    double clearest_hz(double from_hz, double to_hz, double step_hz) const {
+      std::vector<double> frequencies_hz;
+      for (double f = std::max(from_hz, step_hz); f <= to_hz; f += step_hz)
+        frequencies_hz.push_back(f);
+      if (frequencies_hz.empty()) return frequency_hz_;
+      std::vector<double> re(frequencies_hz.size(), 0.0), im = re;
+      const double turn = -2.0 * std::numbers::pi * interval_s_;
+      for (const auto& b : blocks_) {
+        const auto by = std::polar(1.0, turn * step_hz * b.middle);
+        auto at =
+            b.sum * std::polar(1.0, turn * (frequencies_hz.front() - frequency_hz_) * b.middle);
+        for (std::size_t k = 0; k < re.size(); ++k) {
+          re[k] += at.real();
+          im[k] += at.imag();
+          at = {at.real() * by.real() - at.imag() * by.imag(),
+                at.real() * by.imag() + at.imag() * by.real()};
+        }
+      }
+      double best = frequency_hz_, largest = 0.0;
+      for (std::size_t k = 0; k < re.size(); ++k)
+        if (const double square = re[k] * re[k] + im[k] * im[k]; square > largest) {
+          largest = square;
+          best = frequencies_hz[k];
+        }
+      return best;
     }
 
    private:

@@ -27,8 +27,8 @@ double Beside::middle_temperature_C() const {
 
 std::vector<Resonance> Beside::lines() const {
   const auto& reduced = fitter.reduced();
-  const auto& seen = reduced.periodogram(Part::train);
-  const double degrees = reduced.degrees(Part::train);
+  const auto& seen = reduced.periodogram();
+  const double degrees = reduced.degrees();
   const auto density = reduced.grid().shown(
       density_of(law_of(fit.scenario, conditions.interval_s()), reduced.grid().angles()));
   std::vector<Resonance> found;

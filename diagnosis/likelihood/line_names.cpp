@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/parallel_for.h>
+
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/line_shape.hpp>
 
@@ -37,22 +39,19 @@ Resonance joined(const Resonance& a, const Resonance& b) {
 /// The spectrum of a line that wanders is not that of a resonance, and is found as several side by
 /// side. They are parts of it where two together have the envelope of a sine more clearly than
 /// alone: by how much, an effect each; 0 where they have not.
-std::vector<double> parts_of_wandering_lines(const SetBench& bench, const std::vector<char>& hidden,
-                                             const Scenario& scenario) {
+std::vector<double> parts_of_wandering_lines(const SetBench& bench, const std::vector<double>& left,
+                                             const Scenario& scenario,
+                                             const std::vector<LineShape>& shapes) {
   const auto& effects = scenario.effects;
   std::vector<double> gains(effects.size(), 0.0);
-  const auto left = bench.rate_left_by(scenario, hidden);
-  const auto wandering = [&](const Resonance& line) {
-    return line_shape(bench.conditions(), left, line).wandering;
-  };
   for (std::size_t a = 0; a < effects.size(); ++a)
     for (std::size_t b = a + 1; b < effects.size(); ++b) {
       if (effects[a].id() != "vibration" || effects[b].id() != "vibration") continue;
       const auto one = line_of(effects[a]), other = line_of(effects[b]);
       const double reach_hz = 2.0 * (one.bandwidth_hz + other.bandwidth_hz);
       if (std::abs(one.centre_hz - other.centre_hz) > reach_hz) continue;
-      const double together = wandering(joined(one, other));
-      if (together < clear_shape || together <= std::max(wandering(one), wandering(other)))
+      const double together = line_shape(bench.conditions(), left, joined(one, other)).wandering;
+      if (together < clear_shape || together <= std::max(shapes[a].wandering, shapes[b].wandering))
         continue;
       gains[a] = std::max(gains[a], together);
       gains[b] = std::max(gains[b], together);
@@ -77,13 +76,20 @@ std::vector<char> samples_in_bursts(const SetBench& bench, const Scenario& scena
 }
 
 void name_lines(const SetBench& bench, const std::vector<char>& hidden, FoundSet& found) {
-  const auto parts = parts_of_wandering_lines(bench, hidden, found.scenario);
+  // Lines are not taken out, so that what is left is the same whatever they are called.
+  const auto left = bench.rate_left_by(found.scenario, hidden);
+  std::vector<LineShape> shapes(found.scenario.effects.size());
+  tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t k) {
+    const auto& effect = found.scenario.effects[k];
+    if (effect.id() == "vibration")
+      shapes[k] = line_shape(bench.conditions(), left, line_of(effect));
+  });
+  const auto parts = parts_of_wandering_lines(bench, left, found.scenario, shapes);
   for (std::size_t k = 0; k < found.scenario.effects.size(); ++k) {
     auto& effect = found.scenario.effects[k];
     if (effect.id() != "vibration") continue;
     const auto line = line_of(effect);
-    const auto left = bench.rate_left_by(found.scenario, hidden);
-    const auto shape = line_shape(bench.conditions(), left, line);
+    const auto& shape = shapes[k];
     const bool bursts = is_bursts(shape) && parts[k] == 0.0;
     const double gain = std::max({shape.bursts, shape.wandering, parts[k]});
     const std::string_view name = bursts ? "vibration_bursts" : "wandering_line";

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include <boost/math/special_functions/bessel.hpp>
+#include <tbb/parallel_for.h>
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
@@ -132,12 +133,14 @@ LineShape shape_in_blocks(const Conditions& conditions, const std::vector<double
 
 LineShape line_shape(const Conditions& conditions, const std::vector<double>& left_dps,
                      const Resonance& line) {
+  std::array<LineShape, blocks_of_memory.size()> shapes;
+  tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t k) {
+    shapes[k] = shape_in_blocks(conditions, left_dps, line, blocks_of_memory[k]);
+  });
   LineShape best;
-  for (const double block_of_memory : blocks_of_memory) {
-    const auto shape = shape_in_blocks(conditions, left_dps, line, block_of_memory);
+  for (const auto& shape : shapes)
     if (std::max(shape.wandering, shape.bursts) > std::max(best.wandering, best.bursts))
       best = shape;
-  }
   return best;
 }
 

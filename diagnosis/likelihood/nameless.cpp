@@ -58,7 +58,7 @@ std::string change_in_words(const std::vector<double>& ratio, const std::vector<
 std::optional<Nameless> colour_of_the_noise(const Conditions& conditions, const SetFitter& fitter,
                                             const Scenario& set) {
   const auto& reduced = fitter.reduced();
-  const auto& seen = reduced.periodogram(Part::train);
+  const auto& seen = reduced.periodogram();
   if (seen.size() < 16) return std::nullopt;
   const auto law = law_of(set, conditions.interval_s());
   NoiseLaw white{.interval_s = law.interval_s, .white = law.white};
@@ -86,8 +86,7 @@ std::optional<Nameless> colour_of_the_noise(const Conditions& conditions, const 
                          std::cos(static_cast<double>(lag) * reduced.grid().angles().values[k]) /
                          static_cast<double>(last);
   const auto all = autoregression(covariance);
-  const auto chosen =
-      order_of(all, 2.0 * reduced.degrees(Part::train) * static_cast<double>(last - first));
+  const auto chosen = order_of(all, 2.0 * reduced.degrees() * static_cast<double>(last - first));
   if (chosen.gain < clear_gain) return std::nullopt;
   Effect effect =
       effects::EmpiricalNoise{.gain = std::sqrt(all.errors[chosen.order]), .reflection_1 = 0.0};
@@ -116,8 +115,7 @@ Wander wander_of(const Conditions& conditions, const std::vector<double>& means)
   };
   const auto fit = [&](double share, double time_s) -> Fit {
     SlowLaw law{.white = 1.0 - share, .walk = 0.0, .parts = {}, .jumps = {}};
-    if (share > 0.0)
-      law.parts.push_back({share, std::exp(-conditions.slow_interval_s() / time_s)});
+    if (share > 0.0) law.parts.push_back({share, std::exp(-conditions.slow_interval_s() / time_s)});
     const auto terms = slow_terms(law, points, values, Eigen::MatrixXd(values.size(), 0), {});
     double squares = 0.0, logs = 0.0;
     for (const double e : terms.innovations) squares += e * e;
@@ -186,11 +184,12 @@ std::optional<Nameless> colour_of_the_compass(const Simulator& simulator, const 
       .wander_std_deg = std::sqrt(wander.variance),
       .wander_time_s = wander.time_s};
   for (std::size_t m = 0; m < order; ++m) effect.value(m + 1) = all.reflections[m];
-  std::string words =
-      is_coloured ? fmt::format("a compass noise that is not white (correlation {:.2f} from sample "
+  std::string words = is_coloured
+                          ? fmt::format(
+                                "a compass noise that is not white (correlation {:.2f} from sample "
                                 "to sample)",
                                 sums[1])
-                  : "";
+                          : "";
   if (wander.variance > 0.0)
     words += fmt::format("{}a wander of the compass of {:.2g} deg over {:.2g} s",
                          is_coloured ? " and " : "", std::sqrt(wander.variance), wander.time_s);

@@ -77,7 +77,7 @@ SlowLaw slow_law(const ReducedRate& reduced, const NoiseLaw& law, std::size_t cl
 }
 
 double fast_ratio(const ReducedRate& reduced, const NoiseLaw& law) {
-  const auto& seen = reduced.periodogram(Part::train);
+  const auto& seen = reduced.periodogram();
   if (seen.empty()) return 1.0;
   const auto density = reduced.grid().shown(density_of(law, reduced.grid().angles()));
   double sum = 0.0, bins = 0.0;
@@ -86,13 +86,13 @@ double fast_ratio(const ReducedRate& reduced, const NoiseLaw& law) {
   return sum / bins;
 }
 
-RateTerms rate_terms(const ReducedRate& reduced, Part part, const NoiseLaw& law,
+RateTerms rate_terms(const ReducedRate& reduced, const NoiseLaw& law,
                      const Eigen::MatrixXd& regressors, const Eigen::VectorXd& prior_std) {
   RateTerms terms;
   const double interval_s = law.interval_s * std::round(reduced.cluster_s() / law.interval_s);
   const auto bands = bands_of(law, interval_s);
   auto density = density_of(bands.fast, reduced.grid().angles());
-  const auto& slow = reduced.slow(part);
+  const auto& slow = reduced.slow(Part::train);
   if (slow.points.size() > 1) {
     const Eigen::VectorXd& values = slow.means;
     Eigen::MatrixXd chosen(values.size(), regressors.cols());
@@ -104,7 +104,7 @@ RateTerms rate_terms(const ReducedRate& reduced, Part part, const NoiseLaw& law,
                             values, chosen, prior_std);
     terms.log_likelihood = terms.slow.log_likelihood;
   }
-  const auto& seen = reduced.periodogram(part);
+  const auto& seen = reduced.periodogram();
   if (seen.empty()) return terms;
   const auto slow_density = density_of(bands.slow, reduced.grid().angles());
   for (std::size_t k = 0; k < density.size(); ++k) density[k] += slow_density[k];
@@ -115,7 +115,7 @@ RateTerms rate_terms(const ReducedRate& reduced, Part part, const NoiseLaw& law,
     terms.log_density.push_back(log_density);
     sum += log_density + seen[k] / density[k];
   }
-  terms.log_likelihood -= reduced.degrees(part) * sum;
+  terms.log_likelihood -= reduced.degrees() * sum;
   return terms;
 }
 

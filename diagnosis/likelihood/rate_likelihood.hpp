@@ -16,7 +16,7 @@ struct RateTerms {
 /// How likely a part of a recording is under a law of the noise: cluster means by an exact
 /// likelihood, frequencies above those that cluster means show by Whittle's (Whittle, Ark. Mat. 2,
 /// 1953). `regressors` (cluster x any) are of unknown size, but for their priors (SlowTerms).
-RateTerms rate_terms(const ReducedRate& reduced, Part part, const NoiseLaw& law,
+RateTerms rate_terms(const ReducedRate& reduced, const NoiseLaw& law,
                      const Eigen::MatrixXd& regressors, const Eigen::VectorXd& prior_std);
 
 /// Mean ratio of the train part's periodogram to the law at fast frequencies; 1 where there are

@@ -85,7 +85,7 @@ ReducedRate::ReducedRate(const Conditions& conditions, const std::vector<double>
 }
 
 double ReducedRate::white_std_dps() const {
-  const auto& density = periodogram(Part::train);
+  const auto& density = periodogram();
   if (density.empty()) {
     const auto& means = slow(Part::train).means;
     if (means.size() < 2) return 0.0;
@@ -102,18 +102,15 @@ double ReducedRate::white_std_dps() const {
 
 void ReducedRate::reduce_fast(const Conditions& conditions, const std::vector<double>& error_dps) {
   const std::size_t length = grid_->segment();
-  for (const Part part : both_parts) {
-    std::vector<std::span<const double>> stretches;
-    double samples = 0.0;
-    for (const auto& span : conditions.spans(part)) {
-      if (span.size() < length) continue;
-      stretches.emplace_back(error_dps.data() + span.first, span.size());
-      samples += static_cast<double>(span.size());
-    }
-    periodogram_[index_of(part)] =
-        welch(stretches, conditions.rate_hz(), length, length / 2).density;
-    degrees_[index_of(part)] = grid_->kept() * samples / static_cast<double>(length);
+  std::vector<std::span<const double>> stretches;
+  double samples = 0.0;
+  for (const auto& span : conditions.spans(Part::train)) {
+    if (span.size() < length) continue;
+    stretches.emplace_back(error_dps.data() + span.first, span.size());
+    samples += static_cast<double>(span.size());
   }
+  periodogram_ = welch(stretches, conditions.rate_hz(), length, length / 2).density;
+  degrees_ = grid_->kept() * samples / static_cast<double>(length);
 }
 
 }  // namespace gyrostat::gap

@@ -8,8 +8,8 @@
 
 namespace gyrostat::gap {
 
-/// The rate error of a recording reduced to what its likelihood is made of, a part each: cluster
-/// means for what is slow, averaged periodograms for what is fast.
+/// The rate error of a recording reduced to what its likelihood is made of: cluster means for what
+/// is slow, a part each, and an averaged periodogram of the train part for what is fast.
 class ReducedRate {
  public:
   /// `error_dps` is the gyro less the reference rate and whatever else is known, a value a sample.
@@ -22,9 +22,9 @@ class ReducedRate {
   };
   const Slow& slow(Part part) const { return slow_[index_of(part)]; }
   /// One-sided, dps²/Hz, of segments of 2 (bins - 1) samples.
-  const std::vector<double>& periodogram(Part part) const { return periodogram_[index_of(part)]; }
+  const std::vector<double>& periodogram() const { return periodogram_; }
   /// How many independent periodograms it is the mean of.
-  double degrees(Part part) const { return degrees_[index_of(part)]; }
+  double degrees() const { return degrees_; }
   /// Of white noise that is as strong as all that is fast, or, without periodograms, as the means'
   /// differences.
   double white_std_dps() const;
@@ -38,9 +38,8 @@ class ReducedRate {
 
   std::shared_ptr<const RateGrid> grid_;
   std::array<Slow, 2> slow_;
-  std::array<std::vector<double>, 2> periodogram_;
-  std::array<double, 2> degrees_{};
-  double noise_of_means_ = 1.0, cluster_s_;
+  std::vector<double> periodogram_;
+  double degrees_ = 0.0, noise_of_means_ = 1.0, cluster_s_;
 };
 
 }  // namespace gyrostat::gap

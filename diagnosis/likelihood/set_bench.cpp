@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/parallel_invoke.h>
+
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/arima_law.hpp>
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
@@ -166,7 +168,7 @@ Evidence SetBench::evidence_of(const Standing& standing) const {
   evidence.baseline.effects.clear();
   const auto& points = standing.fitter->reduced().slow(Part::train).points;
   const auto innovations =
-      standing.fitter->terms(standing.fit.scenario, Part::train, Jumping::no).slow.innovations;
+      standing.fitter->terms(standing.fit.scenario, Jumping::no).slow.innovations;
   evidence.slow_innovations.assign(conditions_.slow_size(), 0.0);
   for (std::size_t k = 0; k < innovations.size(); ++k)  // there is none of the first
     evidence.slow_innovations[points[k + 1]] = innovations[k];
@@ -211,22 +213,24 @@ Standing SetBench::with(const Standing& standing, const CauseType& cause,
 
 Standing SetBench::polished(Standing standing) const {
   const auto likelihood = [&](const Scenario& scenario) {
-    return fitter_of(scenario)->terms(scenario, Part::train).log_likelihood;
+    return fitter_of(scenario)->terms(scenario).log_likelihood;
   };
   Scenario scenario = standing.scenario;
   double here = likelihood(scenario);
   for (int pass = 0; pass < 2; ++pass)
-    for (auto& effect : scenario.effects) {
+    for (std::size_t at = 0; at < scenario.effects.size(); ++at) {
+      auto& effect = scenario.effects[at];
       if (!is_taken_out(effect)) continue;
       const auto& cause = cause_types().named(effect.id(), "effects");
       for (const auto name : cause.free_parameters) {
         const auto f = field_of(effect, name);
         const double middle = effect.value(f);
-        double step = (pass == 0 ? 0.02 : 0.004) * std::max(std::abs(middle), 1e-9);
-        effect.value(f) = middle + step;
-        const double above = likelihood(scenario);
-        effect.value(f) = middle - step;
-        const double below = likelihood(scenario);
+        const double step = (pass == 0 ? 0.02 : 0.004) * std::max(std::abs(middle), 1e-9);
+        Scenario more = scenario, less = scenario;
+        more.effects[at].value(f) = middle + step;
+        less.effects[at].value(f) = middle - step;
+        double above = 0.0, below = 0.0;
+        tbb::parallel_invoke([&] { above = likelihood(more); }, [&] { below = likelihood(less); });
         const double curve = above + below - 2.0 * here;
         double by =
             curve < 0.0 ? 0.5 * step * (below - above) / curve : (above > below ? step : -step);

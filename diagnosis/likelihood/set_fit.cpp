@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <tbb/parallel_for.h>
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
@@ -190,19 +191,19 @@ SetFitter::Regressors SetFitter::regressors_of(const Scenario& scenario) const {
   return found;
 }
 
-RateTerms SetFitter::terms_with(const Scenario& scenario, const Regressors& regressors, Part part,
+RateTerms SetFitter::terms_with(const Scenario& scenario, const Regressors& regressors,
                                 Jumping jumping) const {
   const auto law = law_of(scenario, conditions_.interval_s());
   constexpr double drift_prior = 3.0;  // drifts are larger than what is found beside them
   Eigen::VectorXd prior_std = Eigen::VectorXd::Constant(regressors.columns.cols(), amplitude_dps_);
   prior_std.head(drift_.cols()) *= drift_prior;
-  return rate_terms(*reduced_, part, jumping == Jumping::yes ? law : law.without_jumps(),
+  return rate_terms(*reduced_, jumping == Jumping::yes ? law : law.without_jumps(),
                     regressors.columns, prior_std);
 }
 
-RateTerms SetFitter::terms(const Scenario& scenario, Part part, Jumping jumping) const {
+RateTerms SetFitter::terms(const Scenario& scenario, Jumping jumping) const {
   interrupt_.check();
-  return terms_with(scenario, regressors_of(scenario), part, jumping);
+  return terms_with(scenario, regressors_of(scenario), jumping);
 }
 
 Scenario SetFitter::with_white_noise_scaled(Scenario scenario) const {
@@ -239,10 +240,10 @@ Eigen::MatrixXd SetFitter::slopes_of(const Scenario& scenario, const std::vector
   const auto rows = static_cast<Eigen::Index>(here.slow.innovations.size());
   const auto bins = static_cast<Eigen::Index>(here.log_density.size());
   Eigen::MatrixXd slopes(2 * rows + bins, count);
-  const double root = std::sqrt(reduced_->degrees(Part::train));
-  for (Eigen::Index d = 0; d < count; ++d) {
+  const double root = std::sqrt(reduced_->degrees());
+  tbb::parallel_for(Eigen::Index{0}, count, [&](Eigen::Index d) {
     const auto there =
-        terms(moved(scenario, dials, step * Eigen::VectorXd::Unit(count, d)), Part::train, jumping);
+        terms(moved(scenario, dials, step * Eigen::VectorXd::Unit(count, d)), jumping);
     if (gradient != nullptr) (*gradient)[d] = (there.log_likelihood - here.log_likelihood) / step;
     for (Eigen::Index k = 0; k < rows; ++k) {
       const auto i = static_cast<std::size_t>(k);
@@ -254,7 +255,7 @@ Eigen::MatrixXd SetFitter::slopes_of(const Scenario& scenario, const std::vector
       const auto i = static_cast<std::size_t>(k);
       slopes(2 * rows + k, d) = root * (there.log_density[i] - here.log_density[i]) / step;
     }
-  }
+  });
   return slopes;
 }
 
@@ -267,7 +268,7 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> SetFitter::coefficients_over_walks(
   double best = -1e300;
   for (double factor = 1.0; factor < 300.0; factor *= 1.6) {
     const auto there = with_walk_of_at_least(with_walk_times(scenario, 1e-6), factor * least);
-    auto tried = terms(there, Part::train, Jumping::no);
+    auto tried = terms(there, Jumping::no);
     weights.push_back(tried.log_likelihood + std::log(factor));
     best = std::max(best, weights.back());
     each.push_back(std::move(tried.slow));
@@ -288,7 +289,7 @@ std::vector<ParameterInterval> SetFitter::intervals(const SetFit& fit) const {
   constexpr double two_sided_95 = 1.959964;
   std::vector<ParameterInterval> found;
   const auto dials = dials_of(fit.scenario);
-  const auto here = terms(fit.scenario, Part::train, Jumping::no);
+  const auto here = terms(fit.scenario, Jumping::no);
   const auto slopes = slopes_of(fit.scenario, dials, here, Jumping::no, nullptr);
   Eigen::MatrixXd information = slopes.transpose() * slopes;
   information.diagonal().array() += 1e-6;  // what nothing is known of has an interval, too
@@ -333,7 +334,7 @@ SetFit SetFitter::maximise(const Scenario& start, int iterations, Jumping jumpin
   std::erase_if(dials, [&](const Dial& dial) { return !held.empty() && dial.of == held; });
   const auto count = static_cast<Eigen::Index>(dials.size());
   fit.parameters = dials.size();
-  RateTerms here = terms(fit.scenario, Part::train, jumping);
+  RateTerms here = terms(fit.scenario, jumping);
   double damping = 1e-2;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     Eigen::VectorXd gradient(count);
@@ -350,7 +351,7 @@ SetFit SetFitter::maximise(const Scenario& start, int iterations, Jumping jumpin
         by[d] = std::clamp(by[d], -furthest, furthest);
       }
       const Scenario trial = moved(fit.scenario, dials, by);
-      auto there = terms(trial, Part::train, jumping);
+      auto there = terms(trial, jumping);
       if (there.log_likelihood > here.log_likelihood) {
         const bool settled = there.log_likelihood - here.log_likelihood < 0.02;
         fit.scenario = trial;

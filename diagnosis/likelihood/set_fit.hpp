@@ -59,7 +59,7 @@ class SetFitter {
   std::vector<ParameterInterval> intervals(const SetFit& fit) const;
   /// With as much white noise as the fast part calls for, all else as it is.
   Scenario with_white_noise_scaled(Scenario scenario) const;
-  RateTerms terms(const Scenario& scenario, Part part, Jumping jumping = Jumping::yes) const;
+  RateTerms terms(const Scenario& scenario, Jumping jumping = Jumping::yes) const;
 
  private:
   SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
@@ -83,7 +83,7 @@ class SetFitter {
   std::pair<Eigen::VectorXd, Eigen::VectorXd> coefficients_over_walks(
       const Scenario& scenario) const;
   Regressors regressors_of(const Scenario& scenario) const;
-  RateTerms terms_with(const Scenario& scenario, const Regressors& regressors, Part part,
+  RateTerms terms_with(const Scenario& scenario, const Regressors& regressors,
                        Jumping jumping) const;
   Eigen::VectorXd fixed_signature(const Scenario& alone, std::size_t unit) const;
   void take_coefficients(const RateTerms& terms, SetFit& fit) const;

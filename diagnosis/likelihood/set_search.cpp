@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/likelihood/compass_search.hpp>
@@ -146,23 +147,32 @@ class Search {
 
 std::vector<Standing> Search::each_added(const Standing& standing) {
   std::vector<Standing> all(candidates_.size());
-  std::optional<Evidence> left;
-  if (std::any_of(candidates_.begin(), candidates_.end(),
-                  [](const auto* cause) { return cause->guesses == nullptr; }))
-    left.emplace(bench_.evidence_of(standing));
   std::atomic<std::size_t> tried{0};
   const auto caller = std::this_thread::get_id();
-  tbb::parallel_for(
-      std::size_t{0}, candidates_.size(),
-      [&](std::size_t k) {
-        const auto& cause = *candidates_[k];
-        if (!has(standing.scenario, cause.id) || may_repeat(standing.scenario, cause.id))
-          all[k] = bench_.with(standing, cause, left ? &*left : nullptr);
-        const auto done = static_cast<double>(++tried);
-        if (std::this_thread::get_id() == caller)
-          tell_share(done / static_cast<double>(candidates_.size()));
+  const auto try_those = [&](bool with_guesses, const Evidence* left) {
+    tbb::parallel_for(
+        std::size_t{0}, candidates_.size(),
+        [&](std::size_t k) {
+          const auto& cause = *candidates_[k];
+          if ((cause.guesses != nullptr) != with_guesses) return;
+          if (!has(standing.scenario, cause.id) || may_repeat(standing.scenario, cause.id))
+            all[k] = bench_.with(standing, cause, left);
+          const auto done = static_cast<double>(++tried);
+          if (std::this_thread::get_id() == caller)
+            tell_share(done / static_cast<double>(candidates_.size()));
+        },
+        tbb::simple_partitioner());
+  };
+  // Guesses need no evidence, and are tried while it is made for the others.
+  tbb::parallel_invoke(
+      [&] {
+        if (std::all_of(candidates_.begin(), candidates_.end(),
+                        [](const auto* cause) { return cause->guesses != nullptr; }))
+          return;
+        const auto left = bench_.evidence_of(standing);
+        try_those(false, &left);
       },
-      tbb::simple_partitioner());
+      [&] { try_those(true, nullptr); });
   ++rounds_;
   return all;
 }

@@ -138,7 +138,7 @@ double log_bayes_factor_of_memory(const SetFitter& fitter, const Conditions& con
 double p_of_the_spectrum(const SetFitter& fitter, const Conditions& conditions,
                          const Scenario& set) {
   const auto& reduced = fitter.reduced();
-  const auto& seen = reduced.periodogram(Part::train);
+  const auto& seen = reduced.periodogram();
   if (seen.empty()) return 1.0;
   const auto density = reduced.grid().shown(
       density_of(law_of(set, conditions.interval_s()), reduced.grid().angles()));
@@ -151,7 +151,7 @@ double p_of_the_spectrum(const SetFitter& fitter, const Conditions& conditions,
     double ratio = 0.0;
     for (std::size_t k = from; k < to; ++k) ratio += seen[k] / density[k];
     const auto bins = static_cast<double>(to - from);
-    sum += square(ratio / bins - 1.0) * bins * reduced.degrees(Part::train);
+    sum += square(ratio / bins - 1.0) * bins * reduced.degrees();
   }
   return chi_squared_upper_tail(sum, static_cast<double>(bands));
 }

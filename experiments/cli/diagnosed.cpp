@@ -3,12 +3,14 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
 #include <gyrostat/diagnosis/handling.hpp>
+#include <gyrostat/diagnosis/views.hpp>
 #include <gyrostat/experiments/cli/phase_progress.hpp>
 
 namespace gyrostat::cli {
@@ -17,26 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Without what is not the sensor's, which is told.
-Series at_rest(const Series& recording, const std::string& file, std::ostream& log) {
+Series at_rest(Series recording, const std::string& file, std::ostream& log) {
   std::vector<std::string> told;
-  Series series = gap::without_handling(recording, told);
+  Series series = gap::without_handling(std::move(recording), told);
   for (const auto& line : told) log << fmt::format("{}: {}\n", file, line);
   return series;
-}
-
-/// Samples [first, first + count).
-struct Part {
-  std::size_t first, count;
-};
-
-std::vector<Part> parts_of(const Series& series) {
-  const std::size_t parts = (series.size() + most_samples_at_once - 1) / most_samples_at_once;
-  std::vector<Part> all;
-  for (std::size_t k = 0; k < parts; ++k) {
-    const std::size_t from = k * series.size() / parts, to = (k + 1) * series.size() / parts;
-    all.push_back({from, to - from});
-  }
-  return all;
 }
 
 /// Random errors are steps a sample: at another rate they are others.
@@ -47,6 +34,14 @@ void require_rate_of(const std::optional<Scenario>& claim, const Series& series,
     throw InputError(file, fmt::format("sampled at {:.6g} Hz, the simulator that it is held to at "
                                        "{:.6g} Hz; allowed: the same within 1 %",
                                        series.rate_hz(), claim->sampling.rate_hz));
+}
+
+std::string name_of(const gap::View& view, const std::string& recording, const Series& looked_at,
+                    double begun_s) {
+  auto name = recording + (recording.empty() ? "" : " ");
+  if (view.mean_of > 1) name += fmt::format("means of {}, ", view.mean_of);
+  return name + fmt::format("{:.6g} to {:.6g} s", looked_at.t_s.front() - begun_s,
+                            looked_at.t_s.back() - begun_s);
 }
 
 gap::Diagnosis diagnosis_of(const Series& series, const std::string& file,
@@ -86,8 +81,12 @@ std::vector<ToDiagnose> each_of(const RecordingOption& recording,
 nlohmann::ordered_json members_json(const std::vector<gap::FleetMember>& members,
                                     const std::string& kind) {
   gap::Json json = {{"each", gap::Json::array()}, {"shared", gap::Json::array()}};
-  for (const auto& m : members)
-    json["each"].push_back({{kind, m.name}, {"diagnosis", gap::to_json(m.diagnosis)}});
+  for (const auto& m : members) {
+    gap::Json one = {{kind, m.name}};
+    if (m.mean_of > 1) one["mean_of"] = m.mean_of;
+    one["diagnosis"] = gap::to_json(m.diagnosis);
+    json[m.mean_of > 1 ? "means" : "each"].push_back(std::move(one));
+  }
   const auto number = [](double value) { return value == value ? gap::Json(value) : gap::Json(); };
   for (const auto& s : gap::shared_effects(members)) {
     gap::Json one = {{"effect", s.effect},
@@ -113,38 +112,33 @@ std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
                                                        Parts allowed, Console& console) {
   const auto& file = one.recording.file;
   const Interrupt interrupt(console.stop.orderly());
-  const Series series = at_rest(one.recording.read(console.log, span), file, console.log);
+  Series series = at_rest(one.recording.read(console.log, span), file, console.log);
   require_rate_of(options.claim, series, file);
-  const auto parts = parts_of(series);
-  if (parts.size() == 1) try {
-      interrupt.check();
-      auto diagnosis = diagnosis_of(series, file, options, interrupt, console);
-      return std::vector{gap::FleetMember{one.name, std::move(diagnosis)}};
-    } catch (const Interrupted&) {
-      return std::nullopt;
-    }
-  if (allowed == Parts::refused)
+  auto views = gap::views_of(series);
+  const bool is_whole = views.size() == 1;
+  if (!is_whole && allowed == Parts::refused)
     throw InputError(file, fmt::format("{} samples; what is of one diagnosis is of up to {}: take "
                                        "a part by --from and --to",
-                                       series.size(), most_samples_at_once));
-  console.log << fmt::format(
-      "{}: {} samples are diagnosed in {} parts; what is slower than a part shows with "
-      "--resample\n",
-      file, series.size(), parts.size());
+                                       series.size(), gap::most_samples_at_once));
+  if (options.claim) std::erase_if(views, [](const auto& view) { return view.mean_of > 1; });
+  if (!is_whole) console.log << fmt::format("{}: {}\n", file, gap::in_words(views, series.size()));
   std::vector<gap::FleetMember> members;
-  for (const auto& [first, count] : parts) {
-    const Series part = series.slice(first, count);
-    const auto name =
-        fmt::format("{}{}{:.6g} to {:.6g} s", one.name, one.name.empty() ? "" : " ",
-                    part.t_s.front() - series.t_s.front(), part.t_s.back() - series.t_s.front());
-    console.log << name << '\n';
-    try {
-      auto diagnosis = diagnosis_of(part, file, options, interrupt, console);
-      members.push_back({name, std::move(diagnosis)});
+  std::vector<Series> looked_at;
+  for (const auto& view : views) {
+    looked_at.push_back(is_whole ? std::move(series) : gap::looked_at(series, view));
+    members.push_back(
+        {is_whole ? one.name : name_of(view, one.name, looked_at.back(), series.t_s.front()),
+         {},
+         view.mean_of});
+  }
+  series = {};  // of a long one, a small part is left to hold
+  for (std::size_t k = 0; k < members.size(); ++k) try {
+      if (!is_whole) console.log << members[k].name << '\n';
+      interrupt.check();
+      members[k].diagnosis = diagnosis_of(looked_at[k], file, options, interrupt, console);
     } catch (const Interrupted&) {
       return std::nullopt;
     }
-  }
   return members;
 }
 

@@ -23,20 +23,17 @@ struct ToDiagnose {
 std::vector<ToDiagnose> each_of(const RecordingOption& recording,
                                 const std::vector<std::string>& further);
 
-/// One that is longer is diagnosed in parts, since a diagnosis needs some two hundred bytes for
-/// each sample that it simulates.
-inline constexpr std::size_t most_samples_at_once = std::size_t{1} << 22;
-
 enum class Parts { allowed, refused };
 
 /// The diagnoses of a span of a recording, at rest where it has no reference rate: one, or one of
-/// each of the equal parts of a long recording (refused where `parts` says so). Nothing where
-/// Ctrl-C ended it.
+/// each view of a long recording (refused where `parts` says so; a claim says nothing of means).
+/// Nothing where Ctrl-C ended it.
 std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
                                                        const SpanOption& span,
                                                        const gap::DiagnosisOptions& options,
                                                        Parts parts, Console& console);
 
+/// Each that was looked at sample by sample and what these share, and the means of long recordings.
 nlohmann::ordered_json members_json(const std::vector<gap::FleetMember>& members,
                                     const std::string& kind);
 

@@ -66,6 +66,12 @@ std::vector<MemberValue> known_of(const std::vector<std::pair<std::string, const
   return known;
 }
 
+std::vector<FleetMember> without_means(const std::vector<FleetMember>& members) {
+  auto sampled = members;
+  std::erase_if(sampled, [](const auto& member) { return member.mean_of > 1; });
+  return sampled;
+}
+
 std::string effects_of(const Diagnosis& d) {
   std::vector<std::string> names;
   for (const auto& e : d.effects) names.push_back(e.effect);
@@ -74,7 +80,8 @@ std::string effects_of(const Diagnosis& d) {
 
 }  // namespace
 
-std::vector<SharedEffect> shared_effects(const std::vector<FleetMember>& members) {
+std::vector<SharedEffect> shared_effects(const std::vector<FleetMember>& all) {
+  const auto members = without_means(all);
   std::vector<SharedEffect> shared;
   for (const auto& cause : catalogue()) {
     std::map<std::string, std::vector<std::pair<std::string, const Included*>>> forms;
@@ -96,7 +103,8 @@ std::vector<SharedEffect> shared_effects(const std::vector<FleetMember>& members
   return shared;
 }
 
-std::string shared_in_words(const std::vector<FleetMember>& members) {
+std::string shared_in_words(const std::vector<FleetMember>& all) {
+  const auto members = without_means(all);
   std::vector<std::string> everywhere, some, alone;
   for (const auto& cause : catalogue()) {
     std::vector<std::string> with;
@@ -146,11 +154,12 @@ std::vector<Table> member_tables(const std::vector<FleetMember>& members, const 
   const auto range = [](double low, double high) {
     return is_missing(low) ? std::string() : fmt::format("{:.4g} to {:.4g}", low, high);
   };
+  const std::size_t sampled = without_means(members).size();
   for (const auto& s : shared_effects(members))
     for (const auto& p : s.parameters)
       shared.rows.push_back({s.form.empty() ? s.effect : s.effect + " (" + s.form + ")",
-                             fmt::format("{} of {}", s.members.size(), members.size()), p.name,
-                             p.unit, cell(p.mean), range(p.mean_low, p.mean_high), cell(p.spread),
+                             fmt::format("{} of {}", s.members.size(), sampled), p.name, p.unit,
+                             cell(p.mean), range(p.mean_low, p.mean_high), cell(p.spread),
                              range(p.spread_low, p.spread_high), cell(p.p_equal)});
   return {each, shared};
 }

@@ -8,10 +8,12 @@
 
 namespace gyrostat::gap {
 
-/// One of several that were diagnosed alike: an axis of a sensor, or a sensor of a fleet.
+/// One of several that were diagnosed alike: an axis of a sensor, a sensor of a fleet, or what was
+/// looked at of a long recording.
 struct FleetMember {
   std::string name;
   Diagnosis diagnosis;
+  std::size_t mean_of = 1;  ///< samples that a value of it is the mean of
 };
 
 /// A parameter of an effect over the members that have it, each with its own error and beside that
@@ -35,10 +37,10 @@ struct SharedEffect {
   std::vector<SharedParameter> parameters;  ///< of the first of its kind in each
 };
 
-/// Those of most members first.
+/// Those of most members first. Means share nothing: at another rate effects are others.
 std::vector<SharedEffect> shared_effects(const std::vector<FleetMember>& members);
 
-/// What all have, what some have, what one alone has; a sentence each.
+/// What all have, what some have, what one alone has; a sentence each. Means are left out.
 std::string shared_in_words(const std::vector<FleetMember>& members);
 
 /// A row a member, then what they share. `kind` is what a member is: "axis", "sensor".

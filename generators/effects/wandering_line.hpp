@@ -48,12 +48,17 @@ struct WanderingLine {
     Deviates between(noise.stream("wandering_line/between"));
     Decay decay(correlation_time_s);
     double turns = noise.stream("wandering_line/phase").uniform(0), state = 0.0;
+    double a = 0.0, drive = 1.0, half = 1.0;  // tanh(interval / (2 T))
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
-      const double a = decay(series.t_s, i), before = state;
-      state = a * state + std::sqrt((1.0 - a) * (1.0 + a)) * at_sample.next();
+      const double before = state;
+      if (const double next = decay(series.t_s, i); next != a) {
+        a = next;
+        drive = std::sqrt((1.0 - a) * (1.0 + a));
+        half = (1.0 - a) / (1.0 + a);
+      }
+      state = a * state + drive * at_sample.next();
       if (i > 0) {
         const double interval_s = series.t_s[i] - series.t_s[i - 1];
-        const double half = (1.0 - a) / (1.0 + a);  // tanh(interval / (2 T))
         const double spread =
             std::sqrt(std::max(0.0, 2.0 * interval_s / correlation_time_s - 4.0 * half));
         const double integral_s =

@@ -123,7 +123,13 @@ void print_one(const DiagnoseArguments& arguments, const gap::Diagnosis& diagnos
 void print_several(const std::vector<gap::FleetMember>& members, const std::string& kind,
                    Format format, Console& console) {
   if (format == Format::text) {
-    console.out << wrapped(gap::shared_in_words(members)) << '\n';
+    const bool has_means = std::any_of(members.begin(), members.end(),
+                                       [](const auto& member) { return member.mean_of > 1; });
+    console.out << wrapped((has_means ? "Stretches show what is fast, sample by sample; means "
+                                        "of all samples, what is slow. Of the stretches: "
+                                      : "") +
+                           gap::shared_in_words(members))
+                << '\n';
     for (const auto& m : members) {
       const auto sources = gap::in_words(m.diagnosis.line_sources);
       console.out << wrapped(fmt::format("{}: {}{}{}", m.name, gap::answer(m.diagnosis),
