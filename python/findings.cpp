@@ -7,6 +7,7 @@
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
 #include <gyrostat/diagnosis/gap/conditions.hpp>
 #include <gyrostat/diagnosis/handling.hpp>
+#include <gyrostat/diagnosis/views.hpp>
 #include <gyrostat/experiments/findings/allan_table.hpp>
 #include <gyrostat/experiments/findings/application.hpp>
 #include <gyrostat/experiments/findings/diagnosis_page.hpp>
@@ -150,6 +151,13 @@ std::shared_ptr<Diagnosed> diagnose(const RecordingHandle& recording, std::uint6
         diagnosed->name = recording->name;
         require_dense(recording->series, recording->name);
         const auto series = gap::without_handling(recording->series, diagnosed->notes);
+        if (series.size() > gap::most_samples_at_once)
+          throw InputError(
+              recording->name,
+              fmt::format(
+                  "has {} samples; allowed: up to {}, as between() takes them, or `gyrostat "
+                  "diagnose`, which looks at a longer one in stretches and in means",
+                  series.size(), gap::most_samples_at_once));
         try {
           diagnosed->diagnosis = gap::diagnose(
               series, options,

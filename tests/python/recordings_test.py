@@ -138,6 +138,11 @@ class Recordings(InAFolder):
         with open("gap.html", encoding="utf-8") as page:
             self.assertIn("</html>", page.read())
 
+    def test_a_recording_too_long_for_one_diagnosis_is_refused_with_the_remedy(self):
+        long = gyrostat.recording(np.arange(2 ** 22 + 1) % 7 * 0.01, rate_hz=1000)
+        with self.assertRaisesRegex(gyrostat.Error, r"4194305 samples; allowed: up to 4194304, as between\(\)"):
+            gyrostat.diagnose(long)
+
 
 if __name__ == "__main__":
     unittest.main()
