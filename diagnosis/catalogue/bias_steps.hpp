@@ -26,7 +26,7 @@ struct Diagnosed<effects::BiasSteps> {
     law.jumps = {Jumps::To::another_level, effect.std_dps, effect.steps_per_hour / 3600.0};
   }
 
-  static std::string why_not_assessable(const Conditions& c) { return needs::time(c); }
+  static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
   static bool is_what_it_is_called(const effects::BiasSteps& /*effect*/, const Conditions& /*c*/) {
     return true;

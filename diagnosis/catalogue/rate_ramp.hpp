@@ -14,7 +14,7 @@ struct Diagnosed<effects::RateRamp> {
 
   static std::vector<effects::RateRamp> guesses(const Beside& /*beside*/) { return {{1.0}}; }
 
-  static std::string why_not_assessable(const Conditions& c) { return needs::time(c); }
+  static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
   static bool is_what_it_is_called(const effects::RateRamp& /*effect*/, const Conditions& /*c*/) {
     return true;

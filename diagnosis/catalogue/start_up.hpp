@@ -19,10 +19,7 @@ struct Diagnosed<effects::StartUp> {
     return all;
   }
 
-  static std::string why_not_assessable(const Conditions& c) {
-    const auto why = needs::time(c);
-    return why.empty() ? why : why + ", from switching on until well after it has settled";
-  }
+  static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
   /// It has settled: else it were a ramp.
   static bool is_what_it_is_called(const effects::StartUp& effect, const Conditions& c) {

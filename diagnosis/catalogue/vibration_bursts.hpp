@@ -21,7 +21,7 @@ struct Diagnosed<effects::VibrationBursts> {
         {share * effect.std_dps * effect.std_dps, effect.centre_hz, effect.bandwidth_hz});
   }
 
-  static std::string why_not_assessable(const Conditions& c) { return needs::time(c); }
+  static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
   /// Bursts that are longer than the vibration remembers, and that a recording has several of.
   static bool is_what_it_is_called(const effects::VibrationBursts& effect, const Conditions& c) {

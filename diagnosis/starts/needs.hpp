@@ -15,7 +15,7 @@ namespace needs {
 std::string nothing(const Conditions& conditions);
 /// A temperature that changes.
 std::string warming(const Conditions& conditions);
-/// Minutes, for errors that take as long.
+/// Minutes, for 1/f noise: in less it cannot be told from the memory of the random error.
 std::string time(const Conditions& conditions);
 /// A reference rate that changes.
 std::string motion(const Conditions& conditions);
