@@ -43,11 +43,23 @@ void claim(const fs::path& folder, const BlindCheck& check) {
                      "that check, or another folder");
 }
 
+/// What was there before it was rounded, as far as that is known: anywhere in its step, evenly. An
+/// effect of less than a step put into what is rounded already would vanish, and a slow one become
+/// steps.
+void unround(Scenario& scenario, double step_dps, const Noise& noise) {
+  auto dps = *scenario.recorded_noise_dps;
+  const auto stream = noise.stream("blind_check/unrounded");
+  for (std::size_t i = 0; i < dps.size(); ++i) dps[i] += step_dps * (stream.uniform(i) - 0.5);
+  scenario.recorded_noise_dps = std::make_shared<const std::vector<double>>(std::move(dps));
+}
+
 }  // namespace
 
 Series recorded(const BlindCase& c, const Noise& noise) {
   Series series;
-  synthesise(c.scenario, noise, series);
+  auto scenario = c.scenario;
+  if (c.noise_step_dps > 0.0) unround(scenario, c.noise_step_dps, noise);
+  synthesise(scenario, noise, series);
   series.thermal_bias_dps.clear();
   series.random_error_dps.clear();
   series.mag_valid.clear();

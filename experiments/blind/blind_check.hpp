@@ -34,6 +34,7 @@ struct BlindCase {
     std::shared_ptr<const std::vector<double>> dps;
   };
   std::vector<RecordedNoise> noises;
+  double noise_step_dps = 0.0;  ///< to which they are rounded; 0: they are not
 };
 
 /// Recordings with several effects at once, drawn among the single cases of a scenario.

@@ -51,6 +51,7 @@ void read_noise(JsonObject object, const fs::path& folder, BlindCase& into) {
   auto axes = read_texts(object, "axes");
   if (axes.empty()) axes = {""};
   const double longest_s = object.number("duration_s", 1e7, ranges::positive, "s");
+  into.noise_step_dps = object.number("rounded_to_dps", 0.0, ranges::non_negative, "dps");
   double rate_hz = 0.0;
   for (const auto& [value, place] : object.list("files")) {
     const auto name = text_of(*value, place);

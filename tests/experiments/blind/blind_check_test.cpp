@@ -143,6 +143,35 @@ TEST(BlindCheck, PutsEffectsIntoWhatARealSensorRecorded) {
               testing::ElementsAre("quiet.csv x", "quiet.csv y", "quiet.csv x", "quiet.csv y"));
 }
 
+/// A quarter of a step moves each value by a step with a probability of a quarter; put into what is
+/// rounded, it would move none. The bounds are four standard errors: one false failure in 16,000
+/// seeds.
+TEST(BlindCheck, PutsWhatIsLessThanAStepIntoARecordingThatIsRounded) {
+  TestFolder folder;
+  constexpr int samples = 4000;
+  std::string csv = "t_s,gyro_dps\n";
+  for (int i = 0; i < samples; ++i) csv += fmt::format("{:.2f},{:.1f}\n", 0.01 * i, 0.1 * (i % 7));
+  folder.write("real/rounded.csv", csv);
+  const auto check = check_of(folder, R"({
+   "none_recordings": 1, "recordings": 1,
+   "scenarios": {"rounded": {"noise": {"folder": "real", "files": ["rounded.csv"], "rounded_to_dps": 0.1},
+                             "effects": [{"effect": "quantization", "lsb_dps": 0.1}]}},
+   "cases": [{"effect": "start_up", "scenario": "rounded",
+              "strong": {"amplitude_dps": 0.025, "settling_time_s": 1000000}}]})");
+  const auto noise = read_recording(folder.path() / "real/rounded.csv").series;
+  for (const auto& c : drawn_cases(check)) {
+    const Series made = recorded(c, {1, 0});
+    double moved = 0.0;
+    for (int i = 0; i < samples; ++i) {
+      const double steps = (made.gyro_dps[i] - noise.gyro_dps[i]) / 0.1;
+      EXPECT_NEAR(steps, std::round(steps), 1e-9);
+      moved += std::round(steps);
+    }
+    const double share = c.effects.empty() ? 0.0 : 0.25;
+    EXPECT_NEAR(moved / samples, share, 4.0 * std::sqrt(share * (1.0 - share) / samples));
+  }
+}
+
 TEST(BlindCheck, KeepsToTheFolderOfItsOwnRecordings) {
   TestFolder folder;
   folder.write("check.json", check_json);
