@@ -1,4 +1,5 @@
-// node report.mjs <gyrostat> <folder>: the report as a reader meets it. Screenshots stay in the folder.
+// node report.mjs <gyrostat> <folder>: the report as a reader meets it. With GYROSTAT_SCREENSHOTS set, pictures of the
+// whole pages stay in the folder, which take a third of the time.
 import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync, rmSync, statSync, writeFileSync} from 'node:fs';
 import {dirname, join, resolve} from 'node:path';
@@ -7,6 +8,10 @@ import {browser, check, failures, open, readThrough} from './harness.mjs';
 
 const [program, folder] = process.argv.slice(2).map(p => resolve(p)), here = dirname(fileURLToPath(import.meta.url));
 const gyrostat = (...words) => execFileSync(program, words, {cwd: folder, stdio: ['ignore', 'pipe', 'pipe']}).toString();
+
+const photograph = async (page, name) => {
+  if (process.env.GYROSTAT_SCREENSHOTS) await page.screenshot({path: join(folder, name), fullPage: true});
+};
 
 const chrome = await browser();
 rmSync(folder, {recursive: true, force: true});
@@ -127,12 +132,12 @@ await page.locator('#cell-0-ecdf .tools button', {hasText: 'Numbers'}).click();
 // Light, dark, print, narrow, without script.
 const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
 const light = await paper();
-await page.screenshot({path: join(folder, 'light_1280.png'), fullPage: true});
+await photograph(page, 'light_1280.png');
 await page.locator('button.theme').click();
 const dark = await paper();
 check(light !== dark, 'the button changes light and dark');
 await page.waitForTimeout(100);
-await page.screenshot({path: join(folder, 'dark_1280.png'), fullPage: true});
+await photograph(page, 'dark_1280.png');
 await page.emulateMedia({media: 'print'});
 check(await page.locator('figure.picture.live .plot > svg').first().isVisible() && await paper() === light, 'print has pictures of lines, on white');
 await page.pdf({path: join(folder, 'print.pdf'), format: 'A4', printBackground: true});
@@ -142,13 +147,13 @@ const system = await open(chrome, file, {colorScheme: 'dark'});
 check(await system.page.evaluate(() => getComputedStyle(document.body).backgroundColor) === dark, 'the system\'s dark is followed');
 const still = await open(chrome, file, {javaScriptEnabled: false});
 check(await still.page.locator('figure.picture .plot > svg path').count() > 50, 'without script the pictures are there');
-await still.page.screenshot({path: join(folder, 'no_script.png'), fullPage: true});
+await photograph(still.page, 'no_script.png');
 
 for (const colorScheme of ['light', 'dark']) {
   const phone = await open(chrome, file, {viewport: {width: 375, height: 740}, colorScheme, deviceScaleFactor: 2, hasTouch: true});
   if (colorScheme === 'light') await readThrough(phone.page);  // it is as wide in the dark
   check(await phone.page.evaluate(() => document.documentElement.scrollWidth) <= 375, `375 px, ${colorScheme}: nothing stands out to the side`);
-  await phone.page.screenshot({path: join(folder, `${colorScheme}_375.png`), fullPage: true});
+  await photograph(phone.page, `${colorScheme}_375.png`);
   asked.push(...phone.asked), complaints.push(...phone.complaints);
 }
 
