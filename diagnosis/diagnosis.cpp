@@ -11,6 +11,7 @@
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 #include <gyrostat/diagnosis/model_fit.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
+#include <gyrostat/diagnosis/views.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -195,9 +196,7 @@ Diagnosis diagnose(const Series& recording, const DiagnosisOptions& options,
   if (recording.size() < fewest_samples)
     throw InputError("recording", fmt::format("{} samples; at least {} are needed for a diagnosis",
                                               recording.size(), fewest_samples));
-  const auto& z = recording.gyro_dps;
-  const auto first = std::find_if(z.begin(), z.end(), [](double v) { return !is_missing(v); });
-  if (std::all_of(first, z.end(), [&](double v) { return is_missing(v) || v == *first; }))
+  if (never_changes(recording.gyro_dps))
     throw InputError("recording", "gyro_dps never changes; there is nothing to diagnose");
   return Diagnosing(recording, options, progress, interrupt).run();
 }

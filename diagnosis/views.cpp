@@ -14,10 +14,19 @@ namespace {
 constexpr std::size_t stretches = 4, stretch = std::size_t{1} << 19;
 constexpr std::size_t most_means = std::size_t{1} << 20;
 
-std::size_t present_in(const Series& recording, std::size_t first) {
-  const auto from = recording.gyro_dps.begin() + static_cast<std::ptrdiff_t>(first);
-  return static_cast<std::size_t>(std::count_if(from, from + static_cast<std::ptrdiff_t>(stretch),
-                                                [](double value) { return !is_missing(value); }));
+/// How many samples of the stretch from there on tell something: those that are there, but for the
+/// longest run of one value, in which a gyro hangs.
+std::size_t telling_in(const Series& recording, std::size_t first) {
+  std::size_t present = 0, run = 0, longest = 0;
+  double last = no_value;
+  for (const double value : std::span(recording.gyro_dps.data() + first, stretch)) {
+    if (is_missing(value)) continue;
+    ++present;
+    run = value == last ? run + 1 : 1;
+    longest = std::max(longest, run);
+    last = value;
+  }
+  return present - longest;
 }
 
 /// The place nearest to the middle of [first, last) where a stretch is nearly whole, else where
@@ -26,11 +35,11 @@ std::size_t stretch_in(const Series& recording, std::size_t first, std::size_t l
   constexpr double nearly = 0.9;
   const std::size_t middle = first + (last - first - stretch) / 2;
   std::size_t best = middle, most = 0;
-  for (std::size_t away = 0; away <= middle - first; away += stretch)
+  for (std::size_t away = 0; away <= middle - first; away += stretch / 4)
     for (const std::size_t at : {middle - away, middle + away}) {
-      const std::size_t present = present_in(recording, at);
-      if (static_cast<double>(present) >= nearly * static_cast<double>(stretch)) return at;
-      if (present > most) most = present, best = at;
+      const std::size_t telling = telling_in(recording, at);
+      if (static_cast<double>(telling) >= nearly * static_cast<double>(stretch)) return at;
+      if (telling > most) most = telling, best = at;
     }
   return best;
 }
@@ -62,6 +71,13 @@ double mean_of_present(const double* values, const std::vector<double>& weights,
 }
 
 }  // namespace
+
+bool never_changes(std::span<const double> gyro_dps) {
+  const auto present = [](double value) { return !is_missing(value); };
+  const auto first = std::find_if(gyro_dps.begin(), gyro_dps.end(), present);
+  return std::all_of(first, gyro_dps.end(),
+                     [&](double value) { return is_missing(value) || value == *first; });
+}
 
 std::vector<View> views_of(const Series& recording) {
   const std::size_t samples = recording.size();

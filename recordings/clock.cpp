@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -21,6 +22,9 @@ constexpr double largest_drift = 2e-3;    // of the duration, off the even clock
 constexpr double bounded = 0.25;          // of what a random walk's scatter would be
 constexpr std::size_t most_ticks = std::size_t{1} << 27, fewest_samples_one_in = 500;
 
+/// The tick of every sample; they do not decrease.
+using Ticks = std::vector<std::uint32_t>;
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
@@ -33,7 +37,7 @@ struct Line {
 };
 
 /// A robust line through times over their ticks.
-Line robust_line(const std::vector<double>& t_s, const std::vector<std::size_t>& ticks) {
+Line robust_line(const std::vector<double>& t_s, const Ticks& ticks) {
   const std::size_t n = t_s.size(), third = n / 3, step = std::max<std::size_t>(1, n >> 20);
   const auto tick = [&](std::size_t i) {
     return static_cast<double>(ticks.empty() ? i : ticks[i]);
@@ -54,16 +58,16 @@ Line robust_line(const std::vector<double>& t_s, const std::vector<std::size_t>&
 }
 
 /// The tick of every sample where dropped samples are all that is uneven.
-std::optional<std::vector<std::size_t>> ticks_with_gaps(const std::vector<double>& t_s) {
+std::optional<Ticks> ticks_with_gaps(const std::vector<double>& t_s) {
   const double step = median_interval(t_s);
-  std::vector<std::size_t> ticks(t_s.size(), 0);
+  Ticks ticks(t_s.size(), 0);
   std::size_t off = 0;
   for (std::size_t i = 1; i < t_s.size(); ++i) {
     const double steps = (t_s[i] - t_s[i - 1]) / step;
     const double whole = std::max(1.0, std::round(steps));
     if (std::abs(steps - whole) > largest_fraction) ++off;
     if (off * one_in > t_s.size() || whole > static_cast<double>(most_ticks)) return std::nullopt;
-    ticks[i] = ticks[i - 1] + static_cast<std::size_t>(whole);
+    ticks[i] = ticks[i - 1] + static_cast<std::uint32_t>(whole);
     if (ticks[i] >= most_ticks) return std::nullopt;
   }
   return ticks;
@@ -85,43 +89,45 @@ bool is_continuous(const Channel& channel) {
          channel.values != &Series::t_s;
 }
 
-/// The means of the samples at each tick; what the sensor goes through is bridged where there is
-/// none. Ticks do not decrease.
-Series at_ticks(const Series& series, const std::vector<std::size_t>& ticks) {
-  Series even;
-  const std::size_t size = ticks.back() + 1;
-  for (const auto& channel : channels) {
-    const auto& from = series.*channel.values;
-    if (from.empty() || channel.values == &Series::t_s) continue;
-    auto& to = even.*channel.values;
-    to.assign(size, no_value);
-    for (std::size_t i = 0; i < from.size();) {
-      double sum = 0.0;
-      std::size_t count = 0, k = i;
-      for (; k < from.size() && ticks[k] == ticks[i]; ++k)
-        if (!std::isnan(from[k])) {
-          sum += from[k];
-          ++count;
-        }
-      if (count == 1 || (count > 0 && channel.values == &Series::heading_deg))
-        sum = from[k - 1];
-      else if (count > 0)
-        sum /= static_cast<double>(count);
-      if (channel.values == &Series::mag_valid && count > 0) sum = std::round(sum);
-      if (count > 0) to[ticks[i]] = sum;
-      i = k;
-    }
-    if (!is_continuous(channel)) continue;
-    for (std::size_t i = 1; i < ticks.size(); ++i) {
-      const double before = to[ticks[i - 1]], after = to[ticks[i]];
-      const auto gap = static_cast<double>(ticks[i] - ticks[i - 1]);
-      for (std::size_t k = ticks[i - 1] + 1; k < ticks[i]; ++k) {
-        const double share = static_cast<double>(k - ticks[i - 1]) / gap;
-        to[k] = channel.values == &Series::mag_valid ? before : before + share * (after - before);
+/// The mean of a channel's samples at each tick; what the sensor goes through is bridged where
+/// there is none.
+std::vector<double> at_ticks(const std::vector<double>& from, const Ticks& ticks,
+                             const Channel& channel) {
+  std::vector<double> to(ticks.back() + std::size_t{1}, no_value);
+  for (std::size_t i = 0; i < from.size();) {
+    double sum = 0.0;
+    std::size_t count = 0, k = i;
+    for (; k < from.size() && ticks[k] == ticks[i]; ++k)
+      if (!std::isnan(from[k])) {
+        sum += from[k];
+        ++count;
       }
+    if (count == 1 || (count > 0 && channel.values == &Series::heading_deg))
+      sum = from[k - 1];
+    else if (count > 0)
+      sum /= static_cast<double>(count);
+    if (channel.values == &Series::mag_valid && count > 0) sum = std::round(sum);
+    if (count > 0) to[ticks[i]] = sum;
+    i = k;
+  }
+  if (!is_continuous(channel)) return to;
+  for (std::size_t i = 1; i < ticks.size(); ++i) {
+    const double before = to[ticks[i - 1]], after = to[ticks[i]];
+    const auto gap = static_cast<double>(ticks[i] - ticks[i - 1]);
+    for (std::size_t k = ticks[i - 1] + std::size_t{1}; k < ticks[i]; ++k) {
+      const double share = static_cast<double>(k - ticks[i - 1]) / gap;
+      to[k] = channel.values == &Series::mag_valid ? before : before + share * (after - before);
     }
   }
-  return even;
+  return to;
+}
+
+/// Every channel but the times, which are lost: a long recording has no room for both clocks.
+void put_at_ticks(Series& series, const Ticks& ticks) {
+  series.t_s = {};
+  for (const auto& channel : channels)
+    if (auto& values = series.*channel.values; !values.empty())
+      values = at_ticks(values, ticks, channel);
 }
 
 void set_times(Series& series, std::size_t size, double first, double interval) {
@@ -133,27 +139,28 @@ double percent(std::size_t part, std::size_t whole) {
   return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-EvenRecording resampled(const Series& series, std::string_view place, double rate_hz) {
+EvenRecording resampled(Series series, std::string_view place, double rate_hz) {
   const std::size_t n = series.size();
   const double first = series.t_s.front();
   const double last_tick = std::round((series.t_s.back() - first) * rate_hz);
   if (last_tick >= static_cast<double>(most_ticks))
     throw InputError(place, fmt::format("--resample {:g}: {:.4g} samples; allowed: up to {}",
                                         rate_hz, last_tick + 1, most_ticks));
-  std::vector<std::size_t> ticks(n);
+  Ticks ticks(n);
   double square = 0.0;
   std::size_t filled = 0, shared = 0;
   for (std::size_t i = 0, with = 0; i < n; ++i) {
     const double at = (series.t_s[i] - first) * rate_hz;
-    ticks[i] = static_cast<std::size_t>(std::round(at));
+    ticks[i] = static_cast<std::uint32_t>(std::round(at));
     square += std::pow(at - std::round(at), 2) / static_cast<double>(n);
     const bool is_new = i == 0 || ticks[i] != ticks[i - 1];
     with = is_new ? 1 : with + 1;
     filled += is_new ? 1 : 0;
     shared += with == 2 ? 1 : 0;
   }
-  EvenRecording even{at_ticks(series, ticks), {}};
-  const std::size_t size = ticks.back() + 1;
+  const std::size_t size = ticks.back() + std::size_t{1};
+  put_at_ticks(series, ticks);
+  EvenRecording even{std::move(series), {}};
   set_times(even.series, size, first, 1.0 / rate_hz);
   even.note = fmt::format(
       "put on a clock of {:.6g} Hz: {:.2g} % of {} ticks have no sample, {:.2g} % the mean of "
@@ -218,15 +225,16 @@ EvenRecording evenly_sampled(Series series, std::string_view place, std::size_t 
                              double resample_hz) {
   const std::size_t n = series.size();
   if (n < 3) return {std::move(series), {}};
-  if (resample_hz > 0.0) return resampled(series, place, resample_hz);
+  if (resample_hz > 0.0) return resampled(std::move(series), place, resample_hz);
   if (is_even(series.t_s)) return {std::move(series), {}};
 
   if (const auto ticks = ticks_with_gaps(series.t_s)) {
-    const std::size_t size = ticks->back() + 1;
+    const std::size_t size = ticks->back() + std::size_t{1};
     const auto line = robust_line(series.t_s, *ticks);
     const double allowed = std::max(line.interval, largest_drift * series.duration_s());
     if (size / fewest_samples_one_in <= n && line.worst <= allowed) {
-      EvenRecording even{at_ticks(series, *ticks), {}};
+      put_at_ticks(series, *ticks);
+      EvenRecording even{std::move(series), {}};
       set_times(even.series, size, line.at_first, line.interval);
       even.note = fmt::format(
           "{} of {} samples at {:.6g} Hz are missing; times are off the even clock by {:.2g} ms "

@@ -18,7 +18,8 @@ namespace gyrostat {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
-constexpr std::size_t block_bytes = std::size_t{1} << 22, longest_line = std::size_t{1} << 24;
+constexpr std::size_t block_bytes = std::size_t{1} << 22, least_block = std::size_t{1} << 12,
+                      longest_line = std::size_t{1} << 24;
 constexpr std::size_t most_columns = 10'000;
 
 std::string_view trimmed(std::string_view text) {
@@ -134,6 +135,13 @@ bool is_no_number(std::string_view text) {
   return false;
 }
 
+/// A small file needs no block of four megabytes, which takes longer to clear than the file to
+/// read.
+std::size_t first_block(const InputFile& file) {
+  const auto bytes = file.size_hint() == 0 ? block_bytes : 2 * file.size_hint();
+  return static_cast<std::size_t>(std::clamp<std::uintmax_t>(bytes, least_block, block_bytes));
+}
+
 }  // namespace
 
 std::string read_text(const std::filesystem::path& path) {
@@ -153,7 +161,7 @@ std::string printable(std::string_view text) {
   return ascii;
 }
 
-LineBlocks::LineBlocks(InputFile& file) : file_(file), block_(block_bytes, '\0') {
+LineBlocks::LineBlocks(InputFile& file) : file_(file), block_(first_block(file), '\0') {
   const auto head = file.head();
   const auto zeros = [&](std::size_t from) {
     std::size_t count = 0;

@@ -1,6 +1,7 @@
 #include <gyrostat/analysis/statistics/all_pairs.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -13,6 +14,7 @@ namespace gyrostat {
 namespace {
 
 constexpr std::size_t draws = 20'000;
+constexpr std::size_t draws_at_once = 32;  ///< of which `draws` is a multiple
 constexpr std::size_t fewest_beyond = 50;  ///< draws, for a tail to be told by them
 constexpr double rounding = 1e-12;
 constexpr double too_alike = 1e-6;  ///< spreads beside the largest, for correlations to be told
@@ -70,20 +72,19 @@ double AllPairs::widest_error() const {
 }
 
 std::vector<double> AllPairs::largest() const {
-  struct Told {
-    Eigen::Index a, b;
-    double precision;
-  };
-  std::vector<Told> told;
+  const auto methods = static_cast<Eigen::Index>(methods_);
+  Eigen::ArrayXXd precision = Eigen::ArrayXXd::Zero(methods, methods);  // (b, a); 0: not told
+  std::size_t told = 0;
   double trials = 0.0;
   const double widest = widest_error();
   for (std::size_t a = 1; a < methods_; ++a)
     for (std::size_t b = 0; b < a; ++b)
       if (const double error = pair(a, b).error(); error > too_alike * widest) {
-        told.push_back({static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b), 1.0 / error});
+        precision(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(a)) = 1.0 / error;
+        ++told;
         trials = std::max(trials, static_cast<double>(pair(a, b).count));
       }
-  if (told.size() < 2) return {};
+  if (told < 2) return {};
 
   // Covariances of the methods' differences from the first, from the variances of all differences.
   const auto square = [&](std::size_t a, std::size_t b) {
@@ -105,20 +106,27 @@ std::vector<double> AllPairs::largest() const {
   const NormalStream stream(0, 0, "all pairs");
   const double freedom = trials - 1.0;
   std::vector<double> normals(methods_);
-  Eigen::VectorXd at = Eigen::VectorXd::Zero(others + 1);
-  for (std::size_t k = 0; k < draws; ++k) {
-    stream.fill(k * methods_, normals);
-    at.tail(others) = root * Eigen::Map<const Eigen::VectorXd>(normals.data(), others);
-    // Chi-squared over its degrees of freedom (Wilson and Hilferty, PNAS 17, 1931).
-    const double cube_root =
-        1.0 - 2.0 / (9.0 * freedom) + normals.back() * std::sqrt(2.0 / (9.0 * freedom));
-    const double spread = std::sqrt(std::max(1e-6, cube_root * cube_root * cube_root));
-    double largest = 0.0;
-    for (const auto& [a, b, precision] : told)
-      largest = std::max(
-          largest, std::abs(at[static_cast<Eigen::Index>(a)] - at[static_cast<Eigen::Index>(b)]) *
-                       precision);
-    most.push_back(largest / spread);
+  // Of several draws at once, as precisions fill a cache.
+  Eigen::MatrixXd at = Eigen::MatrixXd::Zero(methods, draws_at_once);
+  std::array<double, draws_at_once> spread{}, largest{};
+  for (std::size_t first = 0; first < draws; first += draws_at_once) {
+    for (std::size_t k = 0; k < draws_at_once; ++k) {
+      stream.fill((first + k) * methods_, normals);
+      at.col(static_cast<Eigen::Index>(k)).tail(others) =
+          root * Eigen::Map<const Eigen::VectorXd>(normals.data(), others);
+      // Chi-squared over its degrees of freedom (Wilson and Hilferty, PNAS 17, 1931).
+      const double cube_root =
+          1.0 - 2.0 / (9.0 * freedom) + normals.back() * std::sqrt(2.0 / (9.0 * freedom));
+      spread[k] = std::sqrt(std::max(1e-6, cube_root * cube_root * cube_root));
+    }
+    largest.fill(0.0);
+    for (Eigen::Index a = 1; a < methods; ++a)
+      for (std::size_t k = 0; k < draws_at_once; ++k) {
+        const auto values = at.col(static_cast<Eigen::Index>(k)).array();
+        const auto t = (values.head(a) - values(a)).abs() * precision.col(a).head(a);
+        largest[k] = std::max(largest[k], t.maxCoeff());
+      }
+    for (std::size_t k = 0; k < draws_at_once; ++k) most.push_back(largest[k] / spread[k]);
   }
   return most;
 }

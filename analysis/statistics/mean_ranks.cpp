@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include <boost/math/tools/roots.hpp>
 
@@ -64,7 +65,11 @@ double RankStatistics::mean_rank(std::size_t method) const {
 double RankStatistics::critical_difference() const {
   if (sums_.size() < 2 || count_ == 0) return no_value;
   const double k = static_cast<double>(sums_.size()), n = static_cast<double>(count_);
-  return studentised_range_quantile(0.95, sums_.size()) * std::sqrt(k * (k + 1.0) / (12.0 * n));
+  // A search for the quantile takes milliseconds, and all cells of a study have as many methods.
+  thread_local std::pair<std::size_t, double> last;
+  if (last.first != sums_.size())
+    last = {sums_.size(), studentised_range_quantile(0.95, sums_.size())};
+  return last.second * std::sqrt(k * (k + 1.0) / (12.0 * n));
 }
 
 double RankStatistics::friedman_p() const {

@@ -125,12 +125,22 @@ std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
   std::vector<gap::FleetMember> members;
   std::vector<Series> looked_at;
   for (const auto& view : views) {
-    looked_at.push_back(is_whole ? std::move(series) : gap::looked_at(series, view));
-    members.push_back(
-        {is_whole ? one.name : name_of(view, one.name, looked_at.back(), series.t_s.front()),
-         {},
-         view.mean_of});
+    if (is_whole) {
+      members.push_back({.name = one.name});
+      looked_at.push_back(std::move(series));
+      break;
+    }
+    auto part = gap::looked_at(series, view);
+    auto name = name_of(view, one.name, part, series.t_s.front());
+    if (gap::never_changes(part.gyro_dps)) {
+      console.log << fmt::format("{}: the gyro never changes; left out\n", name);
+      continue;
+    }
+    members.push_back({.name = std::move(name), .mean_of = view.mean_of});
+    looked_at.push_back(std::move(part));
   }
+  if (members.empty())
+    throw InputError(file, "gyro_dps never changes; there is nothing to diagnose");
   series = {};  // of a long one, a small part is left to hold
   for (std::size_t k = 0; k < members.size(); ++k) try {
       if (!is_whole) console.log << members[k].name << '\n';

@@ -17,7 +17,9 @@ ColumnTable read_message_log(const FormatSource& source, std::string_view magic)
   const WholeFile file(source);
   Reader reader{Unpacker(source.place)};
   try {
-    reader.read(Cursor(file.bytes().substr(magic.size())), false);
+    Cursor records(file.bytes());
+    records.bytes(magic.size());
+    reader.read(records, false);
   } catch (const CutOff&) {
     reader.log.cut_off();
   }

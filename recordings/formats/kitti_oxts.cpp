@@ -48,6 +48,9 @@ std::vector<double> times(const fs::path& file) {
 
 ColumnTable read(const FormatSource& source) {
   const auto folder = folder_of(source.path);
+  if (folder.empty())
+    throw InputError(source.place,
+                     "is no drive of KITTI; required: a folder with timestamps.txt and data");
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder / "data"))
     if (entry.path().extension() == ".txt") files.push_back(entry.path());

@@ -59,6 +59,20 @@ TEST(Views, StretchesLieWhereSamplesAre) {
     ASSERT_FALSE(is_missing(series.gyro_dps[i]));
 }
 
+/// A sensor that hangs from before the middle of a quarter to its end; and all the time.
+TEST(Views, StretchesLieWhereTheGyroChanges) {
+  auto series = of_samples(3 * most_samples_at_once);
+  const auto middle = views_of(series)[1];
+  for (std::size_t i = middle.first - 10; i < series.size() / 2; ++i) series.gyro_dps[i] = 0.25;
+  const auto beside = views_of(series)[1];
+  EXPECT_LE(beside.first + beside.count, middle.first);
+  EXPECT_FALSE(never_changes(looked_at(series, beside).gyro_dps));
+  series.gyro_dps.assign(series.size(), 0.25);
+  series.gyro_dps[7] = no_value;
+  EXPECT_EQ(views_of(series)[1].first, middle.first);
+  EXPECT_TRUE(never_changes(series.gyro_dps));
+}
+
 TEST(Views, MeansAreOfWhatIsThere) {
   Series series = of_samples(11);
   series.gyro_dps = {1, 2, no_value, 1, no_value, no_value, no_value, 5, 7, 7, 100};

@@ -191,6 +191,19 @@ TEST(Formats, AreKnownByContentAndReadInTheirUnits) {
   }
 }
 
+TEST(Formats, APresetRefusesAnyOtherFileInWords) {
+  const TestFolder folder;
+  for (const std::string contents : {"ab\n", "t_s,rate\n0,0.1\n0.1,0.2\n0.2,0.1\n"}) {
+    folder.write("rec.csv", contents);
+    for (const auto& format : format_types()) {
+      RecordingLayout layout;
+      layout.preset = format.id;
+      EXPECT_THROW(read_recording(folder.path() / "rec.csv", "z", layout), InputError)
+          << format.id << " of " << contents;
+    }
+  }
+}
+
 TEST(Formats, ASensorThatIsNoGyroIsNotTakenForOne) {
   const TestFolder folder;
   folder.write("Accelerometer.csv", "time,seconds_elapsed,z,y,x\n1,0.01,1,2,3\n2,0.02,1,2,3\n");

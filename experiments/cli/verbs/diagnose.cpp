@@ -178,7 +178,9 @@ int run(DiagnoseArguments& arguments, Console& console) {
     }
     std::move(some->begin(), some->end(), std::back_inserter(members));
   }
-  if (members.size() == 1) {
+  // Of a long recording, a stretch may be all that is left.
+  const bool is_whole = members.size() == 1 && members.front().name == all.front().name;
+  if (is_whole) {
     auto name = fs::path(file).filename().string();
     if (!axis.empty()) name += ", axis " + axis;
     write_one(arguments, members.front().diagnosis, name);

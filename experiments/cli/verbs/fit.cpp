@@ -1,4 +1,6 @@
+#include <array>
 #include <optional>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -33,7 +35,9 @@ int run(const FitArguments& arguments, Console& console) {
   for (const auto& name : arguments.methods) methods.push_back(fit_method_named(name, "--method"));
   arguments.picture.check(arguments.recording.file);
   if (!arguments.json.empty()) require_writable(arguments.json, arguments.recording.file);
-  const Series series = arguments.recording.read(console.log, arguments.span);
+  constexpr std::array<std::string_view, 5> wanted = {"gyro_dps", "rate_ref_dps", "temperature_C",
+                                                      "heading_deg", "mag_valid"};
+  const Series series = arguments.recording.read(console.log, arguments.span, wanted);
   constexpr std::size_t takes_seconds = 50'000;
   std::optional<PhaseProgress> progress;
   if (series.size() >= takes_seconds) progress.emplace(console.log, console.log_is_terminal, "fit");
