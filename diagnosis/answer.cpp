@@ -8,6 +8,7 @@
 
 #include <gyrostat/core/words.hpp>
 #include <gyrostat/diagnosis/diagnosis.hpp>
+#include <gyrostat/diagnosis/thresholds.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -52,6 +53,13 @@ std::string closeness(const Diagnosis& d) {
       100.0 * d.closed, 100.0 * d.closed_low, 100.0 * d.closed_high);
 }
 
+std::string what_is_left_in_words(const Diagnosis& d) {
+  return d.p_after < thresholds::p_of_the_unexplained
+             ? " It still misses the recording by more than chance: something else is there, "
+               "besides or instead."
+             : "";
+}
+
 }  // namespace
 
 std::string parameters_in_words(const Effect& effect) {
@@ -82,8 +90,8 @@ std::string answer(const Diagnosis& d) {
                        effects_in_words(d), with, closeness(d));
   }
   return fmt::format(
-      "To make recordings like this one, the simulator lacks {}. Given {}, it comes {}.",
-      effects_in_words(d), with, closeness(d));
+      "To make recordings like this one, the simulator lacks {}. Given {}, it comes {}.{}",
+      effects_in_words(d), with, closeness(d), what_is_left_in_words(d));
 }
 
 std::string remainder_in_words(const Diagnosis& d) {

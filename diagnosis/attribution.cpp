@@ -172,7 +172,7 @@ void Diagnosing::attribute() {
   for (const auto& rival : found_.rivals)
     if (probability_of(rival.log_odds) >= thresholds::member_probability)
       add(Verdict::cause(rival.effect));
-  if (open) add(Verdict::unknown());
+  if (open || result_.p_after < thresholds::p_of_the_unexplained) add(Verdict::unknown());
   for (const auto& effect : result_.effects) {
     const auto scenario = with_effects({effect.effect});
     result_.causes.push_back(

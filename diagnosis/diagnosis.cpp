@@ -152,7 +152,9 @@ void Diagnosing::look_ahead() {
   }
   const bool is_apart = first != nullptr && second != nullptr && first != second;
   if (!is_apart) {
-    if (second != nullptr || result_.verdict.is_unknown())
+    const auto& set = result_.verdict_set;
+    const bool may_be_unknown = std::find(set.begin(), set.end(), Verdict::unknown()) != set.end();
+    if (second != nullptr || may_be_unknown)
       result_.next = wider_recording(simulator_.conditions(), result_.duration_s,
                                      result_.causes.empty() ? "" : result_.causes.front().effect);
     return;

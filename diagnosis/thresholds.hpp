@@ -25,8 +25,8 @@ inline constexpr double deficit_of_a_miss = 4.0;
 /// So many times stricter than the significance of the gap is that of what is left of it. The
 /// causes were fitted, and their form is not exactly nature's; "unknown" is for more than that.
 inline constexpr double strictness_after = 0.05;
-/// Where what names leave would come about by chance less often than this, and is more than a form
-/// of nature's own, the verdict is unknown.
+/// Where what names leave would come about by chance less often than this, unknown is beside them,
+/// and first where it is more than a form of nature's own.
 inline constexpr double p_of_the_unexplained = 0.01;
 /// What a form of nature's own leaves, of what the set gained.
 inline constexpr double share_of_form = 0.01;

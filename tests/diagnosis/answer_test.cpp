@@ -61,6 +61,13 @@ TEST(Answer, SaysWhatNothingExplains) {
   EXPECT_EQ(answer(d), "The simulator already makes recordings like this one.");
 }
 
+TEST(Answer, SaysWhereNamesLeaveMoreThanChance) {
+  auto d = with_two_effects();
+  EXPECT_THAT(answer(d), Not(HasSubstr("besides or instead")));
+  d.p_after = 0.001;
+  EXPECT_THAT(answer(d), HasSubstr("still misses the recording by more than chance"));
+}
+
 TEST(Answer, NothingCloserIsNotCalledCloser) {
   auto d = with_two_effects();
   d.closed = -0.2;

@@ -172,6 +172,21 @@ TEST(Diagnosis, NamesNothingElseWhenTheCauseIsNotInTheCatalogue) {
   EXPECT_TRUE(d.verdict.is_unknown()) << d.verdict.text();
 }
 
+/// Whatever is named, a recording that it misses has `unknown` beside it, and something to record
+/// next.
+TEST(Diagnosis, ANameThatMissesTheRecordingIsNotAlone) {
+  Scenario s = still();
+  s.effects = {effects::NoiseAveraging{.length = 2.5}};
+  DiagnosisOptions options;
+  options.without = {"noise_averaging"};
+  const auto d = diagnose(recorded(s, 12, false), options);
+  const bool has_unknown = std::find(d.verdict_set.begin(), d.verdict_set.end(),
+                                     Verdict::unknown()) != d.verdict_set.end();
+  EXPECT_LT(d.p_after, 0.01);
+  EXPECT_TRUE(has_unknown);
+  EXPECT_FALSE(d.next.what.empty());
+}
+
 // The false-alarm rate aimed at is 5 %: three of ten would happen once in a hundred.
 TEST(Diagnosis, FindsNothingWhereThereIsNoGap) {
   int alarms = 0;
