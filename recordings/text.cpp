@@ -250,7 +250,7 @@ std::string_view LineBlocks::next() {
 CsvHeader take_header(std::string_view& csv, std::string_view place) {
   if (csv.starts_with("\xef\xbb\xbf")) csv.remove_prefix(3);
   CsvHeader header;
-  std::string_view comment;
+  std::string_view comment = "";
   for (; !csv.empty(); ++header.line) {
     auto rest = csv;
     const auto line = trimmed(take(rest, '\n'));
