@@ -18,7 +18,7 @@ namespace gyrostat {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
-constexpr std::size_t block_bytes = std::size_t{1} << 22, least_block = std::size_t{1} << 12,
+constexpr std::size_t block_bytes = std::size_t{1} << 22, small_block = std::size_t{1} << 16,
                       longest_line = std::size_t{1} << 24;
 constexpr std::size_t most_columns = 10'000;
 
@@ -136,10 +136,9 @@ bool is_no_number(std::string_view text) {
 }
 
 /// A small file needs no block of four megabytes, which takes longer to clear than the file to
-/// read.
+/// read. How large one is that comes by a pipe is not known.
 std::size_t first_block(const InputFile& file) {
-  const auto bytes = file.size_hint() == 0 ? block_bytes : 2 * file.size_hint();
-  return static_cast<std::size_t>(std::clamp<std::uintmax_t>(bytes, least_block, block_bytes));
+  return file.size_hint() > 0 && 2 * file.size_hint() < small_block ? small_block : block_bytes;
 }
 
 }  // namespace
