@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
+#include <gyrostat/core/held/held_interval.hpp>
 #include <gyrostat/core/packed/kernels.hpp>
 #include <gyrostat/core/track.hpp>
 
@@ -18,6 +20,21 @@ struct SampleColumns {
   const double* true_rate_dps = nullptr;
   const double* true_drift_dps = nullptr;
   std::size_t gyro_stride = 1, heading_stride = 1, truth_stride = 1;
+
+  /// From sample `k` on.
+  SampleColumns from(std::size_t k) const {
+    const auto moved = [k](const double* channel, std::size_t stride) {
+      return channel == nullptr ? nullptr : channel + k * stride;
+    };
+    SampleColumns columns = *this;
+    for (const double** shared : {&columns.t_s, &columns.temperature_C, &columns.mag_valid})
+      *shared = moved(*shared, 1);
+    columns.gyro_dps = moved(gyro_dps, gyro_stride);
+    columns.heading_deg = moved(heading_deg, heading_stride);
+    columns.true_rate_dps = moved(true_rate_dps, truth_stride);
+    columns.true_drift_dps = moved(true_drift_dps, truth_stride);
+    return columns;
+  }
 
   /// Sample `k` as a filter may see it: no heading where the compass is flagged as disturbed.
   Sample<double> at(std::size_t k) const {
@@ -42,6 +59,10 @@ class RunningFilter {
   virtual void run(const SampleColumns& in, const PackedSteps& out, std::size_t stride,
                    std::size_t samples) = 0;
   virtual LearnedParameters learned() const = 0;
+  /// Where it stands between two epochs, if it only holds there; the same answer throughout.
+  virtual std::optional<HeldInterval<double>> held() const = 0;
+  /// After samples that were taken in its stead, none of them an epoch.
+  virtual void resume(const HeldInterval<double>& held) = 0;
 };
 
 template <Filter F>
@@ -62,6 +83,16 @@ class RunningOf final : public RunningFilter {
     }
   }
   LearnedParameters learned() const override { return learned_by(filter_); }
+
+  std::optional<HeldInterval<double>> held() const override {
+    if constexpr (requires { filter_.held(); })
+      return filter_.held();
+    else
+      return std::nullopt;
+  }
+  void resume(const HeldInterval<double>& held) override {
+    if constexpr (requires { filter_.resume(held); }) filter_.resume(held);
+  }
 
  private:
   F filter_;

@@ -17,16 +17,16 @@ constexpr std::size_t most_means = std::size_t{1} << 20;
 /// How many samples of the stretch from there on tell something: those that are there, but for the
 /// longest run of one value, in which a gyro hangs.
 std::size_t telling_in(const Series& recording, std::size_t first) {
-  std::size_t present = 0, run = 0, longest = 0;
+  std::size_t present = 0, run = 0, longest_run = 0;
   double last = no_value;
   for (const double value : std::span(recording.gyro_dps.data() + first, stretch)) {
     if (is_missing(value)) continue;
     ++present;
     run = value == last ? run + 1 : 1;
-    longest = std::max(longest, run);
+    longest_run = std::max(longest_run, run);
     last = value;
   }
-  return present - longest;
+  return present - longest_run;
 }
 
 /// The place nearest to the middle of [first, last) where a stretch is nearly whole, else where

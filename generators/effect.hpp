@@ -20,6 +20,9 @@ struct EffectType : ParametricType {
   Stage stage;
   std::span<std::vector<double> Series::*const> needs;  ///< channels
   void (*apply)(const std::any& effect, Series& series, const Noise& noise) = nullptr;
+  /// Whether it changes each sample of the gyro by the channels of that sample alone, without
+  /// noise: then it may be given any samples, also those of several trials, in any order.
+  bool sample_by_sample = false;
   /// Tells its code from another under the same name; empty for code of the program itself.
   std::string code{};
 
@@ -44,6 +47,12 @@ class Effect : public Chosen<EffectType> {
   Stage stage() const { return type().stage; }
   /// Changes the series as the effect does, under the trial's noise.
   void apply(Series& series, const Noise& noise) const { type().apply(plugin(), series, noise); }
+};
+
+/// An effect says so by a static `sample_by_sample`.
+template <class E>
+inline constexpr bool acts_sample_by_sample = requires {
+  E::sample_by_sample;
 };
 
 /// The description of an effect under a name. A program that describes and adds one of its own has
@@ -82,7 +91,8 @@ EffectType describe_effect(std::string_view id) {
   return {describe_parametric<E>(id), E::stage, needs,
           [](const std::any& effect, Series& series, const Noise& noise) {
             std::any_cast<E>(&effect)->apply(series, noise);
-          }};
+          },
+          acts_sample_by_sample<E>};
 }
 
 }  // namespace gyrostat

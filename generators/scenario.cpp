@@ -59,14 +59,17 @@ void measure_rate(const Scenario& scenario, const Noise& noise, Series& series) 
   for (std::size_t i = 0; i < series.size(); ++i)
     series.gyro_dps[i] = series.rate_ref_dps[i] + series.thermal_bias_dps[i];
   add_noise(scenario, noise, series);
-  for (const auto stage : {Stage::noise, Stage::electronics, Stage::conversion, Stage::transport})
-    apply_stage(stage, scenario, noise, series);
+  for (const auto stage : stages_of_the_rate) apply_stage(stage, scenario, noise, series);
+}
+
+void turn(const Compass& compass, const Scenario& scenario, const Noise& noise, Series& series) {
+  compass.turn(series);
+  apply_stage(Stage::compass, scenario, noise, series);
 }
 
 void measure_heading(const Compass& compass, const Scenario& scenario, const Noise& noise,
                      Series& series) {
-  compass.turn(series);
-  apply_stage(Stage::compass, scenario, noise, series);
+  turn(compass, scenario, noise, series);
   compass.read(series, noise);
 }
 
@@ -128,6 +131,10 @@ void synthesise_conditions(const Scenario& scenario, const Noise& noise, Series&
            std::array{&Series::acc_x_mps2, &Series::acc_y_mps2, &Series::acc_z_mps2});
   apply_stage(Stage::environment, scenario, noise, series);
   drift(scenario, noise, series);
+}
+
+void turn_compass(const Scenario& scenario, const Noise& noise, Series& series) {
+  turn(scenario.compass, scenario, noise, series);
 }
 
 void synthesise(const Scenario& scenario, const Noise& noise, Series& series) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <gyrostat/generators/effect.hpp>
 #include <gyrostat/generators/environment/magnetic/compass.hpp>
 #include <gyrostat/generators/profile.hpp>
+#include <gyrostat/generators/stage.hpp>
 
 namespace gyrostat {
 
@@ -73,6 +75,14 @@ void synthesise(const Scenario& scenario, const Noise& noise, Series& series);
 /// What of it comes before any gyro or compass: its times, temperature, rates, acceleration and
 /// thermal drift.
 void synthesise_conditions(const Scenario& scenario, const Noise& noise, Series& series);
+
+/// And onto it what comes before the compass's noise: the heading as it turns, not wrapped, with
+/// the effects on it.
+void turn_compass(const Scenario& scenario, const Noise& noise, Series& series);
+
+/// The stages of what happens to a rate after its noise, in order.
+inline constexpr std::array stages_of_the_rate = {Stage::noise, Stage::electronics,
+                                                  Stage::conversion, Stage::transport};
 
 /// The errors of `scenario` under the conditions of a recording: its times, even or not,
 /// temperature, rates (about its own axis 0 where it has none), acceleration, mag_valid, and its

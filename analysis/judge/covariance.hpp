@@ -12,22 +12,18 @@ template <class T>
 class Covariance {
  public:
   void add(const T* bias_errors_dps, const double* variances, std::size_t samples) {
-    T squared[JudgedSteps::most];
-    T sum(0.0);
+    T sum(0.0), last(0.0), within_1 = within_1_, within_3 = within_3_;
     for (std::size_t k = 0; k < samples; ++k) {
-      squared[k] =
-          bias_errors_dps[k] * bias_errors_dps[k] * inverse(variances + k * Lanes<T>::count);
-      sum += squared[k];
+      const T squared = beside(bias_errors_dps[k], variances + k * Lanes<T>::count);
+      sum += squared;
+      within_1 += select(squared <= T(1.0), T(1.0), T(0.0));
+      within_3 += select(squared <= T(9.0), T(1.0), T(0.0));
+      last = squared;
     }
-    if (any(is_missing(sum))) return add_present(squared, samples);
-    T within_1 = within_1_, within_3 = within_3_;
-    for (std::size_t k = 0; k < samples; ++k) {
-      within_1 += select(squared[k] <= T(1.0), T(1.0), T(0.0));
-      within_3 += select(squared[k] <= T(9.0), T(1.0), T(0.0));
-    }
+    if (any(is_missing(sum))) return add_present(bias_errors_dps, variances, samples);
     within_1_ = within_1;
     within_3_ = within_3;
-    last_ = squared[samples - 1];
+    last_ = last;
     sum_ += sum;
     count_ += T(static_cast<double>(samples));
   }
@@ -48,16 +44,19 @@ class Covariance {
     return inverse_ = T(1.0) / now;
   }
 
-  void add_present(const T* squared, std::size_t samples) {
+  T beside(const T& error, const double* variance) { return error * error * inverse(variance); }
+
+  void add_present(const T* bias_errors_dps, const double* variances, std::size_t samples) {
     T sum(0.0);
     for (std::size_t k = 0; k < samples; ++k) {
-      const auto present = !is_missing(squared[k]);
+      const T squared = beside(bias_errors_dps[k], variances + k * Lanes<T>::count);
+      const auto present = !is_missing(squared);
       if (!any(present)) continue;
-      sum += select(present, squared[k], T(0.0));
+      sum += select(present, squared, T(0.0));
       count_ += select(present, T(1.0), T(0.0));
-      within_1_ += select(squared[k] <= T(1.0), T(1.0), T(0.0));
-      within_3_ += select(squared[k] <= T(9.0), T(1.0), T(0.0));
-      last_ = select(present, squared[k], last_);
+      within_1_ += select(squared <= T(1.0), T(1.0), T(0.0));
+      within_3_ += select(squared <= T(9.0), T(1.0), T(0.0));
+      last_ = select(present, squared, last_);
     }
     sum_ += sum;
   }

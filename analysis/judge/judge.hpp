@@ -12,7 +12,8 @@ namespace gyrostat::judge {
 
 /// Everything that metrics read of a track, from its steps as they come, on as many trials side by
 /// side as T holds: one pass, stretch by stretch. A lane has the bits that it would have alone.
-/// Each statistic is a loop of its own over the stretch, whose sums stay in registers.
+/// A loop over the stretch adds up a few sums that stay in registers: what they wait for is their
+/// own last addition, so that one sum alone would take as long.
 template <class T>
 class Judge {
   static constexpr int lanes = Lanes<T>::count;
@@ -22,25 +23,24 @@ class Judge {
     const auto at = [](const double* channel, std::size_t k) {
       return Lanes<T>::load(channel + k * lanes);
     };
-    T errors[JudgedSteps::most];
-    T sum(0.0);
+    T rate[JudgedSteps::most], bias[JudgedSteps::most];
+    T rates(0.0), biases(0.0);
     for (std::size_t k = 0; k < steps.samples; ++k) {
-      errors[k] = at(steps.gyro_dps, k) - at(steps.estimate_dps, k);
-      if (steps.true_rate_dps != nullptr) errors[k] = errors[k] - at(steps.true_rate_dps, k);
-      sum += errors[k];
+      const T estimate = at(steps.estimate_dps, k);
+      rate[k] = at(steps.gyro_dps, k) - estimate;
+      if (steps.true_rate_dps != nullptr) rate[k] = rate[k] - at(steps.true_rate_dps, k);
+      rates += rate[k];
+      if (!steps.has_truth()) continue;
+      bias[k] = estimate - at(steps.true_drift_dps, k) - at(steps.random_error_dps, k);
+      biases += bias[k];
     }
-    rate_.add(errors, steps.samples, sum);
-    heading_.add(errors, steps.t_s, steps.samples, any(is_missing(sum)));
     if (steps.has_truth()) {
-      sum = T(0.0);
-      for (std::size_t k = 0; k < steps.samples; ++k) {
-        errors[k] =
-            at(steps.estimate_dps, k) - at(steps.true_drift_dps, k) - at(steps.random_error_dps, k);
-        sum += errors[k];
-      }
-      bias_.add(errors, steps.samples, sum);
-      covariance_.add(errors, steps.estimate_variance, steps.samples);
+      Moments<T>::add(rate_, rate, rates, bias_, bias, biases, steps.samples);
+      covariance_.add(bias, steps.estimate_variance, steps.samples);
+    } else {
+      rate_.add(rate, steps.samples, rates);
     }
+    heading_.add(rate, steps.t_s, steps.samples, any(is_missing(rates)));
     innovations_.add(steps.innovation_dps, steps.innovation_variance, steps.samples);
     statuses_.add(steps.status, steps.t_s, steps.samples);
   }

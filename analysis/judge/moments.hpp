@@ -28,6 +28,24 @@ class Moments {
     merge(n, sum, mean, spread);
   }
 
+  /// Two of them in one loop.
+  static void add(Moments& a, const T* of_a, const T& sum_a, Moments& b, const T* of_b,
+                  const T& sum_b, std::size_t samples) {
+    if (any(is_missing(sum_a + sum_b))) {
+      a.add(of_a, samples, sum_a);
+      return b.add(of_b, samples, sum_b);
+    }
+    const T n(static_cast<double>(samples)), mean_a = sum_a / n, mean_b = sum_b / n;
+    T spread_a(0.0), spread_b(0.0);
+    for (std::size_t k = 0; k < samples; ++k) {
+      const T from_a = of_a[k] - mean_a, from_b = of_b[k] - mean_b;
+      spread_a += from_a * from_a;
+      spread_b += from_b * from_b;
+    }
+    a.merge(n, sum_a, mean_a, spread_a);
+    b.merge(n, sum_b, mean_b, spread_b);
+  }
+
   ErrorMoments of_lane(int lane) const {
     const double n = Lanes<T>::at(count_, lane);
     if (n == 0.0) return {};

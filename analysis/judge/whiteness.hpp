@@ -20,6 +20,7 @@ class Whiteness {
 
  public:
   void add(const double* innovations, const double* variances, std::size_t samples) {
+    if (all(is_missing(Lanes<T>::load(variances))) && all_missing(variances, samples)) return;
     T z[lags + JudgedSteps::most];
     for (std::size_t l = 0; l < lags; ++l) z[l] = before_[l];
     T finite(0.0);
@@ -54,6 +55,14 @@ class Whiteness {
   }
 
  private:
+  /// As of a method without innovations, or between two epochs of one that has few.
+  static bool all_missing(const double* variances, std::size_t samples) {
+    Mask<T> missing = true;
+    for (std::size_t k = 0; k < samples; ++k)
+      missing = missing && is_missing(Lanes<T>::load(variances + k * lanes));
+    return all(missing);
+  }
+
   /// Quantiles of the standard normal at 0.6, 0.7, 0.8 and 0.9.
   static constexpr double deciles[] = {0.25334710313579972, 0.52440051270804067,
                                        0.84162123357291429, 1.2815515655446004};

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include <gyrostat/core/held/held_interval.hpp>
 #include <gyrostat/core/numerics/linear.hpp>
 #include <gyrostat/core/step.hpp>
 
@@ -25,7 +26,7 @@ struct BiasEpoch {
 template <class T>
 class CompassAiding {
  public:
-  explicit CompassAiding(const T& update_interval_s) : interval_s_(update_interval_s) {}
+  explicit CompassAiding(const T& update_interval_s) : least_s_(update_interval_s - T(1e-6)) {}
 
   /// The epoch that this sample completes, if it does. The first sample is epoch 0, without a bias.
   std::optional<BiasEpoch<T>> observe(const Sample<T>& sample, const T& held_bias_dps) {
@@ -33,7 +34,7 @@ class CompassAiding {
     turned_deg_ += (sample.gyro_dps - held_bias_dps) * (sample.t_s - last_t_s_);
     last_t_s_ = sample.t_s;
     const T elapsed = sample.t_s - start_.t_s;
-    if (elapsed < interval_s_ - T(1e-6)) return std::nullopt;
+    if (elapsed < least_s_) return std::nullopt;
 
     BiasEpoch<T> epoch = begin_epoch(sample, elapsed);
     epoch.bias_dps = held_bias_dps -
@@ -41,6 +42,16 @@ class CompassAiding {
     start_ = sample;
     turned_deg_ = T(0.0);
     return epoch;
+  }
+
+  /// Between epochs it only integrates; without what is held meanwhile.
+  HeldInterval<T> held() const {
+    return {
+        .from_s = start_.t_s, .least_s = least_s_, .last_s = last_t_s_, .turned_deg = turned_deg_};
+  }
+  void resume(const HeldInterval<T>& held) {
+    last_t_s_ = held.last_s;
+    turned_deg_ = held.turned_deg;
   }
 
  private:
@@ -58,7 +69,7 @@ class CompassAiding {
     return {.regressors = {is_missing(temperature_C_) ? T(0.0) : temperature_C_, slope, T(1.0)}};
   }
 
-  T interval_s_;
+  T least_s_;
   Sample<T> start_;
   T last_t_s_{no_value};
   T temperature_C_{no_value};

@@ -51,6 +51,17 @@ class ThermalCompensator {
 
   const Rule& rule() const { return rule_; }
 
+  /// None where samples between epochs do more than hold.
+  std::optional<HeldInterval<T>> held() const {
+    if (follows_) return std::nullopt;
+    auto held = aiding_.held();
+    held.compensated_dps = at_epoch_dps_;
+    held.estimate_dps = held_.estimate_dps;
+    held.estimate_variance = held_.estimate_variance;
+    return held;
+  }
+  void resume(const HeldInterval<T>& held) { aiding_.resume(held); }
+
  private:
   /// Whether the rule learnt from the epoch.
   bool learn(const BiasEpoch<T>& epoch, Step<T>& step) {

@@ -5,13 +5,24 @@
 
 #include <benchmark/benchmark.h>
 
+#include <gyrostat/analysis/judge/judge.hpp>
 #include <gyrostat/analysis/judge/kernels.hpp>
 #include <gyrostat/core/filter_type.hpp>
+#include <gyrostat/core/held/kernels.hpp>
 #include <gyrostat/core/packed/normals.hpp>
+#include <gyrostat/experiments/benchmarks/counted.hpp>
 #include <gyrostat/experiments/run/runner.hpp>
 #include <gyrostat/experiments/run/stretch.hpp>
 
 namespace gyrostat {
+
+template <>
+struct Lanes<Counted> : Lanes<double> {
+  static Counted load(const double* from) { return *from; }
+  static void store(const Counted& value, double* to) { *to = value.value; }
+  static double at(const Counted& value, int /*lane*/) { return value.value; }
+};
+
 namespace {
 
 constexpr std::size_t samples = 6000;
@@ -63,7 +74,17 @@ void packed(benchmark::State& state, const PackedFilter& kernel) {
   per(state, "s_per_trial_step", static_cast<double>(samples * lanes));
 }
 
-/// All metrics, of steps whose variances change (1) or have settled (0).
+/// Operations of a step of one trial, comparisons and selects left out.
+double operations_of_judge(const JudgedSteps& steps) {
+  judge::Judge<Counted> judge;
+  judge.add(steps);  // the first stretch has no variance to compare with
+  Counted::operations = 0;
+  judge.add(steps);
+  return static_cast<double>(Counted::operations) / static_cast<double>(steps.samples);
+}
+
+/// All metrics, of steps whose variances change (1) or have settled (0), or of a stretch without
+/// innovations (2).
 void judge(benchmark::State& state, const JudgeKernel& kernel) {
   const auto lanes = static_cast<std::size_t>(kernel.lanes);
   PackMemory memory, inputs;
@@ -85,7 +106,26 @@ void judge(benchmark::State& state, const JudgeKernel& kernel) {
                           at + 7 * each,     at + 8 * each,
                           at + 9 * each};
   kernel.start(memory.bytes(kernel.bytes));
+  if (state.range(0) == 2) {  // between epochs
+    std::fill_n(at + 7 * each, 2 * each, no_value);
+    std::fill_n(at + 9 * each, each, static_cast<double>(Status::no_measurement));
+  }
   for (auto _ : state) kernel.add(memory.bytes(), steps);
+  per(state, "s_per_trial_step", static_cast<double>(each));
+  state.counters["operations_per_step"] = operations_of_judge(steps);
+}
+
+/// What thermal methods do between epochs: five operations, two loads and five stores a step.
+void hold(benchmark::State& state, const HoldKernel& kernel) {
+  const auto lanes = static_cast<std::size_t>(kernel.lanes), each = lanes * JudgedSteps::most;
+  PackMemory memory;
+  double* held = memory.doubles(held_numbers * lanes + 2 * each);
+  std::fill_n(held, held_numbers * lanes, 0.0);
+  std::fill_n(held + lanes, lanes, 1e300);  // never due
+  Steps steps(kernel.lanes);
+  double* t_s = held + held_numbers * lanes;
+  std::fill_n(t_s, 2 * each, 1.0);
+  for (auto _ : state) kernel.run(held, t_s, t_s + each, steps.to, JudgedSteps::most);
   per(state, "s_per_trial_step", static_cast<double>(each));
 }
 
@@ -190,7 +230,11 @@ const bool registered = [] {
       RegisterBenchmark(("judge/" + std::to_string(lanes)).c_str(), judge, *kernel)
           ->Arg(0)
           ->Arg(1)
+          ->Arg(2)
           ->ArgName("changing");
+  for (const int lanes : {2, 4, 8, 16})
+    if (const auto* kernel = hold_kernel(lanes))
+      RegisterBenchmark(("hold/" + std::to_string(lanes)).c_str(), hold, *kernel);
   for (const auto& [name, of] : {std::pair{"study", &study}, std::pair{"thermal", &thermal}})
     for (const auto& [threads, lanes] : {std::pair{1, 1}, {1, 2}, {1, 4}, {1, 8}, {2, 1}, {2, 8}})
       RegisterBenchmark(name, of)

@@ -8,6 +8,7 @@
 #include <gyrostat/core/filters/list.hpp>
 #include <gyrostat/core/packed/kernels.hpp>
 #include <gyrostat/core/packed/target.hpp>
+#include <gyrostat/core/running_filter.hpp>
 #include <gyrostat/experiments/benchmarks/counted.hpp>
 #include <gyrostat/experiments/benchmarks/eigen_sr_ukf.hpp>
 #include <gyrostat/experiments/benchmarks/peak.hpp>
@@ -89,7 +90,8 @@ void one_trial(benchmark::State& state) {
   state.counters["operations_per_step"] = operations_per_step<OnCounted>(series);
   Track track;
   for (auto _ : state) {
-    run_filter(F{typename F::Parameters{}}, series, track);
+    RunningOf<F> filter(F{typename F::Parameters{}});
+    run_to_the_end(filter, series, track);
     benchmark::ClobberMemory();
   }
   per(state, "s_per_trial_step", samples);

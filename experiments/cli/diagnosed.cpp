@@ -126,7 +126,7 @@ std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
   std::vector<Series> looked_at;
   for (const auto& view : views) {
     if (is_whole) {
-      members.push_back({.name = one.name});
+      members.push_back({.name = one.name, .diagnosis = {}});
       looked_at.push_back(std::move(series));
       break;
     }
@@ -136,7 +136,7 @@ std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
       console.log << fmt::format("{}: the gyro never changes; left out\n", name);
       continue;
     }
-    members.push_back({.name = std::move(name), .mean_of = view.mean_of});
+    members.push_back({.name = std::move(name), .diagnosis = {}, .mean_of = view.mean_of});
     looked_at.push_back(std::move(part));
   }
   if (members.empty())

@@ -6,6 +6,7 @@
 
 #include <gyrostat/analysis/errors.hpp>
 #include <gyrostat/analysis/judge/kernels.hpp>
+#include <gyrostat/core/held/kernels.hpp>
 #include <gyrostat/core/packed/kernels.hpp>
 #include <gyrostat/experiments/run/stretch.hpp>
 #include <gyrostat/experiments/study/study.hpp>
@@ -21,7 +22,8 @@ class MethodInLanes {
   /// By its kernel; `told` is by trial.
   MethodInLanes(const Method& method, const PackedFilter& kernel,
                 std::span<const ParameterMap> told);
-  /// One trial after the other, stretch by stretch, where its type can start so.
+  /// Stretch by stretch, where its type can start so: side by side where it only holds its estimate
+  /// between epochs, else one trial after the other.
   MethodInLanes(const Method& method, std::span<const ParameterMap> told, int lanes);
   /// By tracks that it has made already, one a trial.
   MethodInLanes(std::span<const Track* const> tracks, int lanes);
@@ -33,7 +35,10 @@ class MethodInLanes {
 
  private:
   void start_judge();
-  void run_one_by_one(const Stretch& stretch);
+  void hold_in_lanes(const Stretch& stretch);
+  void run_one_by_one(const Stretch& stretch, std::size_t first, std::size_t samples);
+  void load_held(std::size_t l);
+  void put_back_held(std::size_t l);
   void copy_steps(const Stretch& stretch) const;
 
   const PackedFilter* kernel_ = nullptr;
@@ -41,7 +46,8 @@ class MethodInLanes {
   std::size_t trials_;
   std::vector<std::unique_ptr<RunningFilter>> running_;
   std::span<const Track* const> tracks_{};
-  PackMemory filter_state_, judge_state_;
+  const HoldKernel* hold_ = nullptr;
+  PackMemory filter_state_, judge_state_;  ///< where trials hold side by side, the former is theirs
   std::vector<LearnedParameters> learned_first_;
 };
 

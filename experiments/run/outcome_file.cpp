@@ -1,5 +1,7 @@
 #include <gyrostat/experiments/run/outcome_file.hpp>
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <iterator>
 
@@ -17,6 +19,17 @@ namespace {
 /// As RFC 4180 has it; names have no quotes.
 std::string quoted(const std::string& name) {
   return name.find(',') == std::string::npos ? name : '"' + name + '"';
+}
+
+/// A comma and, unless it is missing, the value with 17 significant digits: the bytes of printf's
+/// %.17g in a third of the time that fmt takes.
+void append_number(std::string& text, double value) {
+  text += ',';
+  if (std::isnan(value)) return;
+  std::array<char, 32> digits{};
+  const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                     std::chars_format::general, 17);
+  text.append(digits.data(), written.ptr);
 }
 
 }  // namespace
@@ -49,10 +62,9 @@ void export_outcomes(const Store& store, const TextSink& sink) {
     store.for_each_trial(c, cell.trials, [&](const Store::TrialView& trial) {
       auto value = trial.outcomes.begin();
       for (const auto& method : cell.methods) {
-        auto out = fmt::format_to(std::back_inserter(text), "{},{},{}", name, trial.trial, method);
+        fmt::format_to(std::back_inserter(text), "{},{},{}", name, trial.trial, method);
         for (std::size_t i = 0; i < manifest.columns.size(); ++i, ++value)
-          out = std::isnan(*value) ? fmt::format_to(out, ",")
-                                   : fmt::format_to(out, ",{:.17g}", *value);
+          append_number(text, *value);
         text += '\n';
       }
       if (text.size() < piece) return;

@@ -83,11 +83,13 @@ void Stretch::make() {
   made.gyro(first_, steps_.samples, channel(1), channel(5));
   steps_.gyro_dps = seen_.gyro_dps = channel(1);
   steps_.random_error_dps = channel(5);
-  if (heading_) made.heading(first_, steps_.samples, channel(6));
+  heading_made_ = false;
 }
 
 SampleColumns Stretch::seen_by(std::size_t l) const {
   if (made_in_lanes_ == nullptr) return columns_of(*signals_[l].series, first_);
+  if (heading_ && !heading_made_) made_in_lanes_->heading(first_, steps_.samples, channel(6));
+  heading_made_ = true;
   auto columns = columns_of(made_in_lanes_->conditions(), first_);
   columns.gyro_dps = seen_.gyro_dps + l;
   columns.heading_deg = heading_ ? channel(6) + l : nullptr;

@@ -76,6 +76,7 @@ class Stretch {
   std::span<const TrialSignal> signals_{};
   SignalInLanes* made_in_lanes_ = nullptr;
   bool heading_ = false, still_ = false;
+  mutable bool heading_made_ = false;  ///< of this stretch: only epochs look at it
   int lanes_;
   std::size_t first_ = 0, filled_ = 0;
   PackMemory memory_;

@@ -9,6 +9,7 @@
 #include <gyrostat/analysis/spectra/shrinkage.hpp>
 #include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/core/packed/kernels.hpp>
+#include <gyrostat/core/packed/target.hpp>
 #include <gyrostat/experiments/run/method_in_lanes.hpp>
 #include <gyrostat/experiments/run/stretch.hpp>
 #include <gyrostat/experiments/study/fleet.hpp>
@@ -135,7 +136,8 @@ void track_trial(const Cell& cell, const Method& method, const Calibration& shar
 }
 
 std::uint32_t default_lanes() {
-  return static_cast<std::uint32_t>(available_kernels().back()->width);
+  const int width = available_kernels().back()->width;
+  return static_cast<std::uint32_t>(width < targets::Avx512::width ? width : 2 * width);
 }
 
 namespace {

@@ -77,14 +77,15 @@ Calibration calibrate_cell(const Cell& cell, const Noise& trial, Series& buffer)
 void track_trial(const Cell& cell, const Method& method, const Calibration& shared,
                  const Noise& trial, Workspace& workspace);
 
-/// Trials that this machine runs best side by side: as many as its widest registers hold.
+/// Trials that this machine runs best side by side, as measured: as many as its widest registers
+/// hold, and twice as many in AVX-512, which has registers enough to fill what a filter waits for.
 std::uint32_t default_lanes();
 
 /// The record of a trial that no method could run in.
 Record thrown_record(const Cell& cell, const std::string& thrown);
 
 /// The numbers of trials that may run side by side.
-inline constexpr std::array<std::uint32_t, 4> possible_lanes = {1, 2, 4, 8};
+inline constexpr std::array<std::uint32_t, 5> possible_lanes = {1, 2, 4, 8, 16};
 
 /// Trials of a cell side by side, each with the bits that it has alone: filters that pack trials
 /// run over all of them at once, where there are kernels for so many and all signals are as long.

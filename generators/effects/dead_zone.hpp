@@ -20,6 +20,7 @@ struct DeadZone {
 
   static constexpr std::string_view title = "small rates are not sensed";
   static constexpr Stage stage = Stage::electronics;
+  static constexpr bool sample_by_sample = true;
   static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps};
 
   static constexpr auto fields() {

@@ -18,6 +18,7 @@ struct GSensitivity {
 
   static constexpr std::string_view title = "the bias depends on acceleration";
   static constexpr Stage stage = Stage::electronics;
+  static constexpr bool sample_by_sample = true;
   static constexpr std::array needs = {&Series::gyro_dps, &Series::acc_x_mps2, &Series::acc_y_mps2,
                                        &Series::acc_z_mps2};
 

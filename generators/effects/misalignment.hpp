@@ -19,6 +19,7 @@ struct Misalignment {
 
   static constexpr std::string_view title = "the gyro shows a share of the other axes' rates";
   static constexpr Stage stage = Stage::electronics;
+  static constexpr bool sample_by_sample = true;
   static constexpr std::array needs = {&Series::gyro_dps, &Series::cross_rate_1_dps,
                                        &Series::cross_rate_2_dps};
 

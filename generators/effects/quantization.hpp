@@ -18,6 +18,7 @@ struct Quantization {
 
   static constexpr std::string_view title = "values lie on a grid";
   static constexpr Stage stage = Stage::conversion;
+  static constexpr bool sample_by_sample = true;
   static constexpr std::array needs = {&Series::gyro_dps};
 
   static constexpr auto fields() {

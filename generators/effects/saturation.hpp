@@ -16,6 +16,7 @@ struct Saturation {
 
   static constexpr std::string_view title = "the output is clipped";
   static constexpr Stage stage = Stage::conversion;
+  static constexpr bool sample_by_sample = true;
   static constexpr std::array needs = {&Series::gyro_dps};
 
   static constexpr auto fields() {

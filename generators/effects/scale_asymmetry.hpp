@@ -17,6 +17,7 @@ struct ScaleAsymmetry {
 
   static constexpr std::string_view title = "the two directions are scaled differently";
   static constexpr Stage stage = Stage::electronics;
+  static constexpr bool sample_by_sample = true;
   static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps};
 
   static constexpr auto fields() {

@@ -16,6 +16,7 @@ struct ScaleFactor {
 
   static constexpr std::string_view title = "the rate is scaled";
   static constexpr Stage stage = Stage::electronics;
+  static constexpr bool sample_by_sample = true;
   static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps};
 
   static constexpr auto fields() {

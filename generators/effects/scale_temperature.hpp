@@ -19,6 +19,7 @@ struct ScaleTemperature {
 
   static constexpr std::string_view title = "the scale factor depends on temperature";
   static constexpr Stage stage = Stage::electronics;
+  static constexpr bool sample_by_sample = true;
   static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps,
                                        &Series::temperature_C};
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <tuple>
 
 #include <gyrostat/generators/random_error.hpp>
 
@@ -18,28 +19,43 @@ bool same_bits(const Series& a, const Series& b) {
   });
 }
 
+/// An effect on the compass that needs what differs between trials, or may: code of others.
+bool looks_at_the_rate(const Effect& effect) {
+  const auto& [needs, code] = std::tie(effect.type().needs, effect.type().code);
+  return effect.stage() == Stage::compass &&
+         (!code.empty() || std::find(needs.begin(), needs.end(), &Series::gyro_dps) != needs.end());
+}
+
+/// All that comes before the noise of gyro and compass.
+void make_shared(const Scenario& scenario, const Noise& noise, Series& series) {
+  synthesise_conditions(scenario, noise, series);
+  turn_compass(scenario, noise, series);
+}
+
 }  // namespace
 
 std::optional<SharedConditions> shared_conditions(const Scenario& scenario) {
   if (scenario.recorded_noise_dps) return std::nullopt;
-  const bool acts_later =
-      std::any_of(scenario.effects.begin(), scenario.effects.end(), [](const Effect& effect) {
-        return effect.stage() != Stage::environment && effect.stage() != Stage::sensing;
-      });
-  if (acts_later) return std::nullopt;
   SharedConditions shared;
+  for (const auto stage : stages_of_the_rate)
+    for (const auto& effect : scenario.effects)
+      if (effect.stage() == stage) shared.on_gyro.push_back(effect);
+  if (!std::all_of(shared.on_gyro.begin(), shared.on_gyro.end(),
+                   [](const Effect& effect) { return effect.type().sample_by_sample; }))
+    return std::nullopt;
+  if (std::any_of(scenario.effects.begin(), scenario.effects.end(), looks_at_the_rate))
+    return std::nullopt;
   auto& series = shared.series;
   NoiseTape tape;
-  synthesise_conditions(scenario, {.seed = 1, .trial = 0, .tape = &tape}, series);
+  make_shared(scenario, {.seed = 1, .trial = 0, .tape = &tape}, series);
   if (!tape.empty()) return std::nullopt;
   if (!scenario.effects.empty()) {  // one might look at the trial's number itself
     Series other;
-    synthesise_conditions(scenario, {.seed = 2, .trial = 1}, other);
+    make_shared(scenario, {.seed = 2, .trial = 1}, other);
     if (!same_bits(series, other)) return std::nullopt;
   }
   for (std::size_t i = 0; i < series.size(); ++i)
     shared.steady_dps.push_back(series.rate_ref_dps[i] + series.thermal_bias_dps[i]);
-  scenario.compass.turn(series);
   series.mag_valid = scenario.compass.valid(series.t_s);
   return shared;
 }
@@ -82,6 +98,23 @@ void SignalInLanes::gyro(std::size_t first, std::size_t samples, double* gyro_dp
                          double* random_error_dps) {
   kernel_.gyro(gyro_, first, samples, conditions_.steady_dps.data() + first, gyro_dps,
                random_error_dps);
+  if (!conditions_.on_gyro.empty()) apply_effects(first, samples, gyro_dps);
+}
+
+void SignalInLanes::apply_effects(std::size_t first, std::size_t samples, double* gyro_dps) {
+  const std::size_t all = samples * static_cast<std::size_t>(kernel_.lanes);
+  const auto make = [&](std::vector<double> Series::*channel) {
+    const auto& from = conditions_.series.*channel;
+    if (channel == &Series::gyro_dps || from.empty()) return;
+    (stretch_.*channel).resize(all);
+    spread(from, first, samples, (stretch_.*channel).data());
+  };
+  make(&Series::t_s);
+  for (const auto& effect : conditions_.on_gyro)
+    for (const auto channel : effect.type().needs) make(channel);
+  stretch_.gyro_dps.assign(gyro_dps, gyro_dps + all);
+  for (const auto& effect : conditions_.on_gyro) effect.apply(stretch_, {});
+  std::copy(stretch_.gyro_dps.begin(), stretch_.gyro_dps.end(), gyro_dps);
 }
 
 void SignalInLanes::heading(std::size_t first, std::size_t samples, double* heading_deg) const {

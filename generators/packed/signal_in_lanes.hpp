@@ -12,12 +12,13 @@
 namespace gyrostat {
 
 /// What all trials of a scenario have in common where they differ in the noise of gyro and compass
-/// alone: times, temperature, rates, drift, the true heading (not wrapped) and mag_valid. None
-/// where an effect acts on the gyro, or on the compass, or where one before them depends on the
-/// trial.
+/// alone: times, temperature, rates, drift, the heading before its noise (not wrapped) and
+/// mag_valid. None where an effect on them depends on the trial, or one on the gyro does not go
+/// sample by sample.
 struct SharedConditions {
   Series series;
   std::vector<double> steady_dps;  ///< rate and drift
+  std::vector<Effect> on_gyro;     ///< sample by sample, in the order in which they act
 };
 
 std::optional<SharedConditions> shared_conditions(const Scenario& scenario);
@@ -45,7 +46,10 @@ class SignalInLanes {
   }
 
  private:
+  void apply_effects(std::size_t first, std::size_t samples, double* gyro_dps);
+
   const SharedConditions& conditions_;
+  Series stretch_;  ///< of all lanes, as effects on the gyro see it
   const SignalKernel& kernel_;
   std::vector<std::uint32_t> trials_;
   std::vector<double> first_difference_dps_, state_;

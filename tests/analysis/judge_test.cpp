@@ -64,6 +64,20 @@ Trial trial_of(int l) {
   return made;
 }
 
+/// An innovation now and then, as thermal methods have them, and none for whole stretches.
+bool has_innovation(std::size_t i) { return i / 100 % 2 == 0 && i % 5 == 0; }
+
+Trial rarely_updated(int l) {
+  Trial made = trial_of(l == 6 ? l : 0);
+  NormalStream(6, static_cast<std::uint32_t>(l), "innovation").fill(0, made.track.innovation_dps);
+  for (std::size_t i = 0; i < samples; ++i) {
+    if (has_innovation(i)) continue;
+    made.track.innovation_dps[i] = made.track.innovation_variance[i] = no_value;
+    if (made.track.status[i] == Status::ok) made.track.status[i] = Status::no_measurement;
+  }
+  return made;
+}
+
 std::vector<double> numbers_in(const TrackErrors& e) {
   std::vector<double> numbers;
   for (const auto* moments : {&e.rate, &e.bias})
@@ -82,7 +96,7 @@ std::vector<double> numbers_in(const TrackErrors& e) {
 }
 
 /// All trials by the kernel for so many lanes.
-std::vector<TrackErrors> judged_in_lanes(const JudgeKernel& kernel) {
+std::vector<TrackErrors> judged_in_lanes(const JudgeKernel& kernel, Trial (*trial_of)(int)) {
   const auto lanes = static_cast<std::size_t>(kernel.lanes);
   std::vector<std::vector<double>> channels(10, std::vector<double>(samples * lanes));
   std::vector<Trial> all;
@@ -116,12 +130,12 @@ std::vector<TrackErrors> judged_in_lanes(const JudgeKernel& kernel) {
   return errors;
 }
 
-TEST(Judge, ALaneHasTheBitsThatItHasAlone) {
+void expect_the_bits_of_one_alone(Trial (*trial_of)(int)) {
   int compared = 0;
   for (const int lanes : {2, 4, 8, 16}) {
     const auto* kernel = judge_kernel(lanes);
     if (kernel == nullptr) continue;
-    const auto together = judged_in_lanes(*kernel);
+    const auto together = judged_in_lanes(*kernel, trial_of);
     for (int l = 0; l < lanes; ++l) {
       const Trial alone = trial_of(l);
       const auto expected = numbers_in(track_errors(alone.series, alone.track));
@@ -134,6 +148,35 @@ TEST(Judge, ALaneHasTheBitsThatItHasAlone) {
     }
   }
   EXPECT_GE(compared, 2 * 37);
+}
+
+TEST(Judge, ALaneHasTheBitsThatItHasAlone) {
+  expect_the_bits_of_one_alone(&trial_of);
+  expect_the_bits_of_one_alone(&rarely_updated);
+}
+
+/// Steps without an innovation are as if they had not been there.
+TEST(Judge, RareInnovationsAreJudgedAsIfTheyFollowedEachOther) {
+  const auto [series, track] = rarely_updated(3);
+  Trial dense;
+  for (std::size_t i = 0; i < samples; ++i) {
+    if (!has_innovation(i)) continue;
+    const std::size_t k = dense.series.size();
+    dense.track.resize(k + 1);
+    dense.series.t_s.push_back(series.t_s[i]);
+    dense.series.gyro_dps.push_back(series.gyro_dps[i]);
+    dense.track.innovation_dps[k] = track.innovation_dps[i];
+    dense.track.innovation_variance[k] = track.innovation_variance[i];
+  }
+  const auto rare = track_errors(series, track), all = track_errors(dense.series, dense.track);
+  EXPECT_EQ(rare.innovations.count, 100U);
+  EXPECT_EQ(rare.innovations.nis, all.innovations.nis);
+  EXPECT_EQ(rare.innovations.log_score, all.innovations.log_score);
+  EXPECT_EQ(rare.innovations.lag_1, all.innovations.lag_1);
+  EXPECT_EQ(rare.innovations.ljung_box, all.innovations.ljung_box);
+  EXPECT_EQ(rare.innovations.pit, all.innovations.pit);
+  EXPECT_EQ(rare.steps[0], 100.0);
+  EXPECT_EQ(rare.steps[1], 900.0);
 }
 
 /// Two passes over `values`, NaN left out.

@@ -144,6 +144,27 @@ TEST_P(EffectContract, AbsentItChangesNothing) {
   EXPECT_TRUE(same_bits(with({absent}), with({})));
 }
 
+/// What acts sample by sample may be given samples from anywhere, in any order, of any trials: here
+/// backwards, each twice.
+TEST_P(EffectContract, SampleBySampleItDoesNotMatterWhereTheyStand) {
+  const Effect& effect = it().effect;
+  if (!effect.type().sample_by_sample) GTEST_SKIP() << "it does not say so";
+  EXPECT_GE(effect.stage(), Stage::noise);
+  EXPECT_NE(effect.stage(), Stage::compass);
+  const auto rearranged = [](const Series& series) {
+    Series to;
+    for (const auto& channel : channels) {
+      const auto& from = series.*channel.values;
+      for (std::size_t i = from.size(); i-- > 0;)
+        (to.*channel.values).insert((to.*channel.values).end(), 2, from[i]);
+    }
+    return to;
+  };
+  const Series once = applied(effect, plain());
+  EXPECT_FALSE(same_bits(once.gyro_dps, plain().gyro_dps));
+  EXPECT_TRUE(same_bits(applied(effect, rearranged(plain()), {2, 5}), rearranged(once)));
+}
+
 TEST_P(EffectContract, AbsentItIsWithinItsRanges) {
   const Effect& absent = it().absent;
   for (std::size_t i = 0; i < absent.fields().size(); ++i)

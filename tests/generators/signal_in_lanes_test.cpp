@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include <gyrostat/generators/effects/quantization.hpp>
-#include <gyrostat/generators/effects/thermal_hysteresis.hpp>
+#include <gyrostat/generators/effects/list.hpp>
+#include <gyrostat/generators/environment/acceleration/shaking.hpp>
 #include <gyrostat/generators/environment/motion/rate_table.hpp>
 #include <gyrostat/generators/environment/temperature/cycle.hpp>
 
@@ -73,10 +73,28 @@ TEST(SignalInLanes, HasThemWithoutNoise) {
   expect_the_series(quiet);
 }
 
+/// Given in another order than that in which they act.
+TEST(SignalInLanes, HasThemThroughEffectsOnGyroAndCompass) {
+  auto affected = scenario();
+  affected.cross_motion_1 = motion::RateTable{};
+  affected.acceleration = acceleration::Shaking{};
+  affected.effects.emplace_back(effects::Quantization{.lsb_dps = 0.01});
+  affected.effects.emplace_back(effects::Saturation{.limit_dps = 8.0});
+  affected.effects.emplace_back(effects::ScaleTemperature{});
+  affected.effects.emplace_back(effects::GSensitivity{});
+  affected.effects.emplace_back(effects::Misalignment{});
+  affected.effects.emplace_back(effects::HardIron{});
+  affected.effects.emplace_back(effects::CompassLag{});
+  expect_the_series(affected);
+}
+
 TEST(SignalInLanes, IsForTrialsThatDifferInNoiseAlone) {
-  auto quantised = scenario();
-  quantised.effects.emplace_back(effects::Quantization{.lsb_dps = 0.01});
-  EXPECT_FALSE(shared_conditions(quantised));
+  auto jumping = scenario();
+  jumping.effects.emplace_back(effects::BiasSteps{});
+  EXPECT_FALSE(shared_conditions(jumping));
+  auto disturbed = scenario();
+  disturbed.effects.emplace_back(effects::MagneticBursts{});
+  EXPECT_FALSE(shared_conditions(disturbed));
   const std::vector<NoiseShare> shares = {{1, 0.6}, {2, 0.8}};
   EXPECT_FALSE(SignalInLanes::can_draw(std::vector<Noise>{{1, 1, shares}}));
   EXPECT_FALSE(SignalInLanes::can_draw(std::vector<Noise>{{1, 1}, {2, 1}}));

@@ -153,16 +153,16 @@ void add_run(CLI::App& program, Console& console, int& exit_code) {
                  "keep the outcomes that are there under another name and begin anew")
       ->excludes(mix);
   verb->add_option("--lanes", arguments->lanes,
-                   "trials side by side: 1, 2, 4 or 8 (default: as many as a register holds; the "
+                   "trials side by side: 1, 2, 4, 8 or 16 (default: what is fastest here; the "
                    "same results)")
       ->check(CLI::Validator(
           [](const std::string& text) {
             return std::ranges::any_of(possible_lanes,
                                        [&](auto lanes) { return text == std::to_string(lanes); })
                        ? std::string{}
-                       : "'" + text + "' is no number of lanes; allowed: 1, 2, 4 or 8";
+                       : "'" + text + "' is no number of lanes; allowed: 1, 2, 4, 8 or 16";
           },
-          "1|2|4|8"));
+          "1|2|4|8|16"));
   arguments->format.add_to(verb);
   verb->footer(run_examples);
   verb->callback([arguments, &console, &exit_code] { exit_code = run(*arguments, console); });

@@ -91,21 +91,21 @@ TEST(Runner, AnyNumberOfLanesGivesTheSameBits) {
       cell.calibration.each_trial = each_trial;
       const auto one = run(cell, 1, 1);
       EXPECT_EQ(one.finished(), trials);
-      for (const std::uint32_t lanes : {2U, 4U, 8U})
+      for (const std::uint32_t lanes : {2U, 4U, 8U, 16U})
         for (const int threads : {1, 4})
           EXPECT_TRUE(same_bits(one, run(cell, threads, lanes))) << lanes << ", " << threads;
     }
 }
 
-/// Without an effect on the gyro these trials are never made as series but one at a time.
+/// Without outliers these trials are never made as series but one at a time.
 TEST(Runner, TrialsThatStayInLanesHaveTheBitsOfTheirSeries) {
   auto cell = busy_cell();
   cell.trials = 11;
-  cell.scenario.effects.pop_back();
+  cell.scenario.effects.back() = effects::Quantization{.lsb_dps = 0.01};
   ASSERT_TRUE(prepare_cell(cell, 42, 1).conditions);
   ASSERT_FALSE(prepare_cell(busy_cell(), 42, 1).conditions);
   const auto one = run(cell, 1, 1);
-  for (const std::uint32_t lanes : {2U, 4U, 8U})
+  for (const std::uint32_t lanes : {2U, 4U, 8U, 16U})
     EXPECT_TRUE(same_bits(one, run(cell, 2, lanes))) << lanes;
 }
 
