@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/starts/line_beside.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
 #include <gyrostat/diagnosis/starts/signature.hpp>
 #include <gyrostat/diagnosis/starts/spectral_peak.hpp>
@@ -65,7 +66,8 @@ struct Diagnosed<effects::Sinusoidal> {
  private:
   static void keep(const Evidence& e, const effects::Sinusoidal& sine,
                    std::vector<effects::Sinusoidal>& in) {
-    if (!follows_motion(e, sine)) in.push_back(sine);
+    if (!follows_motion(e, sine) && !is_line_beside(e.conditions(), sine.frequency_hz))
+      in.push_back(sine);
   }
 
   /// The sine of a frequency in the rate error, seen in samples or in the means of clusters.

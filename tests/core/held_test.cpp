@@ -42,9 +42,9 @@ struct SideBySide {
   std::vector<double> held, t_s, gyro_dps, columns[5];
   std::size_t first, taken = 0;
 
-  SideBySide(const HoldKernel& kernel, const std::vector<double>& intervals_s, std::size_t first,
+  SideBySide(const HoldKernel& kernel, const std::vector<double>& intervals_s, std::size_t from,
              std::size_t samples)
-      : lanes(intervals_s.size()), held(held_numbers * lanes), first(first) {
+      : lanes(intervals_s.size()), held(held_numbers * lanes), first(from) {
     for (std::size_t l = 0; l < lanes; ++l) {
       filters.push_back(filter_with(intervals_s[l]));
       for (std::size_t k = 0; k < first; ++k) filters[l].step(sample(l, k));

@@ -618,7 +618,7 @@ TEST(BadInput, AnOptionOutOfRangeIsToldTheRange) {
   expect_refused(folder, {"fit", "rec.csv", "--to", "q"},
                  {"--to: 'q' is no number; allowed: [0, 1e12] s"});
   expect_refused(folder, {"run", "study.json", "--lanes", "3"},
-                 {"--lanes", "'3'", "allowed: 1, 2, 4 or 8"});
+                 {"--lanes", "'3'", "allowed: 1, 2, 4, 8 or 16"});
   for (const char* fraction : {"0", "1", "nan"})
     expect_refused(folder, {"apply", "rec.csv", "--calibration", fraction},
                    {"--calibration", fraction, "0.01", "0.99"});
