@@ -28,8 +28,10 @@ struct Diagnosed<effects::BiasSteps> {
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
-  static bool is_what_it_is_called(const effects::BiasSteps& /*effect*/, const Conditions& /*c*/) {
-    return true;
+  /// What jumps every few seconds, or by degrees a second, is the sensor in motion.
+  static bool is_what_it_is_called(const effects::BiasSteps& effect, const Conditions& /*c*/) {
+    constexpr double least_wait_s = 5.0, largest_dps = 5.0;
+    return effect.steps_per_hour * least_wait_s <= 3600.0 && effect.std_dps <= largest_dps;
   }
 };
 
