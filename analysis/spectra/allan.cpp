@@ -40,7 +40,7 @@ class Phase {
     std::size_t present = 0;
     double total = 0.0;
     for (std::size_t i = 0; i < rate.size(); ++i) {
-      require(!std::isinf(rate[i]), "rate[" + std::to_string(i) + "]", "is not finite");
+      if (std::isinf(rate[i])) throw InputError("rate[" + std::to_string(i) + "]", "is not finite");
       if (std::isnan(rate[i])) continue;
       total += rate[i];
       ++present;
@@ -74,6 +74,7 @@ class Phase {
   double haar_of_complete(std::size_t i, std::size_t m) const {
     return sum_[i + 2 * m] - 2.0 * sum_[i + m] + sum_[i];
   }
+  const double* from(std::size_t i) const { return sum_.data() + i; }
 
  private:
   std::vector<double> sum_;
@@ -95,7 +96,7 @@ double lag1_autocorrelation(const std::vector<double>& z) {
 /// than white is taken for white: long clusters of a rate that returns to its mean are
 /// anticorrelated, yet do not decorrelate within a sample as blue noise would.
 int power_law_exponent(const Phase& phase, std::size_t m) {
-  constexpr std::size_t enough = std::size_t{1} << 20;
+  constexpr std::size_t enough = std::size_t{1} << 17;
   std::vector<double> z;
   z.reserve(std::min(enough, phase.size() / m));
   for (std::size_t i = m; i < phase.size() && z.size() < enough; i += m)
@@ -176,10 +177,10 @@ PlaceSum products_of(const std::vector<double>& values, std::size_t lag) {
 /// and the variance of its mean square is that of a Gaussian one with its own autocovariance, which
 /// ends within two clusters for white noise and random walks, whatever their mixture. About eight
 /// lags a cluster add up to as much as all.
-/// Half a million products tell a covariance as well as all, so of long series pieces are taken
-/// that are spread over it.
+/// Many products tell a covariance as well as all, so of long series pieces are taken that are
+/// spread over it.
 double degrees_of_freedom_of(const Phase& phase, std::size_t count, std::size_t m) {
-  constexpr std::size_t enough = std::size_t{1} << 19, least_piece = 4096;
+  constexpr std::size_t enough = std::size_t{1} << 16, least_piece = 4096;
   const std::size_t step = std::max<std::size_t>(1, m / 8), lags = 2 * m / step;
   const bool whole = count <= enough;
   // Within a piece of a long series only the differences that are whole steps apart.
@@ -214,40 +215,71 @@ double degrees_of_freedom_of(const Phase& phase, std::size_t count, std::size_t 
   return static_cast<double>(count) * variance * variance / (2.0 * static_cast<double>(step) * sum);
 }
 
-/// Squares of the differences of each cluster size, over all places. A stretch of the phase serves
-/// all sizes while it is in the cache.
-std::vector<PlaceSum> squares_of(const Phase& phase, std::span<const std::size_t> clusters) {
-  constexpr std::size_t stretch = 1 << 15, side_by_side = 8;
+/// Sums side by side, which do not wait for one another; how many hangs on no machine.
+using SideBySide = std::array<double, 8>;
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
+[[gnu::target_clones("default", "avx2", "avx512f")]]
+#endif
+void add_squares(const double* phase, std::size_t m, std::size_t places, SideBySide& sums) {
+  const double *middle = phase + m, *end = phase + 2 * m;
+  SideBySide side = sums;
+  std::size_t i = 0;
+  for (; i + side.size() <= places; i += side.size())
+    for (std::size_t k = 0; k < side.size(); ++k) {
+      const double d = end[i + k] - 2.0 * middle[i + k] + phase[i + k];
+      side[k] += d * d;
+    }
+  for (; i < places; ++i) {
+    const double d = end[i] - 2.0 * middle[i] + phase[i];
+    side[0] += d * d;
+  }
+  sums = side;
+}
+
+/// Places next to each other share all but two samples of their clusters: of more than a million
+/// those a 64th of a cluster apart tell as much.
+std::size_t apart(std::size_t places, std::size_t m) {
+  constexpr std::size_t many = std::size_t{1} << 20, a_cluster = 64;
+  return places <= many ? 1 : std::max<std::size_t>(1, m / a_cluster);
+}
+
+/// Squares of differences, and how many places were looked at, whether something was there or not.
+struct Squares {
+  SideBySide side{};
+  std::size_t count = 0, looked_at = 0;
+
+  double sum() const { return std::accumulate(side.begin(), side.end(), 0.0); }
+};
+
+/// Of each cluster size, over all places or many. A stretch of the phase serves all sizes while it
+/// is in the cache.
+std::vector<Squares> squares_of(const Phase& phase, std::span<const std::size_t> clusters) {
+  constexpr std::size_t stretch = 1 << 15;
   const std::size_t n = phase.size() - 1;
-  std::vector<PlaceSum> all(clusters.size());
-  std::vector<std::array<double, side_by_side>> sums(clusters.size());
+  std::vector<Squares> all(clusters.size());
   for (std::size_t first = 0; first + 2 <= n; first += stretch)
     for (std::size_t c = 0; c < clusters.size(); ++c) {
       const std::size_t m = clusters[c];
       if (first + 2 * m > n) continue;
-      const std::size_t last = std::min(first + stretch, n - 2 * m + 1);
-      auto side = sums[c];
-      if (phase.is_complete()) {
-        std::size_t i = first;
-        for (; i + side_by_side <= last; i += side_by_side)
-          for (std::size_t k = 0; k < side_by_side; ++k) {
-            const double d = phase.haar_of_complete(i + k, m);
-            side[k] += d * d;
-          }
-        for (; i < last; ++i) side[0] += std::pow(phase.haar_of_complete(i, m), 2);
-        all[c].count += last - first;
-      } else {
-        for (std::size_t i = first; i < last; ++i) {
-          const double d = phase.haar(i, m);
-          if (std::isnan(d)) continue;
-          side[i % side_by_side] += d * d;
-          ++all[c].count;
-        }
+      auto& squares = all[c];
+      const std::size_t places = n - 2 * m + 1, last = std::min(first + stretch, places);
+      const std::size_t step = apart(places, m);
+      if (step == 1 && phase.is_complete()) {
+        add_squares(phase.from(first), m, last - first, squares.side);
+        squares.looked_at += last - first;
+        squares.count += last - first;
+        continue;
       }
-      sums[c] = side;
+      for (std::size_t i = (first + step - 1) / step * step; i < last; i += step) {
+        const double d = phase.haar(i, m);
+        if (!std::isnan(d)) {
+          squares.side[squares.looked_at % squares.side.size()] += d * d;
+          ++squares.count;
+        }
+        ++squares.looked_at;
+      }
     }
-  for (std::size_t c = 0; c < clusters.size(); ++c)
-    all[c].sum = std::accumulate(sums[c].begin(), sums[c].end(), 0.0);
   return all;
 }
 
@@ -280,14 +312,13 @@ std::vector<AllanPoint> overlapping_allan_deviation(std::span<const double> rate
   const auto squares = squares_of(phase, clusters);
   for (std::size_t c = 0; c < clusters.size(); ++c) {
     const std::size_t m = clusters[c];
-    const auto [sum, count] = squares[c];
-    if (count == 0) continue;  // gaps leave no pair of clusters
-    const auto length = static_cast<double>(m);
-    const double deviation = std::sqrt(sum / (2.0 * static_cast<double>(count))) / length;
+    if (squares[c].count == 0) continue;  // gaps leave no pair of clusters
+    const auto length = static_cast<double>(m), count = static_cast<double>(squares[c].count);
+    const double deviation = std::sqrt(squares[c].sum() / (2.0 * count)) / length;
     const int alpha =
         power_law_exponent(phase, std::min(m, std::max<std::size_t>(1, n / enough_clusters)));
     // Gaps leave as many degrees of freedom as the pairs that are left have among all.
-    const double left = static_cast<double>(count) / static_cast<double>(n - 2 * m + 1);
+    const double left = count / static_cast<double>(squares[c].looked_at);
     const double power_law_edf = std::max(1.0, left * equivalent_degrees_of_freedom(alpha, n, m));
     const bool is_told = n >= enough_clusters * m && deviation > 0.0;
     const double edf = is_told

@@ -21,7 +21,8 @@ struct AllanPoint {
 std::vector<std::size_t> allan_clusters(std::size_t samples);
 
 /// Overlapping Allan deviation (IEEE Std 952-1997 annex C; NIST SP 1065 eq. 11) of a rate sampled
-/// at `rate_hz`, in O(n) a cluster. The interval is chi-square with the equivalent degrees of
+/// at `rate_hz`, in O(n) a cluster; of more than a million places those a 64th of a cluster apart
+/// stand for all. The interval is chi-square with the equivalent degrees of
 /// freedom that the rate's own autocovariance gives where there are 32 clusters or more. Where
 /// there are fewer, they are those of Greenhall & Riley (PTTI 2003) for white, flicker or
 /// random-walk rate noise, whichever the lag-1 autocorrelation identifies at that tau, or at n/32

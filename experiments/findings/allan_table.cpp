@@ -1,5 +1,8 @@
 #include <gyrostat/experiments/findings/allan_table.hpp>
 
+#include <algorithm>
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include <gyrostat/analysis/spectra/allan.hpp>
@@ -64,13 +67,27 @@ AllanFindings allan_findings(std::span<const double> rate_dps, double rate_hz,
     throw InputError(name,
                      fmt::format("{} samples; at least {} are needed", rate_dps.size(), fewest));
   AllanFindings findings;
+  const auto shown = allan_clusters(rate_dps.size());
+  const auto fitted = rate_dps.size() < fewest_for_coefficients ? std::vector<std::size_t>()
+                                                                : octave_clusters(rate_dps.size());
+  std::vector<std::size_t> clusters;
+  std::set_union(shown.begin(), shown.end(), fitted.begin(), fitted.end(),
+                 std::back_inserter(clusters));
+  std::vector<AllanPoint> points;
   try {
-    findings.points = overlapping_allan_deviation(rate_dps, rate_hz);
+    points = overlapping_allan_deviation(rate_dps, rate_hz, clusters);
   } catch (const InputError& mistake) {
     throw InputError(name, mistake.what());
   }
-  if (rate_dps.size() >= fewest_for_coefficients)
-    findings.coefficients = fit_allan_coefficients(rate_dps, rate_hz);
+  const auto those_of = [&](const std::vector<std::size_t>& wanted) {
+    std::vector<AllanPoint> some;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(some), [&](const auto& point) {
+      return std::binary_search(wanted.begin(), wanted.end(), point.cluster);
+    });
+    return some;
+  };
+  findings.points = those_of(shown);
+  if (!fitted.empty()) findings.coefficients = fit_allan_coefficients(those_of(fitted));
   return findings;
 }
 
