@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+namespace gyrostat::gap {
+
+/// Where in the rate error an effect shows.
+enum class Band { fast, slow, thermal, motion };
+Band band_of(std::string_view effect);
+/// Of what warming does, too.
+bool is_slow(std::string_view effect);
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,74 @@
+#include <gyrostat/diagnosis/likelihood/set_searcher.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <gyrostat/diagnosis/likelihood/dials.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+
+namespace gyrostat::gap {
+
+void add_mark(std::string_view effect, FoundSet& found) {
+  constexpr double odds_of_a_mark = 50.0;
+  found.members.push_back({std::string(effect), odds_of_a_mark, true});
+}
+
+double white_with_rounding(const Scenario& scenario) {
+  const auto law = law_of(scenario, 1.0);
+  return std::sqrt(law.white + law.rounding);
+}
+
+std::vector<char> SetSearcher::near_the_limit(const Marks& marks) const {
+  auto near = marks.clipped;
+  const auto& reference = conditions_.series().rate_ref_dps;
+  constexpr std::size_t reach = 5;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const std::size_t from = i < reach ? 0 : i - reach;
+    const std::size_t to = std::min(i + reach + 1, near.size());
+    if (std::abs(reference[i]) > 0.97 * marks.limit_dps ||
+        std::any_of(marks.clipped.begin() + static_cast<std::ptrdiff_t>(from),
+                    marks.clipped.begin() + static_cast<std::ptrdiff_t>(to),
+                    [](char c) { return c != 0; }))
+      near[i] = 1;
+  }
+  return near;
+}
+
+std::vector<Effect> SetSearcher::read_off(const Marks& marks, FoundSet& found) {
+  std::vector<Effect> effects;
+  const auto add = [&](Effect effect) {
+    add_mark(effect.id(), found);
+    effects.push_back(std::move(effect));
+  };
+  if (marks.lsb_dps > 0.0 && bench_.is_allowed("quantization"))
+    add(with_values("quantization", {{"lsb_dps", marks.lsb_dps}}));
+  if (marks.stale_probability > 0.0 && bench_.is_allowed("stale_samples")) {
+    add(with_values("stale_samples",
+                    {{"probability", marks.stale_probability}, {"mean_run", marks.stale_run}}));
+    bench_.mask_too(marks.repeats);
+  }
+  if (marks.limit_dps > 0.0 && bench_.is_allowed("saturation")) {
+    add(with_values("saturation", {{"limit_dps", marks.limit_dps}}));
+    bench_.mark_saturation();
+    bench_.mask_too(near_the_limit(marks));
+  }
+  repeats_ = bench_.masked();
+  return effects;
+}
+
+/// There noise decides whether a sample is written as 0.
+std::vector<char> SetSearcher::edges_of_the_dead_zone(const Scenario& scenario) const {
+  constexpr double reach = 5.0;  // standard deviations
+  const auto& reference = conditions_.series().rate_ref_dps;
+  std::vector<char> edges(recording_.size(), 0);
+  for (const auto& effect : scenario.effects) {
+    if (effect.id() != "dead_zone" || reference.empty()) continue;
+    const double edge = effect.value(field_of(effect, "half_width_dps"));
+    const double near = reach * white_with_rounding(scenario);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      edges[i] = std::abs(std::abs(reference[i]) - edge) < near ? 1 : 0;
+  }
+  return edges;
+}
+
+}  // namespace gyrostat::gap

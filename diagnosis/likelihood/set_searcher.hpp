@@ -1,0 +1,98 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_band.hpp>
+#include <gyrostat/diagnosis/likelihood/marks.hpp>
+#include <gyrostat/diagnosis/likelihood/set_bench.hpp>
+#include <gyrostat/diagnosis/likelihood/set_search.hpp>
+#include <gyrostat/diagnosis/likelihood/tails.hpp>
+
+namespace gyrostat::gap {
+
+/// As read off the values.
+void add_mark(std::string_view effect, FoundSet& found);
+/// Standard deviation of white noise with what rounding adds.
+double white_with_rounding(const Scenario& scenario);
+
+/// find_set() and what may be asked of it afterwards: its moves are in set_moves.cpp, what is read
+/// off values in set_marks.cpp, what only sizes of innovations say in set_tails.cpp.
+class SetSearcher {
+ public:
+  SetSearcher(const Simulator& simulator, const Series& recording, const SetSearchOptions& options,
+              const SetSearchProgress& progress)
+      : simulator_(simulator),
+        conditions_(simulator.conditions()),
+        recording_(recording),
+        options_(options),
+        progress_(progress),
+        bench_(simulator, recording, options.without) {}
+
+  FoundSet run();
+  Scenario likeliest_baseline();
+  Scenario subset_of(const Scenario& whole, const std::vector<std::string>& names);
+  std::vector<Nameless> nameless_beside(const Scenario& set) const;
+
+ private:
+  /// `left` rounds are to come at least, as far as is known.
+  void tell(const std::string& what, std::size_t left) {
+    doing_ = what;
+    left_ = left;
+    tell_share(0.0);
+  }
+  /// So much of a round is done.
+  void tell_share(double of_round) const {
+    const auto rounds = static_cast<double>(rounds_);
+    if (progress_) progress_(doing_, (rounds + of_round) / (rounds + static_cast<double>(left_)));
+  }
+  /// One round of the search.
+  std::vector<Standing> each_added(const Standing& standing);
+  Standing searched(Standing standing);
+  /// The best of the sets with two more effects, neither of which pays alone: where both are slow,
+  /// one leaves to the walk what hides it. The standing itself where there is none better.
+  Standing two_further(const Standing& standing, std::vector<Standing> tried);
+  /// Of a further effect of the band.
+  double least_gain(const Standing& standing, Band band) const;
+  /// Every member against all that might stand in its place.
+  Standing exchanged(Standing standing, FoundSet& found);
+  /// With an ARIMA(1,1,1) that remembers, beside what is there or in place of what colours the
+  /// noise.
+  Standing beside_memory(const Standing& standing) const;
+  /// Samples within reach of the limit: there noise decides what is clipped, and what is left of it
+  /// is no longer centred.
+  std::vector<char> near_the_limit(const Marks& marks) const;
+  /// Effects that are read off the values.
+  std::vector<Effect> read_off(const Marks& marks, FoundSet& found);
+  std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
+  /// What the innovations say of outliers and of noise over temperature, beside the set.
+  void judge_tails(const Standing& standing);
+  void add_tails(FoundSet& found) const;
+  void add_nameless_tails(FoundSet& found) const;
+  /// The set, and what only the sizes of innovations say, in turn.
+  Standing searched_beside_tails(Standing standing);
+
+  const Simulator& simulator_;
+  const Conditions& conditions_;
+  const Series& recording_;
+  SetSearchOptions options_;
+  SetSearchProgress progress_;
+  SetBench bench_;
+  std::vector<char> repeats_;  ///< samples that do not count, whatever the set
+  Tails tails_;
+  bool is_normal_ = true;  ///< rounded finely enough for tails
+  bool is_even_ = true;    ///< rounded finely enough for its size not to depend on the level
+  bool has_outliers_ = false, has_warm_noise_ = false;
+  std::vector<const CauseType*> candidates_;
+  std::size_t rounds_ = 0;  ///< in which every candidate was tried
+  std::size_t left_ = 1;
+  std::string doing_;
+  std::optional<Standing> end_;  ///< of the search; none where the fast part has no law
+  std::vector<std::pair<std::string, double>> screening_, gains_;
+};
+
+}  // namespace gyrostat::gap

@@ -1,0 +1,90 @@
+#include <gyrostat/diagnosis/likelihood/set_searcher.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/line_names.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+/// Sizes of innovations are odd in more ways than the catalogue has effects for.
+constexpr double prior_of_sizes = 4.0;
+
+}  // namespace
+
+void SetSearcher::judge_tails(const Standing& standing) {
+  auto hidden = edges_of_the_dead_zone(standing.scenario);
+  for (std::size_t i = 0; i < hidden.size(); ++i) hidden[i] |= repeats_[i];
+  auto left = bench_.rate_left_by(standing.scenario, hidden);
+  // Neither may outliers pass for a burst, nor the samples of a burst for outliers.
+  auto without_outliers = left;
+  for (std::size_t i = 0; i < tails_.outliers.size(); ++i)
+    if (tails_.outliers[i] != 0) without_outliers[i] = no_value;
+  const auto bursts = samples_in_bursts(bench_, standing.scenario, without_outliers);
+  for (std::size_t i = 0; i < left.size(); ++i)
+    if (bursts[i] != 0) left[i] = no_value;
+  // Nor the level on either side of a jump.
+  if (law_of(standing.scenario, conditions_.interval_s()).jumps) {
+    const auto beside = samples_beside_jumps(left, bench_.level_blocks());
+    for (std::size_t i = 0; i < left.size(); ++i)
+      if (beside[i] != 0) left[i] = no_value;
+  }
+  tails_ = tails_of(conditions_, left, conditions_.has_temperature());
+  const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
+  has_outliers_ = is_normal_ && bench_.is_allowed("outliers") &&
+                  tails_.outlier_gain > prior_of_sizes + 2.0 * value + 4.0;
+  has_warm_noise_ = is_even_ && bench_.is_allowed("noise_temperature") &&
+                    tails_.temperature_gain > prior_of_sizes + value;
+}
+
+void SetSearcher::add_nameless_tails(FoundSet& found) const {
+  const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
+  const auto add = [&](const std::string& what, double gain, double values) {
+    found.unexplained.push_back({what, std::min(1.0, std::exp(values * value - gain))});
+  };
+  if (is_normal_ && !has_outliers_) add("tails of the noise", tails_.outlier_gain, 2.0);
+  if (is_even_ && !has_warm_noise_) add("noise over temperature", tails_.temperature_gain, 1.0);
+}
+
+Standing SetSearcher::searched_beside_tails(Standing standing) {
+  constexpr int rounds = 2;
+  for (int round = 0; round < rounds; ++round) {
+    const auto hidden = bench_.masked();
+    judge_tails(standing);
+    if (round == 0 && has_outliers_) {
+      // What a motion leaves must not pass for outliers.
+      const auto all = candidates_;
+      std::erase_if(candidates_,
+                    [](const auto* cause) { return band_of(cause->id) != Band::motion; });
+      standing = searched(std::move(standing));
+      candidates_ = all;
+      judge_tails(standing);
+    }
+    // The largest samples would hide what else there is.
+    bench_.mask_only(repeats_);
+    bench_.mask_too(edges_of_the_dead_zone(standing.scenario));
+    if (has_outliers_) bench_.mask_too(tails_.outliers);
+    if (round > 0 && bench_.masked() == hidden) break;
+    standing = searched(bench_.refitted(standing.scenario));
+  }
+  return standing;
+}
+
+void SetSearcher::add_tails(FoundSet& found) const {
+  if (has_outliers_) {
+    found.scenario.effects.push_back(with_values(
+        "outliers",
+        {{"probability", tails_.outlier_probability}, {"std_dps", tails_.outlier_std_dps}}));
+    found.members.push_back({"outliers", tails_.outlier_gain - 10.0});
+  }
+  if (has_warm_noise_) {
+    found.scenario.effects.push_back(
+        with_values("noise_temperature",
+                    {{"relative_per_C", tails_.noise_per_C}, {"reference_C", tails_.reference_C}}));
+    found.members.push_back({"noise_temperature", tails_.temperature_gain - 8.0});
+  }
+}
+
+}  // namespace gyrostat::gap
