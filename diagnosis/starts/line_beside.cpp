@@ -6,6 +6,8 @@
 #include <complex>
 #include <numbers>
 
+#include <gyrostat/core/step.hpp>
+
 namespace gyrostat::gap {
 namespace {
 
