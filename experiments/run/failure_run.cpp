@@ -1,6 +1,8 @@
 #include <gyrostat/experiments/run/failure_run.hpp>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <optional>
 
 #include <fmt/format.h>
@@ -105,21 +107,30 @@ void search_failure(Store& store, std::uint32_t index, const PreparedCell& prepa
   MovesTogether together(prepared, rule, seed, options, stop);
   if (watcher.begin) watcher.begin(prepared.cell.name, search.numbers());
   StoreWriter writer(store);
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  std::atomic<std::uint32_t> made{0};
   while (!stop) {
     const auto moves = search.asked();
     if (moves.empty()) break;
-    const bool all = together.run(
-        search, moves, badness,
-        [&](std::uint32_t trial, const Record& r) { writer.push(row_of(index, trial, r)); });
+    const bool all =
+        together.run(search, moves, badness, [&](std::uint32_t trial, const Record& r) {
+          ++made;
+          writer.push(row_of(index, trial, r));
+        });
     if (!all) break;
     std::vector<double> values;
     for (const auto& move : moves) values.push_back(badness[move.trial]);
     search.tell(values);
-    if (watcher.progress)
-      watcher.progress({.cell = prepared.cell.name,
-                        .finished = search.trials(),
-                        .trials = search.numbers(),
-                        .widest = {}});
+    if (!watcher.progress || made == 0) continue;
+    const double per_s = made / std::chrono::duration<double>(Clock::now() - start).count();
+    // Those left at most: runs that reach the failure end before.
+    watcher.progress({.cell = prepared.cell.name,
+                      .finished = search.trials(),
+                      .trials = search.numbers(),
+                      .trials_per_s = per_s,
+                      .left_s = (search.numbers() - search.trials()) / per_s,
+                      .widest = {}});
   }
   writer.finish();
   if (watcher.end) watcher.end();

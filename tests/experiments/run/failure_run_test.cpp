@@ -61,7 +61,11 @@ FailureSearch run(const Study& study, const fs::path& folder, const StudyRunOpti
   StudyRun plain(study, folder, options, stopper, {});
   const auto ran = plain.run();
   RunWatcher watcher;
-  watcher.progress = [&](const CellProgress& now) { stop = now.finished >= most; };
+  watcher.progress = [&](const CellProgress& now) {
+    EXPECT_GT(now.trials_per_s, 0.0);
+    EXPECT_NEAR(now.left_s * now.trials_per_s, now.trials - now.finished, 1e-6);
+    stop = now.finished >= most;
+  };
   run_failures(plain.study(), plain.store(), ran, folder, options, stop, watcher);
   return {*study.cells[0].failure, Store::open(folder / failure_folder), 0};
 }
