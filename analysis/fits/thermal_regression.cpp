@@ -103,7 +103,7 @@ Eigen::VectorXd least_squares_variances(const Eigen::MatrixXd& X, const Eigen::V
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(W);
     const double white_variance = (w - W * qr.solve(w)).squaredNorm() / freedom;
     deviances.push_back(freedom * std::log(std::max(white_variance, 1e-300)) + log_variances +
-                        2.0 * qr.logAbsDeterminant());
+                        2.0 * qr.matrixR().diagonal().cwiseAbs().array().log().sum());
     variances.push_back(
         white_variance *
         (bread * (X.transpose() * X + ratio * sums.transpose() * sums) * bread).diagonal());
