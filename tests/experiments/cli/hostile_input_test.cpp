@@ -14,7 +14,11 @@ using testing::HasSubstr;
 using testing::Not;
 using Words = std::vector<std::string>;
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr long most_KiB = 1200 * 1024;  // with what the sanitizer keeps beside
+#else
 constexpr long most_KiB = 400 * 1024;
+#endif
 
 /// Refused with one line of usage error that has all of these parts.
 void expect_refused(const TestFolder& folder, const Words& arguments, const Words& parts) {
