@@ -8,6 +8,7 @@
 
 #include <gyrostat/core/words.hpp>
 #include <gyrostat/diagnosis/diagnosis.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
 
 namespace gyrostat::gap {
@@ -62,9 +63,10 @@ std::string what_is_left_in_words(const Diagnosis& d) {
 
 }  // namespace
 
-std::string parameters_in_words(const Effect& effect) {
+std::string parameters_in_words(const Effect& effect, std::optional<std::size_t> but) {
   std::string words;
   for (std::size_t i = 0; i < effect.fields().size(); ++i) {
+    if (i == but) continue;
     const auto& field = effect.fields()[i];
     words += fmt::format("{}{} = {:.4g}{}{}", words.empty() ? "" : ", ", field.name,
                          effect.value(i), field.unit == "1" || field.unit.empty() ? "" : " ",
@@ -128,6 +130,19 @@ std::string next_in_words(const Diagnosis& d) {
   if (d.next.expected_power == 0.0) return fmt::format("Record next: {}.", d.next.what);
   return fmt::format("To tell {} from {}: {} (right in {:.0f} % of simulated recordings).",
                      d.next.first, d.next.second, d.next.what, 100.0 * d.next.expected_power);
+}
+
+std::string detectable_in_words(const Diagnosis& d) {
+  if (!d.verdict.is_none()) return "";
+  std::vector<std::string> words;
+  for (const auto& seen : d.detectable)
+    if (is_slow(seen.effect.id()))
+      words.push_back(fmt::format("{} of {:.2g} {}", seen.effect.id(),
+                                  seen.effect.value(seen.field),
+                                  seen.effect.fields()[seen.field].unit));
+  if (words.empty()) return "";
+  return fmt::format("It would have been found with {:.0f} %: {}.", 100.0 * Detectable::power,
+                     listed(words));
 }
 
 std::string evidence_in_words(const Diagnosis& d) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 
 namespace gyrostat {
@@ -26,7 +28,11 @@ std::string next_in_words(const Diagnosis& diagnosis);
 /// The numbers that the answer rests on.
 std::string evidence_in_words(const Diagnosis& diagnosis);
 
-/// "amplitude_dps = 0.25 dps, ..."
-std::string parameters_in_words(const Effect& effect);
+/// Where nothing was found: how large what a random walk imitates would have had to be; else empty.
+std::string detectable_in_words(const Diagnosis& diagnosis);
+
+/// "amplitude_dps = 0.25 dps, ...", `but` for one field.
+std::string parameters_in_words(const Effect& effect,
+                                std::optional<std::size_t> but = std::nullopt);
 
 }  // namespace gyrostat::gap

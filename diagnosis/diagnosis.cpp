@@ -171,7 +171,11 @@ Diagnosis Diagnosing::run() {
     judge_claim();
   else
     attribute();
-  if (!options_.claim) complete();
+  if (!options_.claim) {
+    result_.detectable = found_.detectable();
+    took("detectable");
+    complete();
+  }
   measure_shrinkage();
   keep_bands();
   took("shrinkage");

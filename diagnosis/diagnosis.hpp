@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gyrostat/core/interrupt.hpp>
+#include <gyrostat/diagnosis/likelihood/detectable.hpp>
 #include <gyrostat/diagnosis/likelihood/nameless.hpp>
 #include <gyrostat/diagnosis/likelihood/unexplained.hpp>
 #include <gyrostat/diagnosis/line_source.hpp>
@@ -103,6 +104,7 @@ struct Diagnosis {
   std::vector<Enrichment> enrichments;    ///< of the baseline, one after another
   std::vector<LineWitness> line_sources;  ///< of those effects that are lines
   std::vector<Shortfall> not_assessable;
+  std::vector<Detectable> detectable;  ///< what would have been found beside the set, if so large
   std::vector<Transfer> transfer;
   NextExperiment next;  ///< empty where nothing is open
   std::vector<Band> bands;

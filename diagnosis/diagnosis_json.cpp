@@ -128,6 +128,16 @@ Json to_json(const Diagnosis& d) {
   json["not_assessable"] = Json::array();
   for (const auto& n : d.not_assessable)
     json["not_assessable"].push_back({{"effect", n.effect}, {"why", n.why}});
+  json["detectable"] = Json::array();
+  for (const auto& seen : d.detectable) {
+    const auto& field = seen.effect.fields()[seen.field];
+    json["detectable"].push_back({{"effect", seen.effect.id()},
+                                  {"parameter", field.name},
+                                  {"size", seen.effect.value(seen.field)},
+                                  {"unit", field.unit},
+                                  {"power", Detectable::power},
+                                  {"parameters", parameters_json(seen.effect)}});
+  }
   json["transfer"] = Json::array();
   for (const auto& t : d.transfer)
     json["transfer"].push_back({{"filter", t.filter},

@@ -8,12 +8,29 @@
 namespace gyrostat::gap {
 std::string in_words(const Diagnosis& d, const std::string& name) {
   auto text = fmt::format("{}: {}", name, answer(d));
-  for (const auto& more :
-       {in_words(d.line_sources), remainder_in_words(d), transfer_in_words(d), next_in_words(d)})
+  for (const auto& more : {in_words(d.line_sources), remainder_in_words(d), transfer_in_words(d),
+                           next_in_words(d), detectable_in_words(d)})
     if (!more.empty()) text += ' ' + more;
   return text + fmt::format("\n\n{:.0f} s at {:.4g} Hz. {}\n", d.duration_s, d.rate_hz,
                             evidence_in_words(d));
 }
+
+namespace {
+
+Table detectable_table(const Diagnosis& d, const std::string& name) {
+  Table table{.title = fmt::format("{}: what would have been found with {:.0f} %", name,
+                                   100.0 * Detectable::power),
+              .columns = {{"effect", ""}, {"size", ""}, {"unit", ""}, {"otherwise", ""}}};
+  for (const auto& seen : d.detectable)
+    table.rows.push_back({std::string(seen.effect.id()), seen.effect.value(seen.field),
+                          std::string(seen.effect.fields()[seen.field].unit),
+                          parameters_in_words(seen.effect, seen.field)});
+  if (!d.detectable.empty())
+    table.notes.push_back("of an effect that is not there, beside what is");
+  return table;
+}
+
+}  // namespace
 
 std::vector<Table> diagnosis_tables(const Diagnosis& d, const std::string& name) {
   Table where{.title = name + ": where the recording leaves the simulator",
@@ -43,9 +60,10 @@ std::vector<Table> diagnosis_tables(const Diagnosis& d, const std::string& name)
   for (const auto& c : d.causes)
     causes.rows.push_back({c.effect, c.probability, c.log_score, c.recovered, c.gap_after, c.closed,
                            parameters_in_words(c.scenario.effects.back())});
-  causes.notes.push_back(
-      "posterior probability: of being what the recording has and the simulator lacks; the "
-      "inclusion probability of an effect, times what its set recovers where something is left");
+  if (!d.causes.empty())
+    causes.notes.push_back(
+        "posterior probability: of being what the recording has and the simulator lacks; the "
+        "inclusion probability of an effect, times what its set recovers where something is left");
   Table steps{.title = name + ": the gap on the held-out part, step by step",
               .columns = {{"added", ""}, {"gap", "spreads"}}};
   for (const auto& e : d.enrichments)
@@ -64,7 +82,9 @@ std::vector<Table> diagnosis_tables(const Diagnosis& d, const std::string& name)
                              d.enrichments.size() < 2 ? "" : std::string(name_of(t.moved))});
   Table missing{.title = name + ": not assessable", .columns = {{"effect", ""}, {"why", ""}}};
   for (const auto& n : d.not_assessable) missing.rows.push_back({n.effect, n.why});
-  return {causes, steps, promises, where, missing};
+  std::vector<Table> all{causes, steps, promises, where, missing, detectable_table(d, name)};
+  std::erase_if(all, [](const Table& table) { return table.rows.empty() && table.notes.empty(); });
+  return all;
 }
 
 }  // namespace gyrostat::gap

@@ -5,8 +5,8 @@
 namespace gyrostat::gap {
 
 /// Where in the rate error an effect shows.
-enum class Band { fast, slow, thermal, motion };
-Band band_of(std::string_view effect);
+enum class EffectBand { fast, slow, thermal, motion };
+EffectBand band_of(std::string_view effect);
 /// Of what warming does, too.
 bool is_slow(std::string_view effect);
 

@@ -285,6 +285,17 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> SetFitter::coefficients_over_walks(
   return {mean, (square - mean.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt()};
 }
 
+SetFitter::Amplitude SetFitter::amplitude_of(const Scenario& scenario, std::size_t effect) const {
+  auto at = static_cast<std::size_t>(drift_.cols());
+  for (std::size_t k = 0; k < effect; ++k)
+    if (const auto* cause = cause_types().find(scenario.effects[k].id());
+        cause != nullptr && cause->signature == Signature::slow)
+      at += cause->amplitudes;
+  const double spread = regressors_of(scenario).spreads[at];
+  const auto errors = coefficients_over_walks(scenario).second;
+  return {errors[static_cast<Eigen::Index>(at)] / spread, amplitude_dps_ / spread};
+}
+
 std::vector<ParameterInterval> SetFitter::intervals(const SetFit& fit) const {
   constexpr double two_sided_95 = 1.959964;
   std::vector<ParameterInterval> found;

@@ -57,6 +57,12 @@ class SetFitter {
   /// (Kay, "Fundamentals of Statistical Signal Processing: Estimation Theory", 1993, 3.7 and 15.7),
   /// jumps as a Gaussian law of their covariance.
   std::vector<ParameterInterval> intervals(const SetFit& fit) const;
+  /// Of the first amplitude of a scenario's slow effect, in the unit of its field: its standard
+  /// error over what the walk may be, and the standard deviation that is expected of it beforehand.
+  struct Amplitude {
+    double error, prior;
+  };
+  Amplitude amplitude_of(const Scenario& scenario, std::size_t effect) const;
   /// With as much white noise as the fast part calls for, all else as it is.
   Scenario with_white_noise_scaled(Scenario scenario) const;
   RateTerms terms(const Scenario& scenario, Jumping jumping = Jumping::yes) const;

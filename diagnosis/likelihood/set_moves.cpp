@@ -18,7 +18,7 @@ namespace {
 constexpr double share_of_band = 0.003;
 constexpr double most_odds = 1e4;
 
-Band band_of_last(const Standing& standing) {
+EffectBand band_of_last(const Standing& standing) {
   return band_of(standing.scenario.effects.back().id());
 }
 
@@ -64,15 +64,15 @@ std::vector<Standing> SetSearcher::each_added(const Standing& standing) {
   return all;
 }
 
-double SetSearcher::least_gain(const Standing& standing, Band band) const {
+double SetSearcher::least_gain(const Standing& standing, EffectBand band) const {
   double of_band = 0.0, of_motion = 0.0;
   for (const auto& [effect, gain] : gains_) {
     if (!has(standing.scenario, effect)) continue;
-    auto& most = band_of(effect) == Band::motion ? of_motion : of_band;
-    if (band_of(effect) == band || band_of(effect) == Band::motion) most = std::max(most, gain);
+    auto& most = band_of(effect) == EffectBand::motion ? of_motion : of_band;
+    if (band_of(effect) == band || band_of(effect) == EffectBand::motion) most = std::max(most, gain);
   }
   // Where nothing of the motion is left, its effects have nature's form.
-  if (band != Band::motion && of_motion > of_band)
+  if (band != EffectBand::motion && of_motion > of_band)
     of_motion = std::min(
         of_motion,
         std::max(0.0, log_gain_of_motion(conditions_,
@@ -186,7 +186,7 @@ Standing SetSearcher::beside_memory(const Standing& standing) const {
   Standing best = bench_.beside_memory(standing);
   Scenario plain = standing.scenario;
   std::erase_if(plain.effects, [&](const auto& effect) {
-    return !bench_.is_marked(effect.id()) && band_of(effect.id()) == Band::fast;
+    return !bench_.is_marked(effect.id()) && band_of(effect.id()) == EffectBand::fast;
   });
   if (plain.effects.size() < standing.scenario.effects.size())
     if (auto other = bench_.beside_memory(bench_.refitted(plain)); other.score > best.score)

@@ -41,14 +41,14 @@ FoundSet SetSearcher::run() {
   if (coarse)
     std::erase_if(candidates_, [](const auto* cause) {
       const auto band = band_of(cause->id);
-      return band == Band::fast || band == Band::slow;
+      return band == EffectBand::fast || band == EffectBand::slow;
     });
 
   tell("the first effect", 3);
   auto standing = searched_beside_tails(begun);
   standing = exchanged(std::move(standing), found);
   if (auto other = beside_memory(standing);
-      other.score > standing.score + least_gain(other, Band::fast)) {
+      other.score > standing.score + least_gain(other, EffectBand::fast)) {
     found.members.clear();
     for (const auto& effect : marked) add_mark(effect.id(), found);
     standing = exchanged(searched(std::move(other)), found);
@@ -109,6 +109,13 @@ std::vector<Nameless> SetSearcher::nameless_beside(const Scenario& set) const {
   return nameless_parts(simulator_, recording_, *end_->fitter, end_->scenario, set);
 }
 
+std::vector<Detectable> SetSearcher::detectable() const {
+  if (!end_) return {};
+  return detectable_beside(bench_, *end_, [&](std::string_view effect) {
+    return least_gain(*end_, band_of(effect));
+  });
+}
+
 Scenario SetSearcher::likeliest_baseline() {
   FoundSet found{.baseline = bench_.beside_noise({}).scenario, .scenario = bench_.plain()};
   if (conditions_.has_heading()) search_compass(simulator_, recording_, options_, found);
@@ -129,6 +136,7 @@ FoundSet find_set(const Simulator& simulator, const Series& recording,
     return search->subset_of(whole, names);
   };
   found.nameless = [search](const Scenario& set) { return search->nameless_beside(set); };
+  found.detectable = [search] { return search->detectable(); };
   return found;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
+#include <gyrostat/diagnosis/likelihood/detectable.hpp>
 #include <gyrostat/diagnosis/likelihood/nameless.hpp>
 #include <gyrostat/diagnosis/likelihood/set_fit.hpp>
 #include <gyrostat/diagnosis/likelihood/unexplained.hpp>
@@ -51,6 +52,8 @@ struct FoundSet {
   std::function<Scenario(const std::vector<std::string>&)> subset{};
   /// What no name explains, beside the set with its drift; likewise.
   std::function<std::vector<Nameless>(const Scenario&)> nameless{};
+  /// What would have been found beside the set; likewise.
+  std::function<std::vector<Detectable>()> detectable{};
 };
 
 using SetSearchProgress = std::function<void(const std::string&, double)>;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/likelihood/detectable.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/marks.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
@@ -37,6 +38,7 @@ class SetSearcher {
   Scenario likeliest_baseline();
   Scenario subset_of(const Scenario& whole, const std::vector<std::string>& names);
   std::vector<Nameless> nameless_beside(const Scenario& set) const;
+  std::vector<Detectable> detectable() const;
 
  private:
   /// `left` rounds are to come at least, as far as is known.
@@ -57,7 +59,7 @@ class SetSearcher {
   /// one leaves to the walk what hides it. The standing itself where there is none better.
   Standing two_further(const Standing& standing, std::vector<Standing> tried);
   /// Of a further effect of the band.
-  double least_gain(const Standing& standing, Band band) const;
+  double least_gain(const Standing& standing, EffectBand band) const;
   /// Every member against all that might stand in its place.
   Standing exchanged(Standing standing, FoundSet& found);
   /// With an ARIMA(1,1,1) that remembers, beside what is there or in place of what colours the

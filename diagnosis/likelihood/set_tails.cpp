@@ -57,7 +57,7 @@ Standing SetSearcher::searched_beside_tails(Standing standing) {
       // What a motion leaves must not pass for outliers.
       const auto all = candidates_;
       std::erase_if(candidates_,
-                    [](const auto* cause) { return band_of(cause->id) != Band::motion; });
+                    [](const auto* cause) { return band_of(cause->id) != EffectBand::motion; });
       standing = searched(std::move(standing));
       candidates_ = all;
       judge_tails(standing);
