@@ -4,6 +4,8 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/line_beside.hpp>
@@ -17,8 +19,8 @@
 
 namespace gyrostat::gap {
 
-/// The highest peak of the spectrum; its frequency, sharpened, is that of the largest amplitude
-/// over the train part.
+/// The highest peaks of the spectrum; of each its frequency, sharpened, is that of the largest
+/// amplitude over the train part.
 template <>
 struct Diagnosed<effects::Sinusoidal> {
   static constexpr auto signature = Signature::repeated;
@@ -29,8 +31,14 @@ struct Diagnosed<effects::Sinusoidal> {
   static std::vector<effects::Sinusoidal> starts(const Evidence& e) {
     const auto& conditions = e.conditions();
     std::vector<effects::Sinusoidal> found;
-    for (const bool slow : {false, true}) {
-      const auto peak = highest_peak(slow ? e.scene.slow_spectra[0] : e.scene.spectra[0]);
+    const auto& fast = e.scene.spectra[0];
+    const auto highest = highest_peak(fast), narrow = highest_peak(fast, 1);
+    std::vector<std::pair<SpectralPeak, bool>> peaks{{highest, false},
+                                                     {highest_peak(e.scene.slow_spectra[0]), true}};
+    // A line beside a hump that is higher, as of one that wanders.
+    if (std::abs(narrow.frequency_hz - highest.frequency_hz) > 2.0 * fast.resolution_hz)
+      peaks.emplace_back(narrow, false);
+    for (const auto& [peak, slow] : peaks) {
       if (peak.frequency_hz <= 0.0) continue;
       const auto& values = slow ? e.scene.slow_dps : e.scene.rate_error_dps;
       const auto& spans = slow ? conditions.slow_spans(Part::train) : conditions.spans(Part::train);

@@ -10,11 +10,12 @@
 
 namespace gyrostat::gap {
 
-SpectralPeak highest_peak(const Spectrum& spectrum) {
+SpectralPeak highest_peak(const Spectrum& spectrum, std::size_t widest) {
   SpectralPeak best;
   const auto& s = spectrum.density;
   if (s.size() < 24) return best;
   for (std::size_t reach : {std::size_t{1}, std::size_t{4}, std::size_t{16}, std::size_t{64}}) {
+    if (reach > widest) break;
     for (std::size_t k = 3 + reach; k + reach < s.size();
          k += std::max<std::size_t>(1, reach / 2)) {
       const std::size_t low = k > 6 * reach ? k - 6 * reach : 1;

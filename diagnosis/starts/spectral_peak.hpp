@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <gyrostat/analysis/spectra/welch.hpp>
@@ -12,7 +13,8 @@ struct SpectralPeak {
   double floor = 0.0;  ///< density of the surroundings
 };
 
-SpectralPeak highest_peak(const Spectrum& spectrum);
+/// Of peaks of at most `widest` bins to either side.
+SpectralPeak highest_peak(const Spectrum& spectrum, std::size_t widest = 64);
 
 /// Frequency of the highest line in the periodogram of `white`, to a quarter of what its length
 /// resolves; 0 where that is too short.
