@@ -1,6 +1,7 @@
 #include <gyrostat/diagnosis/answer.hpp>
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 
 #include <gyrostat/core/words.hpp>
 #include <gyrostat/diagnosis/diagnosis.hpp>
+#include <gyrostat/diagnosis/gap/lens_type.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
 
@@ -61,6 +63,19 @@ std::string what_is_left_in_words(const Diagnosis& d) {
              : "";
 }
 
+/// ", mostly in the tails of the increments": the lens that most readings leave.
+std::string where_in_words(const std::vector<Where>& where) {
+  std::map<std::string, int> readings;
+  for (const auto& reading : where) ++readings[reading.lens];
+  if (readings.empty()) return "";
+  const auto most =
+      std::max_element(readings.begin(), readings.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  for (const auto& lens : lens_types())
+    if (lens.id == most->first) return fmt::format(", mostly in the {}", lens.title);
+  return "";
+}
+
 }  // namespace
 
 std::string parameters_in_words(const Effect& effect, std::optional<std::size_t> but) {
@@ -104,8 +119,9 @@ std::string remainder_in_words(const Diagnosis& d) {
   const double more = 100.0 * d.remainder.closed - named;
   if (more < 0.5) return "";
   return fmt::format(
-      "Named effects close {:.0f} % of the gap; {} {} another {:.0f} %; {:.0f} % is open.", named,
-      listed(words), words.size() > 1 ? "close" : "closes", more, 100.0 - named - more);
+      "Named effects close {:.0f} % of the gap; {} {} another {:.0f} %; {:.0f} % is open{}.", named,
+      listed(words), words.size() > 1 ? "close" : "closes", more, 100.0 - named - more,
+      where_in_words(d.remainder.where));
 }
 
 std::string transfer_in_words(const Diagnosis& d) {

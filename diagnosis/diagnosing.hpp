@@ -95,7 +95,8 @@ class Diagnosing {
   std::vector<LogScore> held_out_without_;  ///< of the set without each of result_.effects
   std::map<std::vector<std::string>, Scenario> subsets_;  ///< with_effects() of what was found
   std::vector<Rung> rungs_;                               ///< one effect more each
-  std::optional<Rung> completed_;                         ///< with what has no name
+  std::optional<Rung> yardstick_;  ///< with what of it the likelihood tells, which gaps are held to
+  std::optional<Rung> completed_;  ///< with all that has no name
   Diagnosis result_;
   std::chrono::steady_clock::time_point since_ = std::chrono::steady_clock::now();
   double share_ = 0.0;  ///< told

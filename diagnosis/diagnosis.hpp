@@ -66,6 +66,7 @@ struct Remainder {
   Scenario scenario;            ///< the enriched one with them
   double gap = 0.0;             ///< held-out
   double closed = 0.0;          ///< by named and nameless parts together
+  std::vector<Where> where{};   ///< on the train part, beside all parts
 };
 
 /// The simulator with one more effect.

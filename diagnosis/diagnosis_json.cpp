@@ -112,6 +112,7 @@ Json to_json(const Diagnosis& d) {
                                     {"p", line.p_value}});
   json["remainder"] = {{"gap", d.gap_after}, {"where", departures_json(d.where_after)}};
   json["remainder"]["closed_with"] = d.remainder.parts.empty() ? d.closed : d.remainder.closed;
+  json["remainder"]["open"] = departures_json(d.remainder.where);
   json["remainder"]["with"] = Json::array();
   for (const auto& part : d.remainder.parts)
     json["remainder"]["with"].push_back({{"effect", part.effect.id()},

@@ -3,6 +3,7 @@
 #include <gyrostat/diagnosis/diagnosing.hpp>
 #include <gyrostat/diagnosis/lens_band.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
+#include <gyrostat/diagnosis/remainder/remainder.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
 
 namespace gyrostat::gap {
@@ -11,10 +12,19 @@ void Diagnosing::complete() {
   if (result_.verdict.is_none()) return;
   tell("modelling what has no name", 0.82);
   auto& remainder = result_.remainder;
+  const auto completed_by = [&](const std::vector<Nameless>& parts, std::size_t replicas) {
+    return rung({}, with_drift(with_nameless(result_.enriched, parts), recording_), replicas);
+  };
   remainder.parts = found_.nameless(result_.enriched);
-  if (remainder.parts.empty()) return;
-  remainder.scenario = with_drift(with_nameless(result_.enriched, remainder.parts), recording_);
-  completed_ = rung({}, remainder.scenario, options_.candidate_replicas);
+  if (!remainder.parts.empty())
+    yardstick_ = completed_by(remainder.parts, options_.candidate_replicas);
+  remainder.parts = with_what_replicas_lack(
+      simulator_, recording_, result_.enriched, remainder.parts, [&](const auto& parts) {
+        return scoring_->of(completed_by(parts, lacking_replicas).replicas[0]).value;
+      });
+  if (!remainder.parts.empty())
+    completed_ = completed_by(remainder.parts, options_.candidate_replicas);
+  if (completed_) remainder.scenario = completed_->scenario;
 }
 
 void Diagnosing::measure_shrinkage() {
@@ -24,10 +34,8 @@ void Diagnosing::measure_shrinkage() {
         std::min(replicas[1].cols(), static_cast<Eigen::Index>(options_.candidate_replicas))));
   };
   const auto before = held_out(baseline_replicas_);
-  const auto& best = completed_       ? completed_->replicas
-                     : rungs_.empty() ? baseline_replicas_
-                                      : rungs_.back().replicas;
-  const auto truth = held_out(best);
+  const auto& named = rungs_.empty() ? baseline_replicas_ : rungs_.back().replicas;
+  const auto truth = held_out(yardstick_ ? yardstick_->replicas : named);
   result_.gap_before = result_.gap_after = gap_of(before, truth);
   result_.enrichments.push_back({"", result_.gap_before});
   const auto closed = [&](double to) {
@@ -37,13 +45,19 @@ void Diagnosing::measure_shrinkage() {
     result_.effects[k].gap_without = gap_of(held_out_without_[k], truth);
   if (completed_) {
     auto& remainder = result_.remainder;
-    remainder.gap = gap_of(truth, truth);
-    const Ensemble all(simulator_.instrument(Part::train), best[0], {});
+    // Neither may it be vaguer than the yardstick, nor miss what itself expects.
+    const auto score = held_out(completed_->replicas);
+    remainder.gap = std::max(gap_of(score, truth), gap_of(score, score));
+    const Ensemble all(simulator_.instrument(Part::train), completed_->replicas[0], {});
+    remainder.where = departures_of(all);
     if (all.p_value(observed_[0]) < thresholds::departure)
       remainder.gap = std::max(remainder.gap, thresholds::least_left * result_.gap_before);
     remainder.closed = closed(remainder.gap);
   }
-  if (rungs_.empty()) return;
+  if (rungs_.empty()) {
+    if (result_.remainder.closed <= 0.0) result_.remainder = {};
+    return;
+  }
   // Of an effect that closes something only beside another, nothing is made before that one.
   double least = result_.gap_before;
   for (const auto& r : rungs_) {

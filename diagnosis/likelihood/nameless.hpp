@@ -26,6 +26,9 @@ std::vector<Nameless> nameless_parts(const Simulator& simulator, const Series& r
                                      const SetFitter& fitter, const Scenario& fitted,
                                      const Scenario& set);
 
+/// Whether an effect stands outside of the catalogue, for what has no name.
+bool is_nameless(const Effect& effect);
+
 /// The set with them.
 Scenario with_nameless(Scenario set, const std::vector<Nameless>& parts);
 

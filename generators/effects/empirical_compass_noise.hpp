@@ -18,6 +18,7 @@ struct EmpiricalCompassNoise {
   double innovation_std_deg = 0.3;
   double reflection_1 = -0.3, reflection_2 = 0.0, reflection_3 = 0.0, reflection_4 = 0.0;
   double wander_std_deg = 0.0, wander_time_s = 60.0;
+  double tail = 0.0;
 
   static constexpr std::string_view title = "the compass noise has a colour without a name";
   static constexpr Stage stage = Stage::compass;
@@ -38,6 +39,8 @@ struct EmpiricalCompassNoise {
               "standard deviation of a Gauss-Markov wander beside it"},
         Field{"wander_time_s", &P::wander_time_s, "s", ranges::positive,
               "correlation time of the wander"},
+        Field{"tail", &P::tail, "1", ranges::fraction,
+              "heaviness h of the tails of what drives it: sinh(h n) of a normal n; 0: normal"},
     };
   }
 
@@ -47,8 +50,14 @@ struct EmpiricalCompassNoise {
   void apply(Series& series, const Noise& noise) const {
     Deviates white(noise.stream("empirical_compass_noise"));
     AllPole<order> coloured({reflection_1, reflection_2, reflection_3, reflection_4});
-    for (double& heading : series.heading_deg)
-      heading += coloured(innovation_std_deg * white.next());
+    // Of unit variance: E sinh²(h n) = (exp(2 h²) - 1) / 2 (after Jones and Pewsey, Biometrika 96,
+    // 2009, who name the family sinh-arcsinh).
+    const double scale = tail > 0.0 ? 1.0 / std::sqrt(0.5 * std::expm1(2.0 * tail * tail)) : 1.0;
+    for (double& heading : series.heading_deg) {
+      const double normal = white.next();
+      const double driven = tail > 0.0 ? scale * std::sinh(tail * normal) : normal;
+      heading += coloured(innovation_std_deg * driven);
+    }
     if (wander_std_deg == 0.0) return;
     Deviates drive(noise.stream("empirical_compass_noise/wander"));
     Decay decay(wander_time_s);
