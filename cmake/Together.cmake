@@ -1,5 +1,5 @@
-# A release build from nothing compiles several sources as one, which share what their headers and templates cost:
-# most of the time of a short source. The dev preset compiles each alone, so that each includes what it uses.
+# Several sources are compiled as one, which share what their headers and templates cost: most of the time of a short
+# source. That each includes what it uses is for tools/alone to check.
 option(GYROSTAT_TOGETHER "Compile several sources as one" ON)
 
 # Sources of one folder are compiled together, some `batch` at a time; a folder of few counts as the one above it. Which
