@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
-
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
 
@@ -38,7 +37,7 @@ ThermalDrift<double> fit_drift(const Conditions& conditions, const Scene& scene)
   Eigen::MatrixXd design(values.size(), regressors.cols() > 0 ? 3 : 1);
   design.col(0).setOnes();
   if (regressors.cols() > 0) design.rightCols(2) = regressors.leftCols(2);
-  const Eigen::VectorXd drift = design.colPivHouseholderQr().solve(values);
+  const Eigen::VectorXd drift = least_squares(design, values).solution;
   if (drift.size() == 1) return {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = drift[0]};
   return {.a_dps_per_C = drift[1],
           .b_dps_s_per_C = drift[2],

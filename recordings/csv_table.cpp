@@ -1,8 +1,10 @@
 #include <gyrostat/recordings/csv_table.hpp>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/recordings/csv_header.hpp>
+#include <gyrostat/recordings/csv_rows.hpp>
 #include <gyrostat/recordings/input_file.hpp>
-#include <gyrostat/recordings/text.hpp>
+#include <gyrostat/recordings/line_blocks.hpp>
 
 namespace gyrostat {
 

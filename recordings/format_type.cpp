@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include <gyrostat/recordings/text.hpp>
-
 namespace gyrostat {
 
 namespace formats {

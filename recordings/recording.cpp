@@ -7,10 +7,12 @@
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/recordings/clock.hpp>
+#include <gyrostat/recordings/csv_header.hpp>
+#include <gyrostat/recordings/csv_rows.hpp>
 #include <gyrostat/recordings/format_type.hpp>
 #include <gyrostat/recordings/input_file.hpp>
+#include <gyrostat/recordings/line_blocks.hpp>
 #include <gyrostat/recordings/recording_assembly.hpp>
-#include <gyrostat/recordings/text.hpp>
 
 namespace gyrostat {
 namespace {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include <gyrostat/recordings/csv_header.hpp>
 #include <gyrostat/recordings/recording.hpp>
-#include <gyrostat/recordings/text.hpp>
 
 namespace gyrostat {
 

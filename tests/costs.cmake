@@ -11,7 +11,7 @@ set_tests_properties(Gap.ThePValueOfTheKnownSimulatorsOwnRecordingsIsUniform
                      Runner.AnyNumberOfLanesGivesTheSameBits Diagnosis.IsTheSameForAnyNumberOfThreads
                      RandomErrorCell.TheOracleIsNeverBeaten Diagnosis.TheHeldOutPartChangesNeitherFitNorChoice
                      PROPERTIES COST 15)
-set_tests_properties(SetSearch.FindsNothingInNothing Store.SurvivesALogThatAPowerCutHasTruncated
+set_tests_properties(Store.SurvivesALogThatAPowerCutHasTruncated
                      Store.SurvivesBeingKilledAtRandomMoments Shard.MergedShardsEqualTheSingleRunByteForByte
                      Run.CtrlCEndsWithTheTablesOfWhatIsDone Run.ATerminationEndsAsCtrlCDoes
                      Memory.TenThousandTrialsOfAMinuteStayUnder300MiB

@@ -7,13 +7,13 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <ceres/ceres.h>
 
 #include <gyrostat/analysis/fits/arima_sums.hpp>
 #include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/core/numerics/dense.hpp>
 
 namespace gyrostat {
 namespace {
@@ -149,12 +149,12 @@ std::optional<Eigen::Matrix4d> covariance_of(const Arima111<double>& arima, cons
   // Scaled to a unit diagonal, so that definiteness does not depend on units.
   const Eigen::MatrixXd info = arima_derivatives(arima, z).information(index, index);
   const Eigen::VectorXd scale = info.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
-  const Eigen::LDLT<Eigen::MatrixXd> factor(scale.asDiagonal() * info * scale.asDiagonal());
-  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 1e-8)) return std::nullopt;
+  const auto [inverse, pivots, positive] =
+      invert_symmetric(scale.asDiagonal() * info * scale.asDiagonal());
+  if (!positive || !(pivots.minCoeff() > 1e-8)) return std::nullopt;
   Eigen::Matrix4d covariance =
       Eigen::Vector4d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
-  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(info.rows(), info.cols());
-  covariance(index, index) = scale.asDiagonal() * factor.solve(identity) * scale.asDiagonal();
+  covariance(index, index) = scale.asDiagonal() * inverse * scale.asDiagonal();
   return covariance;
 }
 

@@ -13,6 +13,7 @@
 #include <gyrostat/analysis/spectra/arima_haar.hpp>
 #include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/numerics/linear.hpp>
 #include <gyrostat/core/random.hpp>
 
@@ -49,7 +50,7 @@ struct Moments {
     Eigen::MatrixXd covariance = log_allan_covariance(model_of(free), samples, scales());
     covariance.diagonal() *= 1.0 + 1e-6;  // a smooth x correlates the scales almost fully
     log_bias = -0.5 * covariance.diagonal();
-    whitener = covariance.llt().matrixL().solve(Eigen::MatrixXd::Identity(scales(), scales()));
+    whitener = whitener_of(covariance);
   }
 
   template <class T>

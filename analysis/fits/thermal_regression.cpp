@@ -5,11 +5,10 @@
 #include <limits>
 #include <numeric>
 
-#include <Eigen/QR>
-
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/models/compass_aiding.hpp>
 #include <gyrostat/core/models/thermal.hpp>
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/numerics/linear.hpp>
 #include <gyrostat/core/track.hpp>
 
@@ -90,8 +89,7 @@ Eigen::VectorXd least_squares_variances(const Eigen::MatrixXd& X, const Eigen::V
   Eigen::MatrixXd sums = X;
   for (Eigen::Index k = X.rows() - 2; k >= 0; --k) sums.row(k) += sums.row(k + 1);
   sums.row(0).setZero();
-  const Eigen::MatrixXd bread =
-      (X.transpose() * X).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd bread = pseudo_inverse(X.transpose() * X);
   const double n = static_cast<double>(X.rows()), freedom = n - static_cast<double>(X.cols());
   std::vector<double> deviances;
   std::vector<Eigen::VectorXd> variances;
@@ -100,10 +98,12 @@ Eigen::VectorXd least_squares_variances(const Eigen::MatrixXd& X, const Eigen::V
     const Eigen::MatrixXd white = whitened(columns, ratio, log_variances);
     const auto W = white.leftCols(X.cols());
     const Eigen::VectorXd w = white.rightCols(1);
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(W);
-    const double white_variance = (w - W * qr.solve(w)).squaredNorm() / freedom;
+    const auto fit = least_squares(W, w);
+    const double white_variance = (w - W * fit.solution).squaredNorm() / freedom;
+    double log_volume = 0.0;
+    for (const double pivot : fit.pivots) log_volume += std::log(std::abs(pivot));
     deviances.push_back(freedom * std::log(std::max(white_variance, 1e-300)) + log_variances +
-                        2.0 * qr.matrixR().diagonal().cwiseAbs().array().log().sum());
+                        2.0 * log_volume);
     variances.push_back(
         white_variance *
         (bread * (X.transpose() * X + ratio * sums.transpose() * sums) * bread).diagonal());
@@ -132,7 +132,7 @@ ThermalFit fit_thermal_drift(const Series& series, double interval_s) {
   const bool assessable = fit.temperature_span_C >= least_temperature_span_C;
   const Eigen::MatrixXd judged =
       assessable ? Eigen::MatrixXd(X) : Eigen::MatrixXd(X.rightCols<1>());
-  const Eigen::VectorXd values = judged.completeOrthogonalDecomposition().solve(y);
+  const Eigen::VectorXd values = shortest_least_squares(judged, y);
   const Eigen::VectorXd errors = least_squares_variances(judged, y).cwiseSqrt();
   fit.residual_std_dps = std::sqrt((y - judged * values).squaredNorm() /
                                    static_cast<double>(y.size() - judged.cols()));

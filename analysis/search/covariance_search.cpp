@@ -5,8 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
-
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
@@ -103,9 +102,9 @@ class Evolution {
     deviation_ *= std::exp(c_.step_rate / c_.step_damping * (norm / c_.expected_norm - 1));
     deviation_ = std::min(deviation_, 1.0);
 
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(covariance_);
-    axes_ = eigen.eigenvectors();
-    lengths_ = eigen.eigenvalues().cwiseMax(1e-20).cwiseSqrt();
+    const auto eigen = symmetric_eigen(covariance_);
+    axes_ = eigen.vectors;
+    lengths_ = eigen.values.cwiseMax(1e-20).cwiseSqrt();
   }
 
  private:

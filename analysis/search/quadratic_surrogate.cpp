@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include <gyrostat/analysis/search/covariance_search.hpp>
+#include <gyrostat/core/numerics/dense.hpp>
 
 namespace gyrostat {
 namespace {
@@ -62,7 +61,7 @@ std::vector<double> surrogate_minimum(const std::vector<std::vector<double>>& po
     right += weight * excess[i] * terms;
   }
   normal.diagonal().array() += ridge * normal.diagonal().maxCoeff();
-  const Eigen::VectorXd coefficients = normal.ldlt().solve(right);
+  const Eigen::VectorXd coefficients = solve_symmetric(normal, right);
 
   std::vector<SearchRange> box;
   for (const double c : centre)

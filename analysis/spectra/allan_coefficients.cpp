@@ -16,6 +16,7 @@
 
 #include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/numerics/linear.hpp>
 
 namespace gyrostat {
@@ -236,7 +237,7 @@ class Fit {
       scale[j] = std::sqrt(trigamma(0.5 * edf) / product(j, j));
     }
     const Eigen::MatrixXd covariance = scale.asDiagonal() * product * scale.asDiagonal();
-    whitener_ = covariance.llt().matrixL().solve(Eigen::MatrixXd::Identity(size(), size()));
+    whitener_ = whitener_of(covariance);
   }
 
   std::vector<AllanPoint> points_;

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <tuple>
 
-#include <Eigen/Cholesky>
-
 #include <gyrostat/analysis/statistics/distributions.hpp>
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/random.hpp>
 
 namespace gyrostat {
@@ -97,10 +96,7 @@ std::vector<double> AllPairs::largest() const {
     for (std::size_t b = 1; b < methods_; ++b)
       covariance(static_cast<Eigen::Index>(a - 1), static_cast<Eigen::Index>(b - 1)) =
           0.5 * (square(a, 0) + square(b, 0) - square(a, b));
-  const Eigen::LDLT<Eigen::MatrixXd> factor(covariance);
-  Eigen::MatrixXd root = factor.matrixL();
-  root = factor.transpositionsP().transpose() *
-         (root * factor.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal()).eval();
+  const Eigen::MatrixXd root = semidefinite_root(covariance);
 
   std::vector<double> most;
   const NormalStream stream(0, 0, "all pairs");

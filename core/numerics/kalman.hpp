@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/LU>
-
+#include <gyrostat/core/numerics/full_pivots.hpp>
 #include <gyrostat/core/numerics/lanes.hpp>
 #include <gyrostat/core/numerics/linear.hpp>
 
@@ -73,9 +72,9 @@ Innovation<T, M> measurement_update(Gaussian<T, N>& state, const Matrix<T, M, N>
                                     const Matrix<T, M>& R, const Vector<T, M>& z) {
   const Matrix<T, M, N> HP = H * state.covariance;
   Innovation<T, M> innovation{.value = z - H * state.mean, .covariance = HP * H.transpose() + R};
-  const auto lu = innovation.covariance.fullPivLu();
-  if (!lu.isInvertible()) return innovation;
-  const Matrix<T, N, M> gain = lu.solve(HP).transpose();
+  Matrix<T, M, N> transposed_gain = HP;
+  if (!divide_with_full_pivots<T, M, N>(innovation.covariance, transposed_gain)) return innovation;
+  const Matrix<T, N, M> gain = transposed_gain.transpose();
   const Matrix<T, N> rest = Matrix<T, N>::Identity() - gain * H;
   state.mean += gain * innovation.value;
   state.covariance =

@@ -5,9 +5,8 @@
 #include <numeric>
 #include <string>
 
-#include <Eigen/QR>
-
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/step.hpp>
 
 namespace gyrostat::gap {
@@ -158,7 +157,7 @@ void Conditions::find_drift() {
   drift_fit_ = white.transpose();
   if (!regress) return;
   const Eigen::MatrixXd normal = white.transpose() * white;
-  drift_fit_ = normal.completeOrthogonalDecomposition().pseudoInverse() * white.transpose();
+  drift_fit_ = pseudo_inverse(normal) * white.transpose();
 }
 
 Eigen::VectorXd Conditions::train_values(const std::vector<double>& slow) const {

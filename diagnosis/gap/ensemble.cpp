@@ -5,9 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Cholesky>
-
 #include <gyrostat/analysis/statistics/distributions.hpp>
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/random.hpp>
 
 namespace gyrostat::gap {
@@ -71,7 +70,7 @@ Ensemble::Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas
     const Eigen::MatrixXd weighted = spread_.cwiseAbs2().cwiseInverse().asDiagonal() * jacobian;
     Eigen::MatrixXd information = jacobian.transpose() * weighted;
     information.diagonal().array() += 1.0;  // by no more than an e-fold, where nothing shows it
-    refit_right_ = information.ldlt().solve(weighted.transpose());
+    refit_right_ = solve_symmetric(information, Eigen::MatrixXd(weighted.transpose()));
     off -= refit_left_ * (refit_right_ * off);
     spread_ = spread_of(off);
   }
@@ -99,7 +98,7 @@ Ensemble::Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas
         off.middleRows(lens.first, lens.count);
     Eigen::MatrixXd correlation = (1.0 - shrinkage) / (n - 1.0) * scaled * scaled.transpose();
     correlation.diagonal().array() += shrinkage;
-    roots_.push_back(correlation.llt().matrixL());
+    roots_.push_back(cholesky_root(correlation));
   }
   const auto tails_without = [&](Eigen::Index replica) {
     std::vector<Tail> tails;

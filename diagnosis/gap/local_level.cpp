@@ -1,9 +1,8 @@
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/diagnosis/gap/local_level.hpp>
 
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/QR>
 
 namespace gyrostat::gap {
 namespace {
@@ -51,11 +50,11 @@ RatioLikelihood::RatioLikelihood(std::span<const std::size_t> points,
     auto freedom = static_cast<double>(rest.size());
     if (regressors.cols() > 0) {
       const Eigen::MatrixXd of_regressors = level.innovations_of_columns(regressors);
-      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(of_regressors);
-      rest -= of_regressors * qr.solve(rest);
-      freedom -= static_cast<double>(qr.rank());
-      for (Eigen::Index r = 0; r < qr.rank(); ++r)
-        log_determinant += 2.0 * std::log(std::abs(qr.matrixR()(r, r)));
+      const auto fit = least_squares(of_regressors, rest);
+      rest -= of_regressors * fit.solution;
+      freedom -= static_cast<double>(fit.rank);
+      for (Eigen::Index r = 0; r < fit.rank; ++r)
+        log_determinant += 2.0 * std::log(std::abs(fit.pivots[r]));
     }
     deviances_.push_back(log_determinant +
                          freedom * std::log(std::max(rest.squaredNorm(), 1e-300)));

@@ -5,8 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include <Eigen/Cholesky>
-
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/values.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/evidence.hpp>
@@ -165,7 +164,7 @@ std::vector<Effect> CompassSearch::stepped(const std::vector<Effect>& set) const
     }
   normal.diagonal() *= 1.0 + 1e-9;
   normal.diagonal().array() += 1e-12;
-  const Eigen::VectorXd by = normal.ldlt().solve(right);
+  const Eigen::VectorXd by = solve_symmetric(normal, right);
   auto better = set;
   for (std::size_t c = 0; c < places.size(); ++c) {
     auto& value = better[places[c].effect].value(places[c].field);

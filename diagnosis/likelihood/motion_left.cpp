@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
@@ -56,7 +55,7 @@ double log_gain_of_motion(const Conditions& conditions, const std::vector<double
   // A motion of few frequencies has taps that are alike.
   Eigen::MatrixXd ridged = normal;
   ridged.diagonal() += 1e-9 * normal.diagonal();
-  const double explained = with_left.dot(ridged.ldlt().solve(with_left));
+  const double explained = with_left.dot(solve_symmetric(ridged, with_left));
   const double share = std::clamp(explained / std::max(squares, 1e-300), 0.0, 1.0 - 1e-12);
   return -0.5 * count * std::log1p(-share) - 0.5 * static_cast<double>(regressor_columns);
 }

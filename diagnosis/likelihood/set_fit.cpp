@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <tbb/parallel_for.h>
 
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/likelihood/arima_law.hpp>
@@ -304,8 +304,7 @@ std::vector<ParameterInterval> SetFitter::intervals(const SetFit& fit) const {
   const auto slopes = slopes_of(fit.scenario, dials, here, Jumping::no, nullptr);
   Eigen::MatrixXd information = slopes.transpose() * slopes;
   information.diagonal().array() += 1e-6;  // what nothing is known of has an interval, too
-  const Eigen::MatrixXd covariance =
-      information.ldlt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+  const Eigen::MatrixXd covariance = invert_symmetric(information).inverse;
   for (std::size_t d = 0; d < dials.size(); ++d) {
     if (!dials[d].place) continue;
     const auto [effect, field] = *dials[d].place;
@@ -356,7 +355,7 @@ SetFit SetFitter::maximise(const Scenario& start, int iterations, Jumping jumpin
       Eigen::MatrixXd damped = information;
       damped.diagonal() +=
           damping * information.diagonal() + Eigen::VectorXd::Constant(count, 1e-3);
-      Eigen::VectorXd by = damped.ldlt().solve(gradient);
+      Eigen::VectorXd by = solve_symmetric(damped, gradient);
       for (Eigen::Index d = 0; d < count; ++d) {
         const double furthest = dials[static_cast<std::size_t>(d)].furthest;
         by[d] = std::clamp(by[d], -furthest, furthest);

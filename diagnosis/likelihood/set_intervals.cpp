@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <tbb/parallel_for.h>
 
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 
@@ -61,9 +61,8 @@ void SetBench::add_intervals_of_taken_out(const Scenario& scenario, std::size_t 
     const auto i = static_cast<Eigen::Index>(a), j = static_cast<Eigen::Index>(b);
     curvature(i, j) = curvature(j, i) = -second;
   });
-  const Eigen::LDLT<Eigen::MatrixXd> solver(curvature);
-  if (solver.info() != Eigen::Success || !solver.isPositive()) return;
-  const Eigen::MatrixXd covariance = solver.solve(Eigen::MatrixXd::Identity(size, size));
+  const auto [covariance, pivots, positive] = invert_symmetric(curvature);
+  if (!positive) return;
   for (std::size_t f = 0; f < n; ++f) {
     const auto i = static_cast<Eigen::Index>(f);
     const double value = middle.value(fields[f]);

@@ -1,3 +1,4 @@
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/diagnosis/likelihood/slow_filter.hpp>
 
 #include <algorithm>
@@ -6,8 +7,6 @@
 #include <numbers>
 #include <type_traits>
 #include <utility>
-
-#include <Eigen/Cholesky>
 
 namespace gyrostat::gap {
 namespace {
@@ -189,14 +188,13 @@ SlowTerms gaussian_terms(const SlowLaw& law, std::span<const std::size_t> points
     const Eigen::MatrixXd scaled = x * prior_std.asDiagonal();
     Eigen::MatrixXd normal = scaled.transpose() * scaled;
     normal.diagonal().array() += 1.0;
-    const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
-    const Eigen::VectorXd units = solver.solve(scaled.transpose() * left);
+    const auto [inverse, pivots, positive] = invert_symmetric(normal);
+    const Eigen::VectorXd units =
+        solve_symmetric(normal, Eigen::VectorXd(scaled.transpose() * left));
     terms.coefficients = prior_std.cwiseProduct(units);
-    const Eigen::MatrixXd inverse =
-        solver.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
     terms.coefficients_std = prior_std.cwiseProduct(inverse.diagonal().cwiseMax(0.0).cwiseSqrt());
     left -= scaled * units;
-    terms.cost_of_coefficients = 0.5 * (solver.vectorD().array().log().sum() + units.squaredNorm());
+    terms.cost_of_coefficients = 0.5 * (pivots.array().log().sum() + units.squaredNorm());
     logs += 2.0 * terms.cost_of_coefficients;
   }
   terms.innovations.assign(left.begin(), left.end());

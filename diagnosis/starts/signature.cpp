@@ -1,8 +1,7 @@
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/diagnosis/starts/signature.hpp>
 
 #include <cmath>
-
-#include <Eigen/QR>
 
 namespace gyrostat::gap {
 namespace {
@@ -67,7 +66,7 @@ Eigen::VectorXd trace_of(const Evidence& e, Trace trace) {
 }
 
 Match match(const Eigen::MatrixXd& columns, const Eigen::VectorXd& trace) {
-  const Eigen::VectorXd amplitudes = columns.completeOrthogonalDecomposition().solve(trace);
+  const Eigen::VectorXd amplitudes = shortest_least_squares(columns, trace);
   return {amplitudes, (trace - columns * amplitudes).squaredNorm() / trace.squaredNorm()};
 }
 

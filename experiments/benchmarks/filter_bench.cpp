@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include <gyrostat/core/filters/list.hpp>
-#include <gyrostat/experiments/run/trial.hpp>
+#include <gyrostat/experiments/run/trials_together.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 
 namespace gyrostat {

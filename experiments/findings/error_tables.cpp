@@ -9,7 +9,7 @@
 #include <gyrostat/core/words.hpp>
 #include <gyrostat/experiments/findings/consistency.hpp>
 #include <gyrostat/experiments/findings/told.hpp>
-#include <gyrostat/experiments/run/trial.hpp>
+#include <gyrostat/experiments/run/outcome_numbers.hpp>
 
 namespace gyrostat {
 namespace {

@@ -11,6 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include <gyrostat/experiments/run/study_store.hpp>
+#include <gyrostat/experiments/run/trials_together.hpp>
 #include <gyrostat/experiments/study/digest.hpp>
 #include <gyrostat/results/store_writer.hpp>
 

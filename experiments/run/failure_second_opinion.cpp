@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <gyrostat/analysis/rare/common_direction.hpp>
+#include <gyrostat/experiments/run/trials_together.hpp>
 
 namespace gyrostat {
 namespace {

@@ -1,4 +1,5 @@
 #include <gyrostat/experiments/run/failure_signal.hpp>
+#include <gyrostat/experiments/run/trials_together.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -10,6 +10,7 @@
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/interrupt.hpp>
+#include <gyrostat/experiments/run/trials_together.hpp>
 
 namespace gyrostat {
 

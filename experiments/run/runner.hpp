@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include <gyrostat/experiments/run/trial.hpp>
+#include <gyrostat/experiments/run/trials_together.hpp>
 #include <gyrostat/experiments/run/tuning.hpp>
 
 namespace gyrostat {

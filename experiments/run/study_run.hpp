@@ -10,6 +10,7 @@
 #include <gyrostat/experiments/run/stopper.hpp>
 #include <gyrostat/experiments/run/stored_run.hpp>
 #include <gyrostat/experiments/run/study_store.hpp>
+#include <gyrostat/experiments/run/trials_together.hpp>
 
 namespace gyrostat {
 

@@ -1,5 +1,4 @@
 #include <gyrostat/recordings/format_type.hpp>
-#include <gyrostat/recordings/text.hpp>
 #include <gyrostat/recordings/units.hpp>
 
 namespace gyrostat::formats::phyphox {

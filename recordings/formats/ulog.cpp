@@ -11,7 +11,6 @@
 #include <gyrostat/recordings/binary/imu_log.hpp>
 #include <gyrostat/recordings/binary/whole_file.hpp>
 #include <gyrostat/recordings/format_type.hpp>
-#include <gyrostat/recordings/text.hpp>
 
 namespace gyrostat::formats::ulog {
 namespace {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/LU>
 #include <ceres/jet.h>
 #include <gmock/gmock.h>
 

@@ -287,6 +287,31 @@ TEST_F(Numerics, UpdateAndDowndateOnJetsHaveTheDerivativeOfTheOuterProduct) {
   }
 }
 
+/// Whatever scales stand beside each other, and where the first pivot is zero.
+TEST_F(Numerics, DividingWithFullPivotsSolves) {
+  for (int k = 0; k < repetitions; ++k) {
+    Matrix<double, 2> a = random<2, 2>();
+    a.row(k % 2) *= std::pow(10.0, k % 13 - 6);
+    if (k % 3 == 0) a(0, 0) = 0.0;
+    const auto b = random<2, 3>();
+    Matrix<double, 2, 3> x = b;
+    ASSERT_TRUE((divide_with_full_pivots<double, 2, 3>(a, x)));
+    const Dense left = Dense(a) * Dense(x);
+    for (int i = 0; i < 2; ++i)
+      EXPECT_LE((left.row(i) - b.row(i)).norm(), 1e-11 * Dense(a).row(i).norm() * Dense(x).norm());
+  }
+}
+
+TEST_F(Numerics, DividingBySingularMatricesIsRefused) {
+  for (int k = 0; k < repetitions; ++k) {
+    const auto u = random<2, 1>(), v = random<2, 1>();
+    Matrix<double, 2, 3> x = random<2, 3>();
+    const Matrix<double, 2> outer(u * v.transpose());
+    EXPECT_FALSE((divide_with_full_pivots<double, 2, 3>(outer, x)));
+    EXPECT_FALSE((divide_with_full_pivots<double, 2, 3>(Matrix<double, 2>::Zero(), x)));
+  }
+}
+
 TEST_F(Numerics, PropagationIsTheSimilarityByF) {
   const auto F = random<3, 3>();
   const auto a = random<3, 3>();

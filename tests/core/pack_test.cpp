@@ -3,11 +3,16 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#include <gyrostat/core/filters/list.hpp>
+#include <gyrostat/core/filter_type.hpp>
+#include <gyrostat/core/packed/kernels.hpp>
 #include <gyrostat/core/random.hpp>
 
 namespace gyrostat::pack_test {
@@ -52,78 +57,92 @@ double sample_of(int lane, std::size_t k) {
 }
 
 /// The parameters of a lane: no two alike, some at zero.
-template <class P>
-P parameters_of(int lane) {
-  P p;
-  for (const auto& field : p.fields()) {
-    double& value = p.*(field.member);
+std::vector<double> parameters_of(const FilterType& filter, int lane) {
+  std::vector<double> values;
+  for (const auto& field : filter.fields) {
+    double value = field.value;
     if (field.name.starts_with("mu_"))
       value = lane % 3 == 1 ? 0.0 : 0.01 * (1 + lane);
     else if (!field.range.whole && field.range.contains(value * (1.0 + 0.05 * lane)))
       value *= 1.0 + 0.05 * lane;
     if (lane == 5 && field.name.find("std") != std::string_view::npos && field.range.contains(0.0))
       value = 0.0;
+    values.push_back(value);
   }
-  return p;
+  return values;
 }
 
-/// Each lane of `Filter` on packs against the same filter alone, over `steps` samples.
-template <template <class> class Filter, int N>
-void expect_lanes_are_doubles(std::size_t steps) {
-  using P = Pack<Baseline, N>;
-  typename Filter<P>::Parameters packed;
-  std::vector<Filter<double>> alone;
-  const auto fields = packed.fields();
-  std::array<std::array<double, N>, 32> values{};
-  for (int lane = 0; lane < N; ++lane) {
-    const auto p = parameters_of<typename Filter<double>::Parameters>(lane);
-    alone.emplace_back(p);
-    for (std::size_t f = 0; f < fields.size(); ++f) values[f][lane] = p.*(p.fields()[f].member);
+/// What a filter makes of samples in lanes.
+struct Steps {
+  explicit Steps(std::size_t count) {
+    for (auto* column : {&estimate, &variance, &innovation, &innovation_variance, &status})
+      column->resize(count);
   }
-  for (std::size_t f = 0; f < fields.size(); ++f)
-    packed.*(fields[f].member) = P::load(values[f].data());
-  Filter<P> filter(packed);
-  for (std::size_t k = 0; k < steps; ++k) {
-    std::array<double, N> z{}, zero{};
-    for (int lane = 0; lane < N; ++lane) z[lane] = sample_of(lane, k);
-    Sample<P> sample;
-    sample.gyro_dps = P::load(z.data());
-    sample.true_rate_dps = sample.true_drift_dps = P::load(zero.data());
-    const auto step = filter.step(sample);
-    for (int lane = 0; lane < N; ++lane) {
-      const auto one =
-          alone[lane].step({.gyro_dps = z[lane], .true_rate_dps = 0.0, .true_drift_dps = 0.0});
-      ASSERT_EQ(bits(step.estimate_dps[lane]), bits(one.estimate_dps)) << lane << ", " << k;
-      ASSERT_EQ(bits(step.estimate_variance[lane]), bits(one.estimate_variance))
-          << lane << ", " << k;
-      ASSERT_EQ(bits(step.innovation_dps[lane]), bits(one.innovation_dps)) << lane << ", " << k;
-      ASSERT_EQ(bits(step.innovation_variance[lane]), bits(one.innovation_variance))
-          << lane << ", " << k;
-      ASSERT_EQ(static_cast<Status>(static_cast<int>(step.status.code[lane])), one.status)
-          << lane << ", " << k;
-    }
+  PackedSteps out(std::size_t lane = 0) {
+    return {&estimate[lane], &variance[lane], &innovation[lane], &innovation_variance[lane],
+            &status[lane]};
   }
+  std::vector<double> estimate, variance, innovation, innovation_variance, status;
+};
+
+std::vector<std::string> packed_filters() {
+  std::vector<std::string> ids;
+  for (const auto* unit : available_kernels().front()->filters)
+    for (const auto& kernel : *unit) ids.emplace_back(kernel.filter);
+  return ids;
 }
 
-template <template <class> class Filter>
-void expect_lanes_are_doubles() {
-  expect_lanes_are_doubles<Filter, 2>(1000);
-  expect_lanes_are_doubles<Filter, 4>(1000);
-  expect_lanes_are_doubles<Filter, 8>(3000);
+class Packed : public testing::TestWithParam<std::string> {};
+
+/// Of every kernel that this machine can run.
+TEST_P(Packed, IsItselfInEveryLane) {
+  constexpr std::size_t samples = 3000;
+  const auto& filter = filter_types().named(GetParam(), "test");
+  std::size_t kernels_met = 0;
+  for (const auto* target : available_kernels())
+    for (const auto* unit : target->filters)
+      for (const auto& kernel : *unit) {
+        if (kernel.filter != GetParam()) continue;
+        ++kernels_met;
+        const auto lanes = static_cast<std::size_t>(kernel.lanes);
+        std::vector<double> gyro(samples * lanes), truth(samples * lanes, 0.0), t(samples, 0.0);
+        std::vector<double> parameters(filter.fields.size() * lanes);
+        Steps packed(samples * lanes), alone(samples * lanes);
+        for (std::size_t l = 0; l < lanes; ++l) {
+          for (std::size_t k = 0; k < samples; ++k)
+            gyro[k * lanes + l] = sample_of(static_cast<int>(l), k);
+          const auto own = parameters_of(filter, static_cast<int>(l));
+          for (std::size_t f = 0; f < own.size(); ++f) parameters[f * lanes + l] = own[f];
+          filter.start(own)->run({.t_s = t.data(),
+                                  .gyro_dps = &gyro[l],
+                                  .true_rate_dps = &truth[l],
+                                  .true_drift_dps = &truth[l],
+                                  .gyro_stride = lanes,
+                                  .truth_stride = lanes},
+                                 alone.out(l), lanes, samples);
+        }
+        const std::unique_ptr<void, decltype(&std::free)> state(
+            std::aligned_alloc(64, (kernel.bytes + 63) / 64 * 64), &std::free);
+        kernel.start(state.get(), parameters.data());
+        kernel.run(state.get(), {gyro.data(), truth.data(), truth.data()}, packed.out(), samples);
+        const auto where = [&](std::size_t i) {
+          return std::string(target->target) + ", lane " + std::to_string(i % lanes) + ", sample " +
+                 std::to_string(i / lanes);
+        };
+        for (std::size_t i = 0; i < samples * lanes; ++i) {
+          ASSERT_EQ(bits(packed.estimate[i]), bits(alone.estimate[i])) << where(i);
+          ASSERT_EQ(bits(packed.variance[i]), bits(alone.variance[i])) << where(i);
+          ASSERT_EQ(bits(packed.innovation[i]), bits(alone.innovation[i])) << where(i);
+          ASSERT_EQ(bits(packed.innovation_variance[i]), bits(alone.innovation_variance[i]))
+              << where(i);
+          ASSERT_EQ(packed.status[i], alone.status[i]) << where(i);
+        }
+      }
+  EXPECT_GE(kernels_met, available_kernels().size());
 }
 
-TEST(Packed, NoneIsItselfInEveryLane) { expect_lanes_are_doubles<filters::None>(); }
-TEST(Packed, KfIsItselfInEveryLane) { expect_lanes_are_doubles<filters::Kf>(); }
-TEST(Packed, KfMaIsItselfInEveryLane) { expect_lanes_are_doubles<filters::KfMa>(); }
-TEST(Packed, OracleIsItselfInEveryLane) { expect_lanes_are_doubles<filters::Oracle>(); }
-TEST(Packed, StfIsItselfInEveryLane) { expect_lanes_are_doubles<filters::Stf>(); }
-TEST(Packed, RskfIsItselfInEveryLane) { expect_lanes_are_doubles<filters::Rskf>(); }
-TEST(Packed, SrUkfIsItselfInEveryLane) { expect_lanes_are_doubles<filters::SrUkf>(); }
-TEST(Packed, SrUkfWalkIsItselfInEveryLane) { expect_lanes_are_doubles<filters::SrUkfWalk>(); }
-TEST(Packed, SrRsukfIsItselfInEveryLane) { expect_lanes_are_doubles<filters::SrRsukf>(); }
-TEST(Packed, SrRsukfScalarIsItselfInEveryLane) {
-  expect_lanes_are_doubles<filters::SrRsukfScalar>();
-}
+INSTANTIATE_TEST_SUITE_P(Each, Packed, testing::ValuesIn(packed_filters()),
+                         [](const auto& filter) { return filter.param; });
 
 }  // namespace
 }  // namespace gyrostat::pack_test

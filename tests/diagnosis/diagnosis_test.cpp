@@ -15,6 +15,7 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
 #include <gyrostat/diagnosis/gap/ensemble.hpp>
+#include <gyrostat/diagnosis/likelihood/set_search.hpp>
 #include <gyrostat/diagnosis/model_fit.hpp>
 #include <gyrostat/diagnosis/simulator.hpp>
 #include <gyrostat/generators/effects/list.hpp>
@@ -187,11 +188,23 @@ TEST(Diagnosis, ANameThatMissesTheRecordingIsNotAlone) {
   EXPECT_FALSE(d.next.what.empty());
 }
 
-// The false-alarm rate aimed at is 5 %: three of ten would happen once in a hundred.
+/// Of twenty recordings without effects the set that the likelihood finds, and the verdict on ten
+/// of them. Three of 120 such recordings have an effect named: at that rate three of these twenty
+/// have in one of eighty families. The false-alarm rate that verdicts aim at is 5 %: three of ten
+/// would happen once in a hundred.
 TEST(Diagnosis, FindsNothingWhereThereIsNoGap) {
-  int alarms = 0;
-  for (std::uint64_t seed = 30; seed < 40; ++seed)
-    alarms += diagnose(recorded(still(), seed, false), {}).verdict.is_none() ? 0 : 1;
+  int named = 0, alarms = 0;
+  for (std::uint64_t seed = 500; seed < 520; ++seed) {
+    const Series series = recorded(still(), seed, false);
+    if (seed < 510) {
+      const auto d = diagnose(series, {});
+      named += d.effects.empty() ? 0 : 1;
+      alarms += d.verdict.is_none() ? 0 : 1;
+    } else {
+      named += find_set(Simulator(series, 1), series, {}).members.empty() ? 0 : 1;
+    }
+  }
+  EXPECT_LT(named, 3);
   EXPECT_LT(alarms, 3);
 }
 

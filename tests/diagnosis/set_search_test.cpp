@@ -93,17 +93,9 @@ TEST(SetBench, IntervalsHoldTheTruth) {
   for (const auto& [parameter, count] : held) EXPECT_GT(count, recordings - 7) << parameter;
 }
 
-/// Three of 120 recordings without effects, still and moving, have one named: at that rate three of
-/// these twenty have in one of eighty families.
-TEST(SetSearch, FindsNothingInNothing) {
-  int alarms = 0;
-  for (std::uint64_t seed = 500; seed < 520; ++seed)
-    alarms += found_in(recorded(still(), seed, false)).empty() ? 0 : 1;
-  EXPECT_LT(alarms, 3);
-}
-
 /// ARIMA(1,1,1) is the baseline, whatever it remembers: in the published scenario [A] half of the
-/// fast noise is the random error's. The false-failure rate is that of the family above.
+/// fast noise is the random error's. Three of twenty have an effect named in one of eighty
+/// families, as of recordings without memory (Diagnosis.FindsNothingWhereThereIsNoGap).
 TEST(SetSearch, FindsNothingInTheRandomErrorsMemory) {
   Scenario s;
   s.sampling = {60.0, 100.0};

@@ -9,6 +9,7 @@
 #include <gyrostat/experiments/findings/failures.hpp>
 #include <gyrostat/experiments/run/runner.hpp>
 #include <gyrostat/experiments/run/study_store.hpp>
+#include <gyrostat/experiments/run/trials_together.hpp>
 #include <gyrostat/experiments/study/address.hpp>
 
 namespace gyrostat::cli {

@@ -12,6 +12,7 @@
 #include <gyrostat/experiments/run/failure_run.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/experiments/run/time_of_day.hpp>
+#include <gyrostat/experiments/run/trials_together.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
 
 namespace gyrostat::cli {

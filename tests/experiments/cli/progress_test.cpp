@@ -121,7 +121,7 @@ TEST(Progress, OnATerminalIsOneLineThatOnlyGrows) {
   if (std::system("command -v script >/dev/null") != 0)
     GTEST_SKIP() << "needs script of util-linux";
   const TestFolder folder;
-  folder.write("rec.csv", noise(200'000));
+  folder.write("rec.csv", noise(60'000));
   const auto command = fmt::format("cd '{}' && script -qec '{} fit rec.csv' /dev/null </dev/null",
                                    folder.path().string(), GYROSTAT_PROGRAM);
   std::string said;

@@ -9,6 +9,7 @@
 #include <gyrostat/analysis/error_metric.hpp>
 #include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/experiments/findings/tuning_tables.hpp>
+#include <gyrostat/experiments/run/trials_together.hpp>
 #include <gyrostat/tests/program.hpp>
 
 namespace gyrostat::method_tuning_test {

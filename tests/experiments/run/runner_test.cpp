@@ -11,7 +11,7 @@
 
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/core/filter_type.hpp>
-#include <gyrostat/core/filters/list.hpp>
+#include <gyrostat/experiments/run/trials_together.hpp>
 #include <gyrostat/generators/effects/list.hpp>
 #include <gyrostat/generators/environment/motion/list.hpp>
 #include <gyrostat/generators/environment/temperature/list.hpp>
@@ -82,19 +82,18 @@ TEST(Runner, OneThreadAndEightGiveTheSameBits) {
   }
 }
 
-/// Every filter, packed or not; 24 trials fill packs of 8, 23 leave one that is not full.
+/// Every filter, packed or not; 23 trials fill packs of any size and leave one that is not full.
 TEST(Runner, AnyNumberOfLanesGivesTheSameBits) {
-  for (const std::uint32_t trials : {24U, 23U})
-    for (const bool each_trial : {false, true}) {
-      auto cell = busy_cell();
-      cell.trials = trials;
-      cell.calibration.each_trial = each_trial;
-      const auto one = run(cell, 1, 1);
-      EXPECT_EQ(one.finished(), trials);
-      for (const std::uint32_t lanes : {2U, 4U, 8U, 16U})
-        for (const int threads : {1, 4})
-          EXPECT_TRUE(same_bits(one, run(cell, threads, lanes))) << lanes << ", " << threads;
-    }
+  for (const bool each_trial : {false, true}) {
+    auto cell = busy_cell();
+    cell.trials = 23;
+    cell.calibration.each_trial = each_trial;
+    const auto one = run(cell, 1, 1);
+    EXPECT_EQ(one.finished(), cell.trials);
+    for (const std::uint32_t lanes : {2U, 4U, 8U, 16U})
+      for (const int threads : {1, 4})
+        EXPECT_TRUE(same_bits(one, run(cell, threads, lanes))) << lanes << ", " << threads;
+  }
 }
 
 /// Without outliers these trials are never made as series but one at a time.

@@ -17,6 +17,7 @@
 #include <gyrostat/experiments/run/shard.hpp>
 #include <gyrostat/experiments/run/study_store.hpp>
 #include <gyrostat/experiments/run/time_of_day.hpp>
+#include <gyrostat/experiments/run/trials_together.hpp>
 #include <gyrostat/experiments/study/address.hpp>
 #include <gyrostat/experiments/study/digest.hpp>
 #include <gyrostat/tests/program.hpp>

@@ -13,6 +13,7 @@
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/experiments/run/runner.hpp>
 #include <gyrostat/experiments/run/shard.hpp>
+#include <gyrostat/experiments/run/trials_together.hpp>
 #include <gyrostat/experiments/study/fleet_reading.hpp>
 #include <gyrostat/generators/effects/noise_averaging.hpp>
 #include <gyrostat/generators/effects/vibration.hpp>

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include <gyrostat/core/filter_type.hpp>
-#include <gyrostat/core/filters/list.hpp>
 #include <gyrostat/generators/effect.hpp>
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/tests/program.hpp>
