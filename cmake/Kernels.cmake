@@ -7,9 +7,12 @@ set(kernel_units 2)
 # Whole programs inlined into one function: no sanitizer follows.
 set(kernel_options -O3 -DNDEBUG -fno-math-errno -fno-trapping-math -fno-sanitize=all
     -Wno-uninitialized -Wno-maybe-uninitialized)
-# GCC stops inlining where a source has grown by two fifths, which here is in the middle of a loop.
+# GCC stops inlining where a source has grown by two fifths, which here is in the middle of a loop; and it would keep in
+# registers what loops load again, which there are too few of. Steps of filters are long, and are put in an order that
+# spills less.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  list(APPEND kernel_options --param=inline-unit-growth=1000)
+  list(APPEND kernel_options --param=inline-unit-growth=1000 -fno-predictive-commoning)
+  set(filter_options -fschedule-insns -fsched-pressure)
 endif()
 set(kernel_flags_sse2 "")
 set(kernel_flags_avx2 -mavx2)
@@ -89,7 +92,7 @@ constinit const std::span<const PackedFilter> ${name} = packed;
 ")
       list(APPEND sources ${generated}/kernels_${target}_${unit}.cpp)
       set_source_files_properties(${generated}/kernels_${target}_${unit}.cpp PROPERTIES
-        COMPILE_OPTIONS "${kernel_options};${kernel_flags_${target}}" SKIP_PRECOMPILE_HEADERS ON)
+        COMPILE_OPTIONS "${kernel_options};${filter_options};${kernel_flags_${target}}" SKIP_PRECOMPILE_HEADERS ON)
     endforeach()
     list(JOIN pointers ", " pointers)
     string(APPEND known "static constexpr const std::span<const PackedFilter>* filters_${target}[] = {${pointers}};\n")

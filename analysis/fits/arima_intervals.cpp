@@ -82,21 +82,28 @@ double misfit_of(const ArimaSums& sums) {
   return std::isfinite(misfit) ? misfit : std::numeric_limits<double>::infinity();
 }
 
-Misfit misfit_about(std::span<const double> z, Parameter held, double value, const Free& u) {
+std::vector<Misfit> misfits_about(std::span<const double> z, Parameter held, double value,
+                                  std::span<const Free> points) {
   using Jet = ceres::Jet<double, 3>;
-  const std::array<Jet, 3> jets = {Jet(u[0], 0), Jet(u[1], 1), Jet(u[2], 2)};
-  const auto at = model(held, value, jets.data());
-  Eigen::Matrix<double, 4, 3> chain;
-  chain << at.phi.v.transpose(), at.delta1_dps.v.transpose(), at.delta2_dps.v.transpose(),
-      at.measurement_noise_std_dps.v.transpose();
-  const auto found = arima_derivatives(model(held, value, u.data()), z);
-  const Misfit misfit{.value = found.sums.misfit(),
-                      .gradient = chain.transpose() * found.gradient(),
-                      .information = chain.transpose() * found.information * chain};
-  if (!std::isfinite(misfit.value) || !misfit.gradient.allFinite() ||
-      !misfit.information.allFinite())
-    return {};
-  return misfit;
+  std::vector<Arima111<double>> models;
+  for (const auto& u : points) models.push_back(model(held, value, u.data()));
+  const auto found = arima_derivatives(models, z);
+  std::vector<Misfit> misfits;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& u = points[i];
+    const std::array<Jet, 3> jets = {Jet(u[0], 0), Jet(u[1], 1), Jet(u[2], 2)};
+    const auto at = model(held, value, jets.data());
+    Eigen::Matrix<double, 4, 3> chain;
+    chain << at.phi.v.transpose(), at.delta1_dps.v.transpose(), at.delta2_dps.v.transpose(),
+        at.measurement_noise_std_dps.v.transpose();
+    const Misfit misfit{.value = found[i].sums.misfit(),
+                        .gradient = chain.transpose() * found[i].gradient(),
+                        .information = chain.transpose() * found[i].information * chain};
+    const bool finite = std::isfinite(misfit.value) && misfit.gradient.allFinite() &&
+                        misfit.information.allFinite();
+    misfits.push_back(finite ? misfit : Misfit{});
+  }
+  return misfits;
 }
 
 struct Lowest {
@@ -104,37 +111,69 @@ struct Lowest {
   Free at{};
 };
 
-/// The least misfit that Fisher scoring reaches from `u`, damped as by Marquardt.
-Lowest descend(std::span<const double> z, Parameter held, double value, Free u) {
-  constexpr int most_steps = 60;
-  constexpr double enough = 1e-4;  ///< of half a deviance
-  Misfit at = misfit_about(z, held, value, u);
-  double damping = 1e-2;
-  for (int i = 0; i < most_steps && std::isfinite(at.value) && damping < 1e8; ++i) {
-    Eigen::Matrix3d damped = at.information;
-    damped.diagonal() *= 1.0 + damping;
-    damped.diagonal().array() += 1e-12 * damped.trace() + 1e-300;
-    const Eigen::Vector3d step = damped.ldlt().solve(-at.gradient).cwiseMax(-2.0).cwiseMin(2.0);
-    if (!(-step.dot(at.gradient) > 2.0 * enough)) break;
-    const Free next = {u[0] + step[0], u[1] + step[1], u[2] + step[2]};
-    const Misfit there = misfit_about(z, held, value, next);
-    if (!(there.value < at.value)) {
-      damping *= 8.0;
-      continue;
+/// Fisher scoring to the least misfit, damped as by Marquardt: it says where to look next, and is
+/// told what is there.
+class Descent {
+ public:
+  explicit Descent(const Free& from) : next_(from) {}
+
+  bool is_done() const { return done_; }
+  const Free& next() const { return next_; }
+  Lowest lowest() const { return {at_.value, u_}; }
+
+  void take(const Misfit& there) {
+    if (steps_ == 0) {
+      at_ = there;
+      u_ = next_;
+    } else if (!(there.value < at_.value)) {
+      damping_ *= 8.0;
+    } else {
+      done_ = damping_ < 1.0 && at_.value - there.value < enough;
+      at_ = there;
+      u_ = next_;
+      damping_ *= 0.2;
     }
-    const bool is_done = damping < 1.0 && at.value - there.value < enough;
-    at = there;
-    u = next;
-    damping *= 0.2;
-    if (is_done) break;
+    done_ = done_ || steps_++ == most_steps || !std::isfinite(at_.value) || !(damping_ < 1e8);
+    if (!done_) step();
   }
-  return {at.value, u};
+
+ private:
+  static constexpr int most_steps = 60;
+  static constexpr double enough = 1e-4;  ///< of half a deviance
+
+  void step() {
+    Eigen::Matrix3d damped = at_.information;
+    damped.diagonal() *= 1.0 + damping_;
+    damped.diagonal().array() += 1e-12 * damped.trace() + 1e-300;
+    const Eigen::Vector3d step = damped.ldlt().solve(-at_.gradient).cwiseMax(-2.0).cwiseMin(2.0);
+    done_ = !(-step.dot(at_.gradient) > 2.0 * enough);
+    next_ = {u_[0] + step[0], u_[1] + step[1], u_[2] + step[2]};
+  }
+
+  Free next_, u_{};
+  Misfit at_;
+  double damping_ = 1e-2;
+  int steps_ = 0;
+  bool done_ = false;
+};
+
+/// Side by side: a pass over the signal for all of them takes hardly longer than for one.
+void descend(std::span<const double> z, Parameter held, double value, std::span<Descent> descents) {
+  for (;;) {
+    std::vector<Descent*> going;
+    std::vector<Free> next;
+    for (auto& descent : descents)
+      if (!descent.is_done()) going.push_back(&descent), next.push_back(descent.next());
+    if (going.empty()) return;
+    const auto there = misfits_about(z, held, value, next);
+    for (std::size_t i = 0; i < going.size(); ++i) going[i]->take(there[i]);
+  }
 }
 
 /// The least misfit with the parameter held there, from the most promising starting points.
 Lowest least_misfit(std::span<const double> z, Parameter held, double value,
                     std::span<const Arima111<double>> starts) {
-  constexpr std::size_t descents = 3;
+  constexpr std::size_t most_descents = 3;
   std::vector<Free> at;
   std::vector<Arima111<double>> models;
   for (const auto& start : starts) {
@@ -145,10 +184,13 @@ Lowest least_misfit(std::span<const double> z, Parameter held, double value,
   std::vector<std::pair<double, Free>> from;
   for (std::size_t i = 0; i < at.size(); ++i) from.emplace_back(misfit_of(sums[i]), at[i]);
   std::sort(from.begin(), from.end());
-  from.resize(std::min(from.size(), descents));
+  from.resize(std::min(from.size(), most_descents));
+  std::vector<Descent> descents;
+  for (const auto& [misfit, u] : from) descents.emplace_back(u);
+  descend(z, held, value, descents);
   Lowest least;
-  for (const auto& [misfit, u] : from)
-    if (const auto found = descend(z, held, value, u); found.misfit < least.misfit) least = found;
+  for (const auto& descent : descents)
+    if (descent.lowest().misfit < least.misfit) least = descent.lowest();
   return least;
 }
 

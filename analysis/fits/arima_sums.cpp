@@ -7,6 +7,7 @@
 #include <ceres/jet.h>
 
 #include <gyrostat/analysis/fits/arima_innovations.hpp>
+#include <gyrostat/analysis/fits/settled/kernels.hpp>
 
 namespace gyrostat {
 namespace {
@@ -14,8 +15,7 @@ namespace {
 using Jet = ceres::Jet<double, 4>;
 using Products = Eigen::Matrix<double, 5, 5>;
 
-/// Models that advance together: a recursion waits for itself, several fill the wait.
-constexpr std::size_t lanes = 8;
+constexpr std::size_t lanes = SettledModels::lanes;
 
 std::span<const double> after_first(std::span<const double> z, double& first) {
   std::size_t k = 0;
@@ -30,48 +30,39 @@ std::size_t next_missing(std::span<const double> z, std::size_t from) {
   return from;
 }
 
-/// Of recursions whose gains are kept, over samples none of which is missing: their states move on,
-/// and the squares of their innovations are added to `squares`.
-template <std::size_t N>
-void advance(std::span<const double> z, std::array<ArimaInnovations<double>*, N> models,
-             std::array<double, N>& squares) {
-  std::array<double, N> x{}, e{}, phi{}, gain_x{}, gain_e{}, sum{};
-  for (std::size_t m = 0; m < N; ++m) {
-    x[m] = models[m]->x;
-    e[m] = models[m]->e;
-    phi[m] = models[m]->phi;
-    gain_x[m] = models[m]->gain_x;
-    gain_e[m] = models[m]->gain_e;
+/// Over samples none of which is missing, where all of them keep their gains: their states move on.
+/// The sums of squares of their innovations.
+std::array<double, lanes> advance(std::span<const double> z,
+                                  std::span<ArimaInnovations<double>> models) {
+  SettledModels at{};
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    at.x[m] = models[m].x;
+    at.e[m] = models[m].e;
+    at.phi[m] = models[m].phi;
+    at.gain_x[m] = models[m].gain_x;
+    at.gain_e[m] = models[m].gain_e;
   }
-  for (const double sample : z)
-    for (std::size_t m = 0; m < N; ++m) {
-      const double predicted = x[m] + e[m];
-      const double innovation = sample - predicted;
-      x[m] = predicted + gain_x[m] * innovation;
-      e[m] = e[m] * phi[m] + gain_e[m] * innovation;
-      sum[m] += innovation * innovation;
-    }
-  for (std::size_t m = 0; m < N; ++m) {
-    models[m]->x = x[m];
-    models[m]->e = e[m];
-    squares[m] = sum[m];
+  settled_kernel().models(z, at);
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    models[m].x = at.x[m];
+    models[m].e = at.e[m];
   }
+  return std::to_array(at.squares);
 }
 
-template <std::size_t N>
-std::array<ArimaSums, N> sums_of(const std::array<Arima111<double>, N>& models,
-                                 std::span<const double> rate) {
-  std::array<ArimaSums, N> sums{};
+/// Of at most `lanes` models.
+std::vector<ArimaSums> sums_together(std::span<const Arima111<double>> models,
+                                     std::span<const double> rate) {
+  const std::size_t N = models.size();
+  std::vector<ArimaSums> sums(N);
   double first = 0.0;
   const auto z = after_first(rate, first);
   std::vector<ArimaInnovations<double>> at;
-  std::array<ArimaInnovations<double>*, N> settled;
-  for (std::size_t m = 0; m < N; ++m) at.emplace_back(models[m], first);
-  for (std::size_t m = 0; m < N; ++m) settled[m] = &at[m];
+  for (const auto& model : models) at.emplace_back(model, first);
   for (std::size_t k = 0; k < z.size();) {
     // Each alone until its gain is kept, then to where the last of them is.
     std::size_t together = k;
-    std::array<std::size_t, N> reached{};
+    std::array<std::size_t, lanes> reached{};
     const auto step = [&](std::size_t m) {
       if (!at[m].step(z[reached[m]++])) return;
       sums[m].squares += at[m].innovation * at[m].innovation / at[m].variance;
@@ -91,8 +82,7 @@ std::array<ArimaSums, N> sums_of(const std::array<Arima111<double>, N>& models,
     k = together;
     if (!all) continue;
     const std::size_t end = next_missing(z, k);
-    std::array<double, N> squares{};
-    advance<N>(z.subspan(k, end - k), settled, squares);
+    const auto squares = advance(z.subspan(k, end - k), at);
     for (std::size_t m = 0; m < N; ++m) {
       const auto count = static_cast<double>(end - k);
       sums[m].squares += squares[m] / at[m].variance;
@@ -104,33 +94,20 @@ std::array<ArimaSums, N> sums_of(const std::array<Arima111<double>, N>& models,
   return sums;
 }
 
-/// As `advance`, with the derivatives: sum of products of (d nu, nu).
-Products advance(std::span<const double> z, ArimaInnovations<Jet>& model) {
-  double x = model.x.a, e = model.e.a, squares = 0.0;
-  Eigen::Vector4d dx = model.x.v, de = model.e.v, mixed = Eigen::Vector4d::Zero();
-  Eigen::Matrix4d products = Eigen::Matrix4d::Zero();
-  const double phi = model.phi.a, gain_x = model.gain_x.a, gain_e = model.gain_e.a;
-  const Eigen::Vector4d d_phi = model.phi.v, d_gain_x = model.gain_x.v, d_gain_e = model.gain_e.v;
-  for (const double sample : z) {
-    x += e;
-    dx += de;
-    de = phi * de + e * d_phi;
-    const double nu = sample - x;
-    squares += nu * nu;
-    mixed -= nu * dx;
-    products.noalias() += dx * dx.transpose();
-    de += nu * d_gain_e - gain_e * dx;
-    dx += nu * d_gain_x - gain_x * dx;
-    x += gain_x * nu;
-    e = phi * e + gain_e * nu;
-  }
-  model.x.a = x;
-  model.x.v = dx;
-  model.e.a = e;
-  model.e.v = de;
-  Products all;
-  all << products, mixed, mixed.transpose(), squares;
-  return all;
+Eigen::Map<Eigen::Vector4d> vector(double (&of)[4]) { return Eigen::Map<Eigen::Vector4d>(of); }
+
+SettledDerivatives settled_at(const ArimaInnovations<Jet>& model) {
+  SettledDerivatives at{.x = model.x.a,
+                        .e = model.e.a,
+                        .phi = model.phi.a,
+                        .gain_x = model.gain_x.a,
+                        .gain_e = model.gain_e.a};
+  vector(at.d_x) = model.x.v;
+  vector(at.d_e) = model.e.v;
+  vector(at.d_phi) = model.phi.v;
+  vector(at.d_gain_x) = model.gain_x.v;
+  vector(at.d_gain_e) = model.gain_e.v;
+  return at;
 }
 
 /// Adds one term.
@@ -163,43 +140,80 @@ void add(ArimaDerivatives& to, const Products& products, const Jet& variance, do
   to.sums.count += count;
 }
 
+/// A recursion whose gain is kept from here on.
+struct Settling {
+  ArimaInnovations<Jet>* model;
+  ArimaDerivatives* sums;
+  std::size_t from;
+};
+
+/// As `advance`, with the derivatives: each alone to where the last of them has settled, then
+/// together up to `end`.
+void advance(std::span<const double> z, std::size_t end, std::span<const Settling> settled) {
+  std::size_t together = 0;
+  for (const auto& one : settled) together = std::max(together, one.from);
+  std::vector<SettledDerivatives> at;
+  for (const auto& one : settled) {
+    at.push_back(settled_at(*one.model));
+    settled_kernel().derivatives(z.subspan(one.from, together - one.from), {&at.back(), 1});
+  }
+  if (!at.empty()) settled_kernel().derivatives(z.subspan(together, end - together), at);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    auto& model = *settled[i].model;
+    model.x.a = at[i].x;
+    model.x.v = vector(at[i].d_x);
+    model.e.a = at[i].e;
+    model.e.v = vector(at[i].d_e);
+    Products products;  // of (d nu, nu)
+    products << Eigen::Map<Eigen::Matrix4d>(at[i].products[0]), vector(at[i].mixed),
+        vector(at[i].mixed).transpose(), at[i].squares;
+    add(*settled[i].sums, products, model.variance, static_cast<double>(end - settled[i].from));
+  }
+}
+
 }  // namespace
 
 ArimaSums arima_sums(const Arima111<double>& arima, std::span<const double> rate_dps) {
-  return sums_of<1>({arima}, rate_dps)[0];
+  return sums_together({&arima, 1}, rate_dps).front();
 }
 
 std::vector<ArimaSums> arima_sums(std::span<const Arima111<double>> models,
                                   std::span<const double> rate_dps) {
   std::vector<ArimaSums> sums;
   for (std::size_t m = 0; m < models.size(); m += lanes) {
-    const std::size_t filled = std::min(lanes, models.size() - m);
-    std::array<Arima111<double>, lanes> group;
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      group[lane] = models[m + std::min(lane, filled - 1)];
-    const auto found = sums_of<lanes>(group, rate_dps);
-    sums.insert(sums.end(), found.begin(), found.begin() + filled);
+    const auto found =
+        sums_together(models.subspan(m, std::min(lanes, models.size() - m)), rate_dps);
+    sums.insert(sums.end(), found.begin(), found.end());
   }
   return sums;
 }
 
 ArimaDerivatives arima_derivatives(const Arima111<double>& arima,
                                    std::span<const double> rate_dps) {
-  ArimaDerivatives sums;
+  return arima_derivatives({&arima, 1}, rate_dps).front();
+}
+
+std::vector<ArimaDerivatives> arima_derivatives(std::span<const Arima111<double>> models,
+                                                std::span<const double> rate_dps) {
+  std::vector<ArimaDerivatives> sums(models.size());
   double first = 0.0;
   const auto z = after_first(rate_dps, first);
-  ArimaInnovations<Jet> at({Jet(arima.phi, 0), Jet(arima.delta1_dps, 1), Jet(arima.delta2_dps, 2),
-                            Jet(arima.measurement_noise_std_dps, 3)},
-                           first);
-  for (std::size_t k = 0; k < z.size();) {
-    if (at.settled && !is_missing(z[k])) {
-      const std::size_t end = next_missing(z, k);
-      const Products products = advance(z.subspan(k, end - k), at);
-      add(sums, products, at.variance, static_cast<double>(end - k));
-      k = end;
-    } else if (at.step(z[k++])) {
-      add(sums, at.innovation, at.variance);
+  std::vector<ArimaInnovations<Jet>> at;
+  for (const auto& [phi, delta1, delta2, noise] : models)
+    at.push_back({{Jet(phi, 0), Jet(delta1, 1), Jet(delta2, 2), Jet(noise, 3)}, first});
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    const std::size_t end = next_missing(z, k);
+    std::vector<Settling> settled;
+    for (std::size_t m = 0; m < at.size(); ++m) {
+      std::size_t reached = k;
+      for (; reached < end && !at[m].settled; ++reached)
+        if (at[m].step(z[reached])) add(sums[m], at[m].innovation, at[m].variance);
+      if (reached < end) settled.push_back({&at[m], &sums[m], reached});
     }
+    advance(z, end, settled);
+    if (end < z.size())
+      for (auto& model : at) model.step(z[end]);
+    k = end;
   }
   return sums;
 }

@@ -43,5 +43,7 @@ struct ArimaDerivatives {
 };
 
 ArimaDerivatives arima_derivatives(const Arima111<double>& arima, std::span<const double> rate_dps);
+std::vector<ArimaDerivatives> arima_derivatives(std::span<const Arima111<double>> models,
+                                                std::span<const double> rate_dps);
 
 }  // namespace gyrostat

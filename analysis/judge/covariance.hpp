@@ -12,12 +12,13 @@ template <class T>
 class Covariance {
  public:
   void add(const T* bias_errors_dps, const double* variances, std::size_t samples) {
+    if (all_missing<T>(variances, samples)) return;
     T sum(0.0), last(0.0), within_1 = within_1_, within_3 = within_3_;
     for (std::size_t k = 0; k < samples; ++k) {
       const T squared = beside(bias_errors_dps[k], variances + k * Lanes<T>::count);
       sum += squared;
-      within_1 += select(squared <= T(1.0), T(1.0), T(0.0));
-      within_3 += select(squared <= T(9.0), T(1.0), T(0.0));
+      within_1 = one_more(squared <= T(1.0), within_1);
+      within_3 = one_more(squared <= T(9.0), within_3);
       last = squared;
     }
     if (any(is_missing(sum))) return add_present(bias_errors_dps, variances, samples);
@@ -53,9 +54,9 @@ class Covariance {
       const auto present = !is_missing(squared);
       if (!any(present)) continue;
       sum += select(present, squared, T(0.0));
-      count_ += select(present, T(1.0), T(0.0));
-      within_1_ += select(squared <= T(1.0), T(1.0), T(0.0));
-      within_3_ += select(squared <= T(9.0), T(1.0), T(0.0));
+      count_ = one_more(present, count_);
+      within_1_ = one_more(squared <= T(1.0), within_1_);
+      within_3_ = one_more(squared <= T(9.0), within_3_);
       last_ = select(present, squared, last_);
     }
     sum_ += sum;

@@ -2,6 +2,9 @@
 
 #include <cstddef>
 
+#include <gyrostat/core/numerics/lanes.hpp>
+#include <gyrostat/core/step.hpp>
+
 namespace gyrostat {
 
 /// A stretch of the steps of some trials in lanes, beside what they are judged against: the value
@@ -26,4 +29,17 @@ struct JudgedSteps {
   bool has_truth() const { return true_drift_dps != nullptr && random_error_dps != nullptr; }
 };
 
+namespace judge {
+
+/// Whether no lane has a value anywhere, as of a method that states none, or between two epochs of
+/// one that has few.
+template <class T>
+bool all_missing(const double* values, std::size_t samples) {
+  Mask<T> missing = is_missing(Lanes<T>::load(values));
+  for (std::size_t k = 1; k < samples && all(missing); ++k)
+    missing = missing && is_missing(Lanes<T>::load(values + k * Lanes<T>::count));
+  return all(missing);
+}
+
+}  // namespace judge
 }  // namespace gyrostat

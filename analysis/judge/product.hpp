@@ -1,6 +1,8 @@
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include <gyrostat/core/numerics/lanes.hpp>
@@ -29,6 +31,23 @@ class Product {
   static constexpr double small = 0x1p-256, large = 0x1p256;
 
   void rescale(const T& next, const T& factor) {
+    if (!all(next > T(0x1p-1000) && next < T(0x1p1000))) return rescale_one_by_one(next, factor);
+    double values[Lanes<T>::count];
+    Lanes<T>::store(next, values);
+    for (int l = 0; l < Lanes<T>::count; ++l) {  // std::frexp of a normal number, without a branch
+      constexpr std::uint64_t fraction = (std::uint64_t{1} << 52U) - 1;
+      constexpr auto half = std::bit_cast<std::uint64_t>(0.5);
+      constexpr auto units = std::bit_cast<std::uint64_t>(0x1p52);
+      const auto bits = std::bit_cast<std::uint64_t>(values[l]);
+      const double exponent = std::bit_cast<double>(bits >> 52U | units) - (0x1p52 + 1022.0);
+      const bool keeps = values[l] >= small && values[l] <= large;
+      exponent_[l] += keeps ? 0.0 : exponent;
+      values[l] = keeps ? values[l] : std::bit_cast<double>((bits & fraction) | half);
+    }
+    mantissa_ = Lanes<T>::load(values);
+  }
+
+  void rescale_one_by_one(const T& next, const T& factor) {
     double values[Lanes<T>::count];
     Lanes<T>::store(next, values);
     for (int l = 0; l < Lanes<T>::count; ++l) {

@@ -20,7 +20,7 @@ class Whiteness {
 
  public:
   void add(const double* innovations, const double* variances, std::size_t samples) {
-    if (all(is_missing(Lanes<T>::load(variances))) && all_missing(variances, samples)) return;
+    if (all_missing<T>(variances, samples)) return;
     T z[lags + JudgedSteps::most];
     for (std::size_t l = 0; l < lags; ++l) z[l] = before_[l];
     T finite(0.0);
@@ -55,14 +55,6 @@ class Whiteness {
   }
 
  private:
-  /// As of a method without innovations, or between two epochs of one that has few.
-  static bool all_missing(const double* variances, std::size_t samples) {
-    Mask<T> missing = true;
-    for (std::size_t k = 0; k < samples; ++k)
-      missing = missing && is_missing(Lanes<T>::load(variances + k * lanes));
-    return all(missing);
-  }
-
   /// Quantiles of the standard normal at 0.6, 0.7, 0.8 and 0.9.
   static constexpr double deciles[] = {0.25334710313579972, 0.52440051270804067,
                                        0.84162123357291429, 1.2815515655446004};
@@ -99,10 +91,10 @@ class Whiteness {
     });
     for (std::size_t k = 0; k < samples; ++k) {
       const T now = z[lags + k];
-      negative += one_where(now < T(0.0));
+      negative = one_more(now < T(0.0), negative);
       unrolled<4>([&]<int d>() {
-        above[d] += one_where(now > T(deciles[d]));
-        below[d] += one_where(now < T(-deciles[d]));
+        above[d] = one_more(now > T(deciles[d]), above[d]);
+        below[d] = one_more(now < T(-deciles[d]), below[d]);
       });
     }
     negative_ = negative;
@@ -126,12 +118,12 @@ class Whiteness {
       for (std::size_t l = 0; l < lags; ++l) products_[l] += now * before_[l];
       for (std::size_t l = 0; l < lags; ++l)
         before_[l] = select(present, l + 1 < lags ? before_[l + 1] : now, before_[l]);
-      negative_ += one_where(now < T(0.0));
+      negative_ = one_more(now < T(0.0), negative_);
       for (int d = 0; d < 4; ++d) {
-        above_[d] += one_where(now > T(deciles[d]));
-        below_[d] += one_where(now < T(-deciles[d]));
+        above_[d] = one_more(now > T(deciles[d]), above_[d]);
+        below_[d] = one_more(now < T(-deciles[d]), below_[d]);
       }
-      count_ += one_where(present);
+      count_ = one_more(present, count_);
     }
   }
 
@@ -147,11 +139,6 @@ class Whiteness {
       ++odd_[l].scored;
       odd_[l].scores += score;
     }
-  }
-
-  template <class M>
-  static T one_where(const M& mask) {
-    return select(mask, T(1.0), T(0.0));
   }
 
   template <class At>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gyrostat/core/models/gain_cycle.hpp>
 #include <gyrostat/core/models/model_l.hpp>
 #include <gyrostat/core/numerics/scalar_update.hpp>
 #include <gyrostat/core/step.hpp>
@@ -20,10 +21,7 @@ class Kf {
 
   explicit Kf(const Parameters& p) : model_(p), state_(ModelL<T>::initial(p)) {}
 
-  void predict() {
-    propagate_companion(state_, model_.first);
-    state_.covariance(0, 0) += model_.q;
-  }
+  void predict() { model_.predict(state_); }
 
   /// z in dps, or NaN for a missing sample.
   Step<T> update(const T& z) { return update_first(state_, model_.R, z); }
@@ -32,6 +30,14 @@ class Kf {
     predict();
     return update(sample.gyro_dps);
   }
+
+  /// The gains to come, a step by them, and what is left to do after the last one.
+  using Cycle = GainCycle<T, 2>;
+  Cycle cycle() const { return {model_, state_}; }
+  bool step(const Sample<T>& sample, Cycle& cycle, Step<T>& out) {
+    return cycle.step(model_, state_.mean, sample.gyro_dps, out);
+  }
+  void end(const Cycle& cycle) { state_.covariance = cycle.covariance(); }
 
   const Gaussian<T, 2>& state() const { return state_; }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gyrostat/core/models/gain_cycle.hpp>
 #include <gyrostat/core/models/model_l.hpp>
 #include <gyrostat/core/numerics/scalar_update.hpp>
 #include <gyrostat/core/step.hpp>
@@ -30,6 +31,14 @@ class KfMa {
     predict();
     return update(sample.gyro_dps);
   }
+
+  /// The gains to come, a step by them, and what is left to do after the last one.
+  using Cycle = GainCycle<T, 3>;
+  Cycle cycle() const { return {model_, state_}; }
+  bool step(const Sample<T>& sample, Cycle& cycle, Step<T>& out) {
+    return cycle.step(model_, state_.mean, sample.gyro_dps, out);
+  }
+  void end(const Cycle& cycle) { state_.covariance = cycle.covariance(); }
 
   const Gaussian<T, 3>& state() const { return state_; }
 

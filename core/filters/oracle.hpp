@@ -26,6 +26,17 @@ class Oracle {
     return step;
   }
 
+  using Cycle = typename KfMa<T>::Cycle;
+  Cycle cycle() const { return random_error_.cycle(); }
+  bool step(Sample<T> sample, Cycle& cycle, Step<T>& out) {
+    const T drift = sample.true_drift_dps;
+    sample.gyro_dps -= sample.true_rate_dps + drift;
+    if (!random_error_.step(sample, cycle, out)) return false;
+    out.estimate_dps += drift;
+    return true;
+  }
+  void end(const Cycle& cycle) { random_error_.end(cycle); }
+
  private:
   KfMa<T> random_error_;
 };

@@ -10,6 +10,7 @@ namespace gyrostat {
 /// 0]] and W = [a_k, a_{k-1}] taken as fresh noise at each step, z = x + v.
 template <class T>
 struct ModelL {
+  static constexpr int states = 2;
   Vector<T, 2> first;  ///< row 0 of F, which is in companion form
   T q;                 ///< variance of the noise on x_k, all of Q = G G^T
   T R;
@@ -18,6 +19,16 @@ struct ModelL {
       : first(T(1.0) + arima.phi, -arima.phi),
         q(arima.delta1_dps * arima.delta1_dps + arima.delta2_dps * arima.delta2_dps),
         R(arima.measurement_noise_std_dps * arima.measurement_noise_std_dps) {}
+
+  void predict(Vector<T, 2>& mean) const {
+    const T x = ordered_dot<T, 2>(first, mean);
+    mean(1) = mean(0);
+    mean(0) = x;
+  }
+  void predict(Gaussian<T, 2>& state) const {
+    propagate_companion(state, first);
+    state.covariance(0, 0) += q;
+  }
 
   static Gaussian<T, 2> initial(const InitialRandomError<T>& prior) {
     Gaussian<T, 2> state{{prior.initial_x_dps, prior.initial_x_previous_dps}, Matrix<T, 2>::Zero()};
@@ -32,6 +43,7 @@ struct ModelL {
 /// driven by [delta1, 0, 1] a_k.
 template <class T>
 struct ModelExact {
+  static constexpr int states = 3;
   Vector<T, 3> first;  ///< row 0 of F
   T delta1;
   T R;
@@ -41,13 +53,16 @@ struct ModelExact {
         delta1(arima.delta1_dps),
         R(arima.measurement_noise_std_dps * arima.measurement_noise_std_dps) {}
 
+  void predict(Vector<T, 3>& mean) const {
+    const T x = ordered_dot<T, 3>(first, mean), previous = mean(0);
+    mean << x, previous, T(0.0);
+  }
   /// x <- F x, P <- F P F^T + Q.
   void predict(Gaussian<T, 3>& state) const {
-    const T previous = state.mean(0), variance = state.covariance(0, 0);
-    const T x = ordered_dot<T, 3>(first, state.mean);
+    const T variance = state.covariance(0, 0);
     Vector<T, 3> cross;
     unrolled<3>([&]<int i>() { cross(i) = ordered_dot<T, 3>(state.covariance.col(i), first); });
-    state.mean << x, previous, T(0.0);
+    predict(state.mean);
     state.covariance << ordered_dot<T, 3>(first, cross) + delta1 * delta1, cross(0), delta1,  //
         cross(0), variance, T(0.0),                                                           //
         delta1, T(0.0), T(1.0);

@@ -110,7 +110,7 @@ class NlUnscented {
     Mask<T> exists = true;
     if (risk.on_noise_or_delta) {
       NlUnscented wider = *this;
-      exists = wider.inflate_noise_and_delta(risk);
+      exists = wider.inflate_noise_and_delta(NlRisk<T>(risk));
       next = wider;
     }
     unrolled<coupled>([&]<int i>() {
@@ -181,8 +181,8 @@ class NlUnscented {
 
  private:
   /// delta1 and delta2 stand alone. Risk of the noise is as if it had been drawn with variance
-  /// 1 / (1 - 2 mu), which x alone feels. Out of line, so that the root stays in registers where
-  /// there is no such risk.
+  /// 1 / (1 - 2 mu), which x alone feels. Out of line and on copies, so that the filter stays in
+  /// registers where there is no such risk.
   [[gnu::noinline]] Mask<T> inflate_noise_and_delta(const NlRisk<T>& risk) {
     using std::sqrt;
     Mask<T> exists = true;

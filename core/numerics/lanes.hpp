@@ -30,6 +30,13 @@ T select(bool mask, const T& yes, const T& no) {
   return mask ? yes : no;
 }
 
+/// `count`, one more where the mask holds: an addition of the lanes that it concerns, where an
+/// instruction set has that.
+template <class M, class T>
+T one_more(const M& mask, const T& count) {
+  return select(mask, T(count + T(1.0)), count);
+}
+
 /// How many numbers stand side by side in a T, and how they come from memory and go there.
 template <class T>
 struct Lanes {

@@ -30,20 +30,15 @@ struct FilterKernel {
   [[gnu::flatten]] static void run(void* state, const PackedSamples& in, const PackedSteps& out,
                                    std::size_t samples) {
     F filter = *static_cast<const F*>(state);
-    for (std::size_t k = 0; k < samples; ++k) {
-      Sample<P> sample;
-      sample.gyro_dps = P::load(in.gyro_dps + N * k);
-      if constexpr (F::needs.truth) {
-        sample.true_rate_dps = P::load(in.true_rate_dps + N * k);
-        sample.true_drift_dps = P::load(in.true_drift_dps + N * k);
+    std::size_t k = 0;
+    if constexpr (requires { filter.cycle(); }) {
+      if (auto cycle = filter.cycle(); cycle.comes_round()) {
+        Step<P> step;
+        for (; k < samples && filter.step(sample_at(in, k), cycle, step); ++k) store(step, out, k);
+        filter.end(cycle);
       }
-      const auto step = filter.step(sample);
-      step.estimate_dps.store(out.estimate_dps + N * k);
-      step.estimate_variance.store(out.estimate_variance + N * k);
-      step.innovation_dps.store(out.innovation_dps + N * k);
-      step.innovation_variance.store(out.innovation_variance + N * k);
-      step.status.code.store(out.status + N * k);
     }
+    for (; k < samples; ++k) store(filter.step(sample_at(in, k)), out, k);
     *static_cast<F*>(state) = filter;
   }
 
@@ -59,6 +54,26 @@ struct FilterKernel {
     }
   }
 
+ private:
+  static Sample<P> sample_at(const PackedSamples& in, std::size_t k) {
+    Sample<P> sample;
+    sample.gyro_dps = P::load(in.gyro_dps + N * k);
+    if constexpr (F::needs.truth) {
+      sample.true_rate_dps = P::load(in.true_rate_dps + N * k);
+      sample.true_drift_dps = P::load(in.true_drift_dps + N * k);
+    }
+    return sample;
+  }
+
+  static void store(const Step<P>& step, const PackedSteps& out, std::size_t k) {
+    step.estimate_dps.store(out.estimate_dps + N * k);
+    step.estimate_variance.store(out.estimate_variance + N * k);
+    step.innovation_dps.store(out.innovation_dps + N * k);
+    step.innovation_variance.store(out.innovation_variance + N * k);
+    step.status.code.store(out.status + N * k);
+  }
+
+ public:
   static constexpr PackedFilter named(std::string_view id) {
     constexpr bool learns = requires(const F& filter) { filter.learned(); };
     return {id, N, sizeof(F), &start, &run, learns ? &learned : nullptr};

@@ -89,6 +89,21 @@ TEST(ArimaSums, HaveTheDerivativesOfTheInnovations) {
   }
 }
 
+TEST(ArimaSums, DerivativesOfSeveralAreThoseOfEach) {
+  const auto z = recorded();
+  for (std::size_t many = 1; many <= models.size(); ++many) {
+    const auto together = arima_derivatives(std::span(models).first(many), z);
+    ASSERT_EQ(together.size(), many);
+    for (std::size_t m = 0; m < many; ++m) {
+      const auto alone = arima_derivatives(models[m], z);
+      EXPECT_EQ(together[m].products, alone.products);
+      EXPECT_EQ(together[m].information, alone.information);
+      EXPECT_EQ(together[m].logs, alone.logs);
+      EXPECT_EQ(together[m].sums.misfit(), alone.sums.misfit());
+    }
+  }
+}
+
 TEST(ArimaSums, HaveTheGradientOfTheMisfit) {
   const auto z = recorded();
   const auto gradient = arima_derivatives(truth, z).gradient();
