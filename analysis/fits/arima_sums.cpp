@@ -97,11 +97,12 @@ std::vector<ArimaSums> sums_together(std::span<const Arima111<double>> models,
 Eigen::Map<Eigen::Vector4d> vector(double (&of)[4]) { return Eigen::Map<Eigen::Vector4d>(of); }
 
 SettledDerivatives settled_at(const ArimaInnovations<Jet>& model) {
-  SettledDerivatives at{.x = model.x.a,
-                        .e = model.e.a,
-                        .phi = model.phi.a,
-                        .gain_x = model.gain_x.a,
-                        .gain_e = model.gain_e.a};
+  SettledDerivatives at{};
+  at.x = model.x.a;
+  at.e = model.e.a;
+  at.phi = model.phi.a;
+  at.gain_x = model.gain_x.a;
+  at.gain_e = model.gain_e.a;
   vector(at.d_x) = model.x.v;
   vector(at.d_e) = model.e.v;
   vector(at.d_phi) = model.phi.v;
