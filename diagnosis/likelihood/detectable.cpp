@@ -16,11 +16,12 @@ namespace {
 
 constexpr double deviate_of_power = 0.8416;  // that a normal one exceeds with 1 - Detectable::power
 
+/// The first free parameter that may be 0 and as large as one likes.
 std::optional<std::size_t> size_field(const CauseType& cause, const Effect& effect) {
   for (const auto name : cause.free_parameters) {
     const auto f = field_of(effect, name);
     const auto& range = effect.fields()[f].range;
-    if (range.from <= 0.0 && !range.open_from) return f;
+    if (range.from <= 0.0 && !range.open_from && std::isinf(range.to)) return f;
   }
   return std::nullopt;
 }
@@ -110,10 +111,12 @@ std::optional<Detectable> detectable(const SetBench& bench, const Standing& stan
   Sought sought(bench, standing, example, *field);
   // By the power of the size that a deviate grows with, and by halves where that leads astray.
   constexpr int most_steps = 30;
-  constexpr double furthest = 8.0, near_enough = 0.02;
+  constexpr double furthest = 8.0, near_enough = 0.02, far_beyond_noise = 1e5;
+  const double largest = far_beyond_noise * std::abs(example.value(*field));
   double below = 0.0, above = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps; ++step) {
     const double size = sought.effect().value(*field);
+    if (!(size <= largest)) break;
     const double needed =
         std::sqrt(2.0 * std::max(0.0, sought.price() + least_gain)) + deviate_of_power;
     const double ratio = needed / std::max(sought.deviate(), 1e-12 * needed);
