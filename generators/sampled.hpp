@@ -20,6 +20,13 @@ std::size_t samples_with(const Series& series,
   return samples;
 }
 
+/// What the gyro of sample i is beside the true rate, thermal drift and random error: all that
+/// there is of white noise while that alone has been added.
+inline double error_beside_drift(const Series& series, std::size_t i) {
+  return series.gyro_dps[i] - series.rate_ref_dps[i] - series.thermal_bias_dps[i] -
+         series.random_error_dps[i];
+}
+
 /// The deviates of a stream one after the other, drawn by the block.
 class Deviates {
  public:

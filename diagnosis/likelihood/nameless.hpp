@@ -8,6 +8,9 @@
 
 namespace gyrostat::gap {
 
+/// Nats by which a part gains beyond what its parameters win by chance.
+inline constexpr double clear_gain = 10.0;
+
 /// A part of what named effects leave, as it shows, without a cause.
 struct Nameless {
   Effect effect;         ///< outside the catalogue, as empirical_noise

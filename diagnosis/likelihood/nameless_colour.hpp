@@ -8,9 +8,6 @@
 
 namespace gyrostat::gap {
 
-/// Nats by which a colour gains beyond what its parameters win by chance.
-inline constexpr double clear_gain = 10.0;
-
 /// An order of an autoregression.
 struct ChosenOrder {
   std::size_t order;

@@ -3,32 +3,20 @@
 
 #include <fmt/format.h>
 
+#include <gyrostat/diagnosis/likelihood/changed_band.hpp>
 #include <gyrostat/diagnosis/likelihood/nameless_colour.hpp>
 #include <gyrostat/generators/effects/empirical_noise.hpp>
 
 namespace gyrostat::gap {
 namespace {
 
-/// Where most of a change of the spectrum lies: the middle two thirds of what was added, or of what
-/// was taken away.
 std::string change_in_words(const std::vector<double>& ratio, const std::vector<double>& white,
                             double resolution_hz) {
-  double added = 0.0, taken = 0.0;
-  for (std::size_t k = 1; k < ratio.size(); ++k)
-    (ratio[k] > 1.0 ? added : taken) += std::abs(ratio[k] - 1.0) * white[k];
-  const bool adds = added >= taken;
-  const double all = adds ? added : taken;
-  double sum = 0.0, from_hz = 0.0, to_hz = 0.0;
-  for (std::size_t k = 1; k < ratio.size(); ++k) {
-    if ((ratio[k] > 1.0) != adds) continue;
-    const double before = sum;
-    sum += std::abs(ratio[k] - 1.0) * white[k];
-    const double at = resolution_hz * static_cast<double>(k);
-    if (before < all / 6.0 && sum >= all / 6.0) from_hz = at;
-    if (before < all * 5.0 / 6.0 && sum >= all * 5.0 / 6.0) to_hz = at;
-  }
+  std::vector<double> change(ratio.size(), 0.0);
+  for (std::size_t k = 1; k < ratio.size(); ++k) change[k] = (ratio[k] - 1.0) * white[k];
+  const auto band = changed_band(change, resolution_hz);
   return fmt::format("{} of the noise without a name, mostly from {:.3g} to {:.3g} Hz",
-                     adds ? "a surplus" : "a lack", from_hz, to_hz);
+                     band.adds ? "a surplus" : "a lack", band.from_hz, band.to_hz);
 }
 
 }  // namespace

@@ -76,8 +76,7 @@ std::optional<Nameless> compass_tails_part(const Conditions& conditions,
   for (const auto& replica : replicated.replicas)
     kurtoses.push_back(kurtosis_of_steps(conditions, replica.heading_deg));
   const Against kurtosis(kurtosis_of_steps(conditions, replicated.recording.heading_deg), kurtoses);
-  if (kurtosis.off <= 0.0 || 0.5 * kurtosis.chi_squared() - 1.0 < clear_gain_of_a_part)
-    return std::nullopt;
+  if (kurtosis.off <= 0.0 || 0.5 * kurtosis.chi_squared() - 1.0 < clear_gain) return std::nullopt;
   noise.tail = tail_of(kurtosis.off / share_in_steps(noise));
   return Nameless{noise, fmt::format("heavier tails of the compass noise (kurtosis {:.2g} of what "
                                      "drives it)",

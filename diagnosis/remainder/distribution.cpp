@@ -83,7 +83,7 @@ std::optional<Nameless> distribution_part(const Replicated& replicated) {
   const auto freedom = static_cast<double>(edges.size());
   const double scale = std::max(1.0, typical / freedom);
   const double gain = 0.5 * likelihood_ratio(own, edges, shares) / scale - freedom;
-  if (gain < clear_gain_of_a_part) return std::nullopt;
+  if (gain < clear_gain) return std::nullopt;
   return Nameless{effect, in_words(from, to, furthest)};
 }
 

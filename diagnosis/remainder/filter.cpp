@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <gyrostat/diagnosis/likelihood/changed_band.hpp>
 #include <gyrostat/generators/effects/empirical_filter.hpp>
 #include <gyrostat/generators/fast_part.hpp>
 
@@ -30,33 +31,20 @@ Cepstrum cepstrum_of(const std::vector<double>& log_density, const std::vector<d
   return c;
 }
 
-/// Where most of the change of power lies: the middle two thirds of what is added, or taken away.
 std::string in_words(const Cepstrum& cepstrum, std::size_t order, const std::vector<double>& mean,
-                     std::size_t first, double rate_hz) {
+                     std::size_t first, double bin_hz) {
   const std::size_t last = mean.size() - 1;
   std::vector<double> change(mean.size(), 0.0);
-  double added = 0.0, taken = 0.0;
   for (std::size_t bin = first; bin <= last; ++bin) {
     double log_gain = cepstrum[0];
     for (std::size_t k = 1; k <= order; ++k)
       log_gain += cepstrum[k] * std::cos(std::numbers::pi * static_cast<double>(k * bin) /
                                          static_cast<double>(last));
     change[bin] = std::exp(mean[bin]) * std::expm1(2.0 * log_gain);
-    (change[bin] > 0.0 ? added : taken) += std::abs(change[bin]);
   }
-  const bool adds = added >= taken;
-  const double all = adds ? added : taken;
-  double sum = 0.0, from_hz = 0.0, to_hz = 0.0;
-  for (std::size_t bin = first; bin <= last; ++bin) {
-    if ((change[bin] > 0.0) != adds) continue;
-    const double before = sum;
-    sum += std::abs(change[bin]);
-    const double at_hz = 0.5 * rate_hz * static_cast<double>(bin) / static_cast<double>(last);
-    if (before < all / 6.0 && sum >= all / 6.0) from_hz = at_hz;
-    if (before < all * 5.0 / 6.0 && sum >= all * 5.0 / 6.0) to_hz = at_hz;
-  }
+  const auto band = changed_band(change, bin_hz);
   return fmt::format("a nameless filter that {} mostly from {:.3g} to {:.3g} Hz",
-                     adds ? "adds power" : "takes power away", from_hz, to_hz);
+                     band.adds ? "adds power" : "takes power away", band.from_hz, band.to_hz);
 }
 
 }  // namespace
@@ -95,10 +83,10 @@ std::optional<Nameless> filter_part(const Replicated& replicated, double rate_hz
     gain += 0.5 * observed[k] * observed[k] / of_k - 1.0;
     if (gain > most) most = gain, order = k;
   }
-  if (most < clear_gain_of_a_part) return std::nullopt;
+  if (most < clear_gain) return std::nullopt;
   Effect effect = effects::EmpiricalFilter::absent();
   for (std::size_t k = 0; k <= order; ++k) effect.value(k) = observed[k];
-  return Nameless{effect, in_words(observed, order, mean, first, rate_hz)};
+  return Nameless{effect, in_words(observed, order, mean, first, bin_hz)};
 }
 
 }  // namespace gyrostat::gap

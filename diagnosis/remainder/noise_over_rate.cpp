@@ -64,7 +64,7 @@ std::optional<Nameless> noise_over_rate_part(const Conditions& conditions,
       chi_squared += weight[k] * std::pow(off[k] - sum / weights, 2);
       freedom += 1.0;
     }
-  if (0.5 * chi_squared - freedom < clear_gain_of_a_part) return std::nullopt;
+  if (0.5 * chi_squared - freedom < clear_gain) return std::nullopt;
   // Where few samples tell, the nearest knot that does.
   for (std::size_t k = 1; k < Spline::knots; ++k)
     if (is_missing(off[k])) off[k] = off[k - 1];

@@ -26,9 +26,6 @@ struct Replicated {
   std::vector<Look> replicas;
 };
 
-/// Nats by which a part must gain beyond what its parameters win by chance.
-inline constexpr double clear_gain_of_a_part = 10.0;
-
 /// Of a number that was read off the recording and off each replica: how far the recording lies
 /// from their mean, and the variance of that where it is one of them.
 struct Against {

@@ -47,17 +47,13 @@ std::optional<Surplus> surplus_of(const Conditions& conditions, const std::vecto
   const auto observed = variogram(conditions, own, lags);
   std::vector<std::vector<double>> replicated;
   for (const auto& replica : replicas) replicated.push_back(variogram(conditions, replica, lags));
-  std::vector<double> weights;
+  std::vector<double> weights, off;
   for (std::size_t l = 0; l < lags.size(); ++l) {
     std::vector<double> at_lag;
     for (const auto& replica : replicated) at_lag.push_back(replica[l]);
-    weights.push_back(1.0 / std::max(Against(0.0, at_lag).variance, 1e-300));
-  }
-  std::vector<double> off(lags.size());
-  for (std::size_t l = 0; l < lags.size(); ++l) {
-    std::vector<double> at_lag;
-    for (const auto& replica : replicated) at_lag.push_back(replica[l]);
-    off[l] = Against(observed[l], at_lag).off;
+    const Against at(observed[l], at_lag);
+    weights.push_back(1.0 / std::max(at.variance, 1e-300));
+    off.push_back(at.off);
   }
   std::optional<Surplus> best;
   double least = 1e300;
@@ -95,7 +91,7 @@ std::optional<Surplus> surplus_of(const Conditions& conditions, const std::vecto
     const Against variance(variance_in(observed), by_chance);
     const double farthest = *std::max_element(by_chance.begin(), by_chance.end()) -
                             (variance_in(observed) - variance.off);
-    if (variance.off > 2.0 * farthest && 0.5 * variance.chi_squared() - 2.0 > clear_gain_of_a_part)
+    if (variance.off > 2.0 * farthest && 0.5 * variance.chi_squared() - 2.0 > clear_gain)
       best = Surplus{std::sqrt(variance.off), time_s};
   }
   return best;

@@ -76,9 +76,7 @@ struct EmpiricalDistribution {
     if (change.is_empty()) return;
     FastPart part;
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
-      const double fast = part(series.t_s, i,
-                               series.gyro_dps[i] - series.rate_ref_dps[i] -
-                                   series.thermal_bias_dps[i] - series.random_error_dps[i]);
+      const double fast = part(series.t_s, i, error_beside_drift(series, i));
       series.gyro_dps[i] += change(fast) - fast;
     }
   }

@@ -96,9 +96,7 @@ struct EmpiricalFilter {
     std::vector<double> fast(samples);
     FastPart part;
     for (std::size_t i = 0; i < samples; ++i)
-      fast[i] = part(series.t_s, i,
-                     series.gyro_dps[i] - series.rate_ref_dps[i] - series.thermal_bias_dps[i] -
-                         series.random_error_dps[i]);
+      fast[i] = part(series.t_s, i, error_beside_drift(series, i));
     for (std::size_t i = 0; i < samples; ++i) {
       double filtered = 0.0;
       for (std::size_t k = 0; k < std::min(h.size(), i + 1); ++k) filtered += h[k] * fast[i - k];

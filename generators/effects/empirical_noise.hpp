@@ -51,8 +51,7 @@ struct EmpiricalNoise {
   void apply(Series& series, const Noise& /*noise*/) const {
     auto coloured = filter();
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
-      const double white = series.gyro_dps[i] - series.rate_ref_dps[i] -
-                           series.thermal_bias_dps[i] - series.random_error_dps[i];
+      const double white = error_beside_drift(series, i);
       series.gyro_dps[i] += coloured(gain * white) - white;
     }
   }

@@ -60,9 +60,7 @@ struct EmpiricalNoiseOverRate {
     FastPart part;
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
       const double rate = series.rate_ref_dps[i];
-      const double fast =
-          part(series.t_s, i,
-               series.gyro_dps[i] - rate - series.thermal_bias_dps[i] - series.random_error_dps[i]);
+      const double fast = part(series.t_s, i, error_beside_drift(series, i));
       const double place = std::isfinite(rate) ? place_of(rate, fastest_dps) : 0.0;
       const auto below = std::min(static_cast<std::size_t>(place), knots - 2);
       const double gain =

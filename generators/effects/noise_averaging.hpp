@@ -71,8 +71,7 @@ struct NoiseAveraging {
     std::vector<double> white(taps);
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
       auto& row = rows[i % taps];
-      white[i % taps] = series.gyro_dps[i] - series.rate_ref_dps[i] - series.thermal_bias_dps[i] -
-                        series.random_error_dps[i];
+      white[i % taps] = error_beside_drift(series, i);
       const std::size_t first = i < taps ? 0 : i - taps + 1;
       double averaged = 0.0;
       for (std::size_t j = first; j <= i; ++j) {

@@ -51,8 +51,7 @@ struct NoiseBandwidth {
         static_cast<std::size_t>(std::clamp(std::lround(poles), 1L, long{most_poles}));
     const auto filter = [&](auto&& passed) {
       for (std::size_t i = 0; i < samples; ++i) {
-        const double white = series.gyro_dps[i] - series.rate_ref_dps[i] -
-                             series.thermal_bias_dps[i] - series.random_error_dps[i];
+        const double white = error_beside_drift(series, i);
         series.gyro_dps[i] += passed(i, white) - white;
       }
     };

@@ -37,8 +37,7 @@ struct NoiseTemperature {
 
   void apply(Series& series, const Noise& /*noise*/) const {
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
-      const double white = series.gyro_dps[i] - series.rate_ref_dps[i] -
-                           series.thermal_bias_dps[i] - series.random_error_dps[i];
+      const double white = error_beside_drift(series, i);
       const double gain =
           std::max(0.0, 1.0 + relative_per_C * (series.temperature_C[i] - reference_C));
       series.gyro_dps[i] += (gain - 1.0) * white;

@@ -139,9 +139,10 @@ TEST(Remainder, NoiseOverRateIsTheGainOfEachRate) {
   EXPECT_NEAR(value_of(part->effect, "gain_8"), 2.5, 0.25);
   EXPECT_NEAR(value_of(part->effect, "gain_6"), 1.2, 0.12);
   // A straight line between knots is not the mean over what lies about each.
-  if (const auto again = noise_over_rate_part(c.conditions(), c.beside({*part})))
+  if (const auto again = noise_over_rate_part(c.conditions(), c.beside({*part}))) {
     for (const auto* gain : {"gain_4", "gain_5", "gain_6", "gain_7", "gain_8"})
       EXPECT_NEAR(value_of(again->effect, gain), 1.0, 0.1) << gain;
+  }
 }
 
 /// What changes all errors stands before the grid that the converter puts them on.
