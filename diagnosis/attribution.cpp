@@ -218,8 +218,12 @@ void Diagnosing::judge_claim() {
     climb(names);
   result_.claimed = true;
   see_what_is_left();
+  // What has no name closes a gap, and is no cause beside one.
+  std::stable_partition(result_.verdict_set.begin(), result_.verdict_set.end(), [](const auto& v) {
+    return cause_types().find(v.text()) != nullptr;
+  });
   if (!names.empty())
-    result_.verdict = Verdict::cause(names.front());
+    result_.verdict = result_.verdict_set.front();
   else if (result_.p_after <= options_.significance)
     result_.verdict = Verdict::unknown();
 }

@@ -111,6 +111,14 @@ TEST(Diagnosis, JudgesACauseThatWasFoundElsewhere) {
   EXPECT_LT(wrong.closed, 0.3);
 }
 
+TEST(Diagnosis, WhatHasNoNameIsNoVerdictBesideACause) {
+  Scenario s = still();
+  s.effects = {effects::EmpiricalNoise{.reflection_1 = -0.5}, effects::Outliers{0.005, 0.5}};
+  DiagnosisOptions options;
+  options.claim = s;
+  EXPECT_EQ(diagnose(recorded(s, 33, false), options).verdict.text(), "outliers");
+}
+
 TEST(Diagnosis, AClaimedColourOfTheCompassIsAllItsNoise) {
   Scenario s = still();
   s.compass.noise_std_deg = 0.0;
