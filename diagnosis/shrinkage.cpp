@@ -92,6 +92,13 @@ void Diagnosing::measure_shrinkage() {
   result_.closed_low = std::min(interval[0], result_.closed);
   result_.closed_high = std::max(result_.closed, std::min(interval[1], most_closed));
   if (result_.remainder.closed <= result_.closed) result_.remainder = {};
+  // Names that lead away from what they have not seen explain nothing.
+  if (!result_.claimed && result_.closed_high < 0.0) {
+    auto& set = result_.verdict_set;
+    result_.verdict = Verdict::unknown();
+    std::erase(set, result_.verdict);
+    set.insert(set.begin(), result_.verdict);
+  }
 }
 
 void Diagnosing::keep_bands() {

@@ -71,9 +71,20 @@ double clipped_at(const Conditions& conditions, const std::vector<double>& z, do
   return at_end >= fewest && at_end > beside * next ? std::abs(end) : 0.0;
 }
 
-/// Samples that would equal the one before if none was repeated, by how many differ from it by one
-/// and by two steps of the grid: differences are normal.
+/// Samples that would equal the one before if none was repeated. On a fine grid as many as differ
+/// from it by each of the next steps: the density of differences is level there to two percent.
+/// Else by how many differ from it by one and by two steps: differences are normal.
 double equal_by_chance(const std::vector<double>& differences, double step) {
+  std::vector<double> sizes;
+  for (const double d : differences)
+    if (d != 0.0 && !is_missing(d)) sizes.push_back(std::abs(d));
+  constexpr double level_within = 0.3;  // of the median
+  if (const double reach = std::floor(level_within * quantile(sizes, 0.5) / step); reach >= 2.0) {
+    const auto within = std::count_if(sizes.begin(), sizes.end(), [&](double size) {
+      return std::nearbyint(size / step) <= reach;
+    });
+    return static_cast<double>(within) / (2.0 * reach);
+  }
   double ones = 0.0, twos = 0.0;
   for (const double d : differences) {
     const double steps = std::abs(d) / step;

@@ -34,8 +34,7 @@ Bands bands_of(const NoiseLaw& law, double cluster_s) {
   bands.slow.jumps = std::exchange(bands.fast.jumps, std::nullopt);
   bands.fast.decaying.clear();
   for (const auto& d : law.decaying)
-    (d.memory_s < shortest_memory * cluster_s || d.variance < 0.0 ? bands.fast : bands.slow)
-        .decaying.push_back(d);
+    (d.memory_s < shortest_memory * cluster_s ? bands.fast : bands.slow).decaying.push_back(d);
   return bands;
 }
 
@@ -50,20 +49,24 @@ SlowLaw slow_law_of(const ReducedRate& reduced, const NoiseLaw& remembered,
   slow.white = std::inner_product(fast_density.begin(), fast_density.end(), weights.begin(), 0.0) *
                reduced.noise_of_means();
   // The mean of a walk over its cluster has a sixth of a step's variance less than its end.
-  slow.white = std::max(slow.white - slow.walk / 6.0, 0.05 * (slow.white + slow.walk));
+  slow.white -= slow.walk / 6.0;
+  double at_the_fastest = 0.25 * slow.walk, size = at_the_fastest;
   for (const auto& d : remembered.decaying) {
     // Means over u memories have covariances that fall by exp(-u) from lag to lag, from the first
     // on; that at lag 0 is a little less than where they come from. The white noise of the means
-    // takes the difference up as far as it goes.
+    // takes the difference up.
     const double u = interval_s / d.memory_s;
     const auto mean = mean_over(u);
-    const double neighbours = d.variance * mean.neighbours, variance = d.variance * mean.variance;
-    constexpr double share_left = 0.2;
-    const double taken =
-        std::min(neighbours * std::exp(u) - variance, (1.0 - share_left) * slow.white);
-    slow.white -= taken;
-    slow.parts.push_back({variance + taken, neighbours / (variance + taken)});
+    const SlowLaw::Part part{d.variance * mean.neighbours * std::exp(u), std::exp(-u)};
+    slow.white -= part.variance - d.variance * mean.variance;
+    const double fastest = part.variance * (1.0 - part.decay) / (1.0 + part.decay);
+    at_the_fastest += fastest;
+    size += std::abs(fastest);
+    slow.parts.push_back(part);
   }
+  // Where the density is least, something must be left of it.
+  constexpr double share_left = 0.02;
+  slow.white = std::max(slow.white, share_left * size - at_the_fastest);
   return slow;
 }
 

@@ -288,17 +288,21 @@ std::vector<Span> SetBench::level_blocks() const {
 
 Standing SetBench::beside_memory(const Standing& standing) const {
   Standing best;
-  for (const double phi : {0.5, 0.85}) {
+  const auto law = ArimaLaw::of(standing.scenario.random_error);
+  const double white = standing.scenario.random_error.measurement_noise_std_dps;
+  const auto try_from = [&](double phi, double memory) {
     Scenario scenario = standing.scenario;
-    auto law = ArimaLaw::of(scenario.random_error);
-    const double white = scenario.random_error.measurement_noise_std_dps;
-    law.phi = phi;
-    law.memory = 0.2 * white * white * (1.0 - phi * phi);
-    law.put(scenario.random_error);
+    ArimaLaw{phi, law.walk_dps, memory}.put(scenario.random_error);
     scenario = standing.fitter->with_white_noise_scaled(std::move(scenario));
     if (auto tried = fitted(scenario, standing.fitter, fitting_iterations);
         tried.score > best.score)
       best = std::move(tried);
+  };
+  for (const double phi : {0.5, 0.85}) {
+    try_from(phi, 0.2 * white * white * (1.0 - phi * phi));
+    // Without delta2 the walk's steps are themselves a decaying error: seen where the walk shows
+    // above the white noise before they have died out.
+    if (law.walk_dps > (1.0 - phi) * white) try_from(phi, -phi * law.walk_dps * law.walk_dps);
   }
   return best;
 }

@@ -54,6 +54,11 @@ FoundSet SetSearcher::run() {
     standing = exchanged(searched(std::move(other)), found);
     if (standing.scenario.random_error.phi != 0.0)
       found.baseline = bench_.beside_memory(bench_.beside_noise({})).scenario;
+  } else {
+    // What the memory could stand in for is no surer than that.
+    for (auto& member : found.members)
+      if (!member.read_off && !has(other.scenario, member.effect))
+        member.log_odds = std::min(member.log_odds, standing.score - other.score);
   }
   tell("looking for what has no name", 1);
   found.gain = standing.score - begun.score;
@@ -111,9 +116,8 @@ std::vector<Nameless> SetSearcher::nameless_beside(const Scenario& set) const {
 
 std::vector<Detectable> SetSearcher::detectable() const {
   if (!end_) return {};
-  return detectable_beside(bench_, *end_, [&](std::string_view effect) {
-    return least_gain(*end_, band_of(effect));
-  });
+  return detectable_beside(
+      bench_, *end_, [&](std::string_view effect) { return least_gain(*end_, band_of(effect)); });
 }
 
 Scenario SetSearcher::likeliest_baseline() {

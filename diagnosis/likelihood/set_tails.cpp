@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <gyrostat/diagnosis/likelihood/arima_law.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/line_names.hpp>
 
@@ -12,9 +13,23 @@ namespace {
 /// Sizes of innovations are odd in more ways than the catalogue has effects for.
 constexpr double prior_of_sizes = 4.0;
 
+/// Whether what is left beside the level of a block has one size: a walk that shows within it is
+/// larger at its ends than in its middle.
+bool is_of_one_size(const Scenario& scenario, const std::vector<Span>& blocks) {
+  const double walk = ArimaLaw::of(scenario.random_error).walk_dps;
+  const double white = white_with_rounding(scenario);
+  return blocks.empty() ||
+         walk * walk * static_cast<double>(blocks.front().size()) / 6.0 < white * white;
+}
+
 }  // namespace
 
 void SetSearcher::judge_tails(const Standing& standing) {
+  if (!is_of_one_size(standing.scenario, bench_.level_blocks())) {
+    tails_ = {};
+    has_outliers_ = has_warm_noise_ = false;
+    return;
+  }
   auto hidden = edges_of_the_dead_zone(standing.scenario);
   for (std::size_t i = 0; i < hidden.size(); ++i) hidden[i] |= repeats_[i];
   auto left = bench_.rate_left_by(standing.scenario, hidden);

@@ -25,13 +25,13 @@ class Motion {
       : white(law.white), states_(1 + std::min<int>(N - 1, static_cast<int>(law.parts.size()))) {
     decay_[0] = 1.0;
     drive_[0] = law.walk;
-    double total = law.white;
+    double total = std::abs(law.white);
     for (int i = 1; i < states(); ++i) {
       const auto& part = law.parts[static_cast<std::size_t>(i - 1)];
       decay_[i] = part.decay;
       drive_[i] = part.variance * (1.0 - part.decay) * (1.0 + part.decay);
       first_variance[i] = part.variance;
-      total += part.variance;
+      total += std::abs(part.variance);
     }
     first_variance[0] = 1e7 * (total + law.walk);
   }

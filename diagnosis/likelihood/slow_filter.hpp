@@ -9,7 +9,8 @@
 namespace gyrostat::gap {
 
 /// Cluster means of the rate error as a level that walks, decaying errors and white noise, with
-/// nothing known of where the level began.
+/// nothing known of where the level began. Variances may be below 0 where those beside them leave
+/// the sum a spectrum: the mean of a strong walk is smoother than a walk.
 struct SlowLaw {
   double white;  ///< variance of a mean
   double walk;   ///< variance of the level's step from one mean to the next

@@ -10,6 +10,7 @@
 
 #include <gyrostat/diagnosis/gap/conditions.hpp>
 #include <gyrostat/diagnosis/likelihood/rate_likelihood.hpp>
+#include <gyrostat/diagnosis/likelihood/set_fit.hpp>
 #include <gyrostat/tests/diagnosis/known_recordings.hpp>
 
 #include <gyrostat/core/random.hpp>
@@ -65,6 +66,20 @@ TEST(SlowFilter, IsTheDensityOfDifferences) {
   const double expected = log_normal(d * values, d * covariance_of(law) * d.transpose());
   const auto terms = slow_terms(law, points, values, Eigen::MatrixXd(10, 0), Eigen::VectorXd());
   EXPECT_NEAR(terms.log_likelihood, expected, 1e-5);
+}
+
+/// With parts below 0, down to the least that a covariance allows.
+TEST(SlowFilter, IsTheDensityOfDifferencesOfASmoothedWalk) {
+  constexpr double walk = 0.3, decay = 0.7, least = -0.25 * walk * (1.0 + decay) / (1.0 - decay);
+  for (const double share : {0.3, 1.0}) {
+    const SlowLaw law{
+        .white = 0.05, .walk = walk, .parts = {{share * least, decay}, {0.2, 0.95}}, .jumps = {}};
+    const auto values = drawn("values", 10);
+    const Eigen::MatrixXd d = differences();
+    const double expected = log_normal(d * values, d * covariance_of(law) * d.transpose());
+    const auto terms = slow_terms(law, points, values, Eigen::MatrixXd(10, 0), Eigen::VectorXd());
+    EXPECT_NEAR(terms.log_likelihood, expected, 1e-5) << share;
+  }
 }
 
 TEST(SlowFilter, CoefficientsAreIntegratedOutUnderTheirPriors) {
@@ -140,6 +155,53 @@ TEST(SlowLaw, HasTheCovariancesOfMeans) {
   };
   for (const int lag : {0, 1, 2, 30})
     EXPECT_NEAR(of_the_law(lag) / integrated(lag), 1.0, 1e-5) << lag;
+}
+
+/// Differences of the means of a strong ARIMA(1,1,1), which white noise beside a walk cannot have:
+/// the means of a walk move alike from one to the next, and those of a smoothed one for longer.
+TEST(SlowLaw, HasTheCovariancesOfTheMeansOfAStrongWalk) {
+  const Series series = recorded(still(), 3, false);
+  const Conditions conditions(series);
+  const ReducedRate reduced(
+      conditions, series.gyro_dps,
+      std::make_shared<const RateGrid>(conditions, std::vector<char>(series.size(), 0)));
+  const std::size_t cluster = conditions.cluster();
+  const auto n = static_cast<double>(cluster);
+  for (const auto& e :
+       {Arima111<double>{0.0, 0.1, 0.0, 0.05}, Arima111<double>{0.9, 0.01, 0.002, 0.05}}) {
+    Scenario s;
+    s.random_error = e;
+    const auto slow = slow_law(reduced, law_of(s, conditions.interval_s()), cluster);
+    const auto of_the_law = [&](int lag) {
+      double sum = lag == 0 ? slow.walk + 2.0 * slow.white : lag == 1 ? -slow.white : 0.0;
+      for (const auto& part : slow.parts)
+        sum += part.variance * (2.0 * std::pow(part.decay, lag) - std::pow(part.decay, lag + 1) -
+                                std::pow(part.decay, std::abs(lag - 1)));
+      return sum;
+    };
+    // Sample by sample: a difference of means is a sum of steps x_k - x_(k-1) with weights that
+    // rise over one cluster and fall over the next.
+    const auto weight = [&](double k) { return std::max(0.0, 1.0 - std::abs(k - n) / n); };
+    const auto step_covariance = [&](int lag) {
+      const double square = e.delta1_dps * e.delta1_dps + e.delta2_dps * e.delta2_dps;
+      const double product = e.delta1_dps * e.delta2_dps, left = 1.0 - e.phi * e.phi;
+      const double at_0 = (square - 2.0 * e.phi * product) / left;
+      const double at_1 = ((1.0 + e.phi * e.phi) * -product + e.phi * square) / left;
+      return lag == 0 ? at_0 : at_1 * std::pow(e.phi, lag - 1);
+    };
+    const auto summed = [&](int lag) {
+      const double white = e.measurement_noise_std_dps * e.measurement_noise_std_dps / n;
+      double sum = lag == 0 ? 2.0 * white : lag == 1 ? -white : 0.0;
+      for (int i = 0; i < 2 * static_cast<int>(cluster); ++i)
+        for (int j = 0; j < 2 * static_cast<int>(cluster); ++j)
+          sum += weight(i) * weight(j) *
+                 step_covariance(std::abs(i - j + lag * static_cast<int>(cluster)));
+      return sum;
+    };
+    // The means of clusters of samples and of a continuous error differ by 1 / (2 n^2).
+    for (const int lag : {0, 1, 2, 5})
+      EXPECT_NEAR(of_the_law(lag), summed(lag), 0.02 * summed(0)) << e.phi << " at lag " << lag;
+  }
 }
 
 }  // namespace
