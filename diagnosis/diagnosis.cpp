@@ -8,6 +8,7 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/diagnosing.hpp>
+#include <gyrostat/diagnosis/likelihood/nameless_mean.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 #include <gyrostat/diagnosis/model_fit.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
@@ -96,7 +97,8 @@ Scenario Diagnosing::with_drift(Scenario scenario, const Series& recording) cons
   synthesise_rate_under(quiet, conditions.series(), {}, bare);
   for (const auto& effect : scenario.effects) {
     const auto* cause = cause_types().find(effect.id());
-    if (cause != nullptr && cause->is_deterministic() && effect.stage() != Stage::compass)
+    if ((cause != nullptr && cause->is_deterministic() && effect.stage() != Stage::compass) ||
+        is_mean_without_name(effect))
       quiet.effects.push_back(effect);
   }
   synthesise_rate_under(quiet, conditions.series(), {}, with);

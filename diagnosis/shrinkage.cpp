@@ -2,6 +2,7 @@
 
 #include <gyrostat/diagnosis/diagnosing.hpp>
 #include <gyrostat/diagnosis/lens_band.hpp>
+#include <gyrostat/diagnosis/likelihood/nameless_mean.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 #include <gyrostat/diagnosis/remainder/remainder.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
@@ -16,6 +17,12 @@ void Diagnosing::complete() {
     return rung({}, with_drift(with_nameless(result_.enriched, parts), recording_), replicas);
   };
   remainder.parts = found_.nameless(result_.enriched);
+  // A name beside which a mean without one is clear may be what that mean passes for.
+  auto& set = result_.verdict_set;
+  if (std::any_of(remainder.parts.begin(), remainder.parts.end(),
+                  [](const auto& part) { return is_mean_without_name(part.effect); }) &&
+      std::find(set.begin(), set.end(), Verdict::unknown()) == set.end())
+    set.push_back(Verdict::unknown());
   if (!remainder.parts.empty())
     yardstick_ = completed_by(remainder.parts, options_.candidate_replicas);
   remainder.parts = with_what_replicas_lack(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,12 @@ inline constexpr double clear_gain = 10.0;
 struct Nameless {
   Effect effect;         ///< outside the catalogue, as empirical_noise
   std::string in_words;  ///< as "a coloured noise, mostly from 3 to 12 Hz"
+  /// Where the walk stood in for it: what is left of the random error beside it.
+  std::optional<Arima111<double>> beside{};
 };
 
-/// What the white noise of a fitted set lacks of the recording's fast spectrum, and what its white
+/// What a fitted set leaves of the mean over temperature and over the rate, as linear splines; what
+/// its white noise lacks of the recording's fast spectrum, and what its white
 /// compass noise lacks of the heading's, each as an autoregression of the train part. Its order is
 /// that of the least Akaike criterion, which is what leaving out one by one would choose (Stone,
 /// Journal of the Royal Statistical Society B 39, 1977), with the likelihood of Whittle; none where

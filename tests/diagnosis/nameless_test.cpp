@@ -9,6 +9,7 @@
 
 #include <gyrostat/diagnosis/handling.hpp>
 #include <gyrostat/diagnosis/likelihood/autoregression.hpp>
+#include <gyrostat/diagnosis/likelihood/nameless_mean.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
 #include <gyrostat/generators/all_pole.hpp>
@@ -66,6 +67,44 @@ std::vector<Nameless> left_by_the_baseline(const Scenario& scenario, std::uint64
 TEST(Nameless, IsNothingWhereNothingIsLeft) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
     EXPECT_TRUE(left_by_the_baseline(still(), seed).empty());
+}
+
+/// A hump over temperature that is no polynomial: as high as the noise of a sample. Its height
+/// is known to a few thousandths of a dps, beside a walk that is small against it.
+TEST(Nameless, IsTheMeanOverTemperature) {
+  Scenario s = still();
+  s.effects = {effects::EmpiricalMeanOverTemperature{
+      .from_C = 23.0, .span_C = 34.0, .mean_4_dps = 0.06, .mean_5_dps = 0.06}};
+  const auto parts = left_by_the_baseline(s, 4);
+  ASSERT_EQ(parts.size(), 1);
+  const auto* mean = parts[0].effect.as<effects::EmpiricalMeanOverTemperature>();
+  ASSERT_NE(mean, nullptr);
+  // The drift beside it may have taken a line.
+  const double line = 0.5 * (mean->mean_1_dps + mean->mean_9_dps);
+  EXPECT_NEAR(0.5 * (mean->mean_4_dps + mean->mean_5_dps) - line, 0.06, 0.01);
+  EXPECT_NEAR(0.5 * (mean->mean_2_dps + mean->mean_8_dps) - line, 0.0, 0.01);
+  ASSERT_TRUE(parts[0].beside);
+  EXPECT_THAT(parts[0].in_words, testing::HasSubstr("over the temperature"));
+}
+
+/// Turned to and fro 37 times, beside a reference.
+TEST(Nameless, IsTheMeanOverTheRate) {
+  Scenario s = moving();
+  s.effects = {effects::EmpiricalMeanOverRate{.from_dps = -80.0,
+                                              .span_dps = 160.0,
+                                              .mean_1_dps = 0.06,
+                                              .mean_5_dps = 0.0,
+                                              .mean_9_dps = 0.06}};
+  const Series series = recorded(s, 4, true);
+  const Simulator simulator(series, 1);
+  const auto standing = SetBench(simulator, series, {}).beside_noise({});
+  const auto part = mean_over_rate(simulator.conditions(), *standing.fitter, standing.scenario);
+  ASSERT_TRUE(part);
+  const auto* mean = part->effect.as<effects::EmpiricalMeanOverRate>();
+  ASSERT_NE(mean, nullptr);
+  EXPECT_NEAR(mean->mean_1_dps - mean->mean_5_dps, 0.06, 0.01);
+  EXPECT_NEAR(mean->mean_9_dps - mean->mean_5_dps, 0.06, 0.01);
+  EXPECT_FALSE(mean_over_temperature(simulator.conditions(), *standing.fitter, standing.scenario));
 }
 
 /// A compass that wanders by half its noise over 20 s: 1200 s hold some thirty independent values,

@@ -50,6 +50,18 @@ TEST(ThermalCurvature, AddsACubicAboutTheSameReference) {
   EXPECT_DOUBLE_EQ(bias[2], 0.03);
 }
 
+TEST(EmpiricalMean, GoesStraightFromKnotToKnotAndStaysBeyond) {
+  const auto bias = drift(effects::EmpiricalMeanOverTemperature{.from_C = 20.0,
+                                                                .span_C = 40.0,
+                                                                .mean_1_dps = 0.1,
+                                                                .mean_2_dps = -0.1,
+                                                                .mean_5_dps = 0.0,
+                                                                .mean_9_dps = 0.3},
+                          {20.0, 22.5, 25.0, 30.0, 57.5, 60.0, 70.0, 10.0, no_value});
+  const std::vector<double> expected{0.1, 0.0, -0.1, 0.0, 0.15, 0.3, 0.3, 0.1, 0.0};
+  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(bias[k], expected[k], 1e-15) << k;
+}
+
 TEST(ThermalHysteresis, ALongMoveOneWayEndsOnThePlusOrMinusBranch) {
   const ThermalHysteresis hysteresis{.amplitude_dps = 0.01, .width_C = 3.0};
   EXPECT_DOUBLE_EQ(drift(hysteresis, moves({20.0, 40.0})).back(), 0.01);
