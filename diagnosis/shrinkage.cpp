@@ -16,7 +16,10 @@ void Diagnosing::complete() {
   const auto completed_by = [&](const std::vector<Nameless>& parts, std::size_t replicas) {
     return rung({}, with_drift(with_nameless(result_.enriched, parts), recording_), replicas);
   };
-  remainder.parts = found_.nameless(result_.enriched);
+  const auto score_of = [&](const std::vector<Nameless>& parts) {
+    return scoring_->of(completed_by(parts, lacking_replicas).replicas[0]).value;
+  };
+  remainder.parts = without_needless_means(found_.nameless(result_.enriched), score_of);
   // A name beside which a mean without one is clear may be what that mean passes for.
   auto& set = result_.verdict_set;
   if (std::any_of(remainder.parts.begin(), remainder.parts.end(),
@@ -25,10 +28,8 @@ void Diagnosing::complete() {
     set.push_back(Verdict::unknown());
   if (!remainder.parts.empty())
     yardstick_ = completed_by(remainder.parts, options_.candidate_replicas);
-  remainder.parts = with_what_replicas_lack(
-      simulator_, recording_, result_.enriched, remainder.parts, [&](const auto& parts) {
-        return scoring_->of(completed_by(parts, lacking_replicas).replicas[0]).value;
-      });
+  remainder.parts =
+      with_what_replicas_lack(simulator_, recording_, result_.enriched, remainder.parts, score_of);
   if (!remainder.parts.empty())
     completed_ = completed_by(remainder.parts, options_.candidate_replicas);
   if (completed_) remainder.scenario = completed_->scenario;

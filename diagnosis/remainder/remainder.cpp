@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <gyrostat/diagnosis/likelihood/nameless_mean.hpp>
 #include <gyrostat/diagnosis/remainder/compass_tails.hpp>
 #include <gyrostat/diagnosis/remainder/distribution.hpp>
 #include <gyrostat/diagnosis/remainder/filter.hpp>
@@ -9,6 +10,17 @@
 #include <gyrostat/diagnosis/remainder/wander.hpp>
 
 namespace gyrostat::gap {
+
+std::vector<Nameless> without_needless_means(std::vector<Nameless> parts,
+                                             const ScoreOfParts& score_of) {
+  for (std::size_t k = parts.size(); k-- > 0;) {
+    if (!is_mean_without_name(parts[k].effect)) continue;
+    auto others = parts;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    if (score_of(others) >= score_of(parts)) parts = std::move(others);
+  }
+  return parts;
+}
 
 std::vector<Nameless> with_what_replicas_lack(const Simulator& simulator, const Series& recording,
                                               const Scenario& set, std::vector<Nameless> parts,
