@@ -64,9 +64,12 @@ SlowLaw slow_law_of(const ReducedRate& reduced, const NoiseLaw& remembered,
     size += std::abs(fastest);
     slow.parts.push_back(part);
   }
-  // Where the density is least, something must be left of it.
-  constexpr double share_left = 0.02;
-  slow.white = std::max(slow.white, share_left * size - at_the_fastest);
+  // Where the density is least, something must be left of it. Beside a motion that is not yet
+  // explained, what passes for a walk is none, and need not be as smooth from mean to mean.
+  constexpr double share_left = 0.02, least_beside_motion = 0.05;
+  slow.white =
+      std::max(slow.white, reduced.is_beside_motion() ? least_beside_motion * slow.walk
+                                                      : share_left * size - at_the_fastest);
   return slow;
 }
 

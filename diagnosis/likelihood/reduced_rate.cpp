@@ -47,7 +47,9 @@ std::vector<double> smoothed(const Conditions& conditions, const std::vector<dou
 
 ReducedRate::ReducedRate(const Conditions& conditions, const std::vector<double>& error_dps,
                          std::shared_ptr<const RateGrid> grid)
-    : grid_(std::move(grid)), cluster_s_(conditions.slow_interval_s()) {
+    : grid_(std::move(grid)),
+      cluster_s_(conditions.slow_interval_s()),
+      is_beside_motion_(conditions.has_motion()) {
   std::vector<double> values = error_dps;
   const auto& masked = grid_->masked();
   for (std::size_t i = 0; i < values.size(); ++i)

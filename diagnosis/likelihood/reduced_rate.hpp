@@ -32,6 +32,7 @@ class ReducedRate {
   double noise_of_means() const { return noise_of_means_; }
   const RateGrid& grid() const { return *grid_; }
   double cluster_s() const { return cluster_s_; }
+  bool is_beside_motion() const { return is_beside_motion_; }
 
  private:
   void reduce_fast(const Conditions& conditions, const std::vector<double>& error_dps);
@@ -40,6 +41,7 @@ class ReducedRate {
   std::array<Slow, 2> slow_;
   std::vector<double> periodogram_;
   double degrees_ = 0.0, noise_of_means_ = 1.0, cluster_s_;
+  bool is_beside_motion_;
 };
 
 }  // namespace gyrostat::gap

@@ -25,11 +25,6 @@ bool is_of_one_size(const Scenario& scenario, const std::vector<Span>& blocks) {
 }  // namespace
 
 void SetSearcher::judge_tails(const Standing& standing) {
-  if (!is_of_one_size(standing.scenario, bench_.level_blocks())) {
-    tails_ = {};
-    has_outliers_ = has_warm_noise_ = false;
-    return;
-  }
   auto hidden = edges_of_the_dead_zone(standing.scenario);
   for (std::size_t i = 0; i < hidden.size(); ++i) hidden[i] |= repeats_[i];
   auto left = bench_.rate_left_by(standing.scenario, hidden);
@@ -76,6 +71,10 @@ Standing SetSearcher::searched_beside_tails(Standing standing) {
       standing = searched(std::move(standing));
       candidates_ = all;
       judge_tails(standing);
+    }
+    if (!is_of_one_size(standing.scenario, bench_.level_blocks())) {
+      tails_ = {};
+      has_outliers_ = has_warm_noise_ = false;
     }
     // The largest samples would hide what else there is.
     bench_.mask_only(repeats_);
