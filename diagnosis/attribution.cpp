@@ -163,16 +163,13 @@ void Diagnosing::attribute() {
   const bool unexplained = (open && !only_the_compass_is_left()) || found_.nameless_log_odds > 0.0;
   result_.verdict =
       unexplained ? Verdict::unknown() : Verdict::cause(result_.effects.front().effect);
-  auto& set = result_.verdict_set;
-  const auto add = [&](const Verdict& verdict) {
-    if (std::find(set.begin(), set.end(), verdict) == set.end()) set.push_back(verdict);
-  };
-  if (unexplained) add(Verdict::unknown());
-  for (const auto& effect : result_.effects) add(Verdict::cause(effect.effect));
+  if (unexplained) cannot_rule_out(Verdict::unknown());
+  for (const auto& effect : result_.effects) cannot_rule_out(Verdict::cause(effect.effect));
   for (const auto& rival : found_.rivals)
     if (probability_of(rival.log_odds) >= thresholds::member_probability)
-      add(Verdict::cause(rival.effect));
-  if (open || result_.p_after < thresholds::p_of_the_unexplained) add(Verdict::unknown());
+      cannot_rule_out(Verdict::cause(rival.effect));
+  if (open || result_.p_after < thresholds::p_of_the_unexplained)
+    cannot_rule_out(Verdict::unknown());
   for (const auto& effect : result_.effects) {
     const auto scenario = with_effects({effect.effect});
     result_.causes.push_back(
@@ -192,6 +189,11 @@ void Diagnosing::attribute() {
                               .recovered = result_.recovered,
                               .probability = probability_of(rival.log_odds)});
   }
+}
+
+void Diagnosing::cannot_rule_out(const Verdict& verdict) {
+  auto& set = result_.verdict_set;
+  if (std::find(set.begin(), set.end(), verdict) == set.end()) set.push_back(verdict);
 }
 
 /// The claimed effects, one after another, beside the claimed random error.
@@ -219,9 +221,8 @@ void Diagnosing::judge_claim() {
   result_.claimed = true;
   see_what_is_left();
   // What has no name closes a gap, and is no cause beside one.
-  std::stable_partition(result_.verdict_set.begin(), result_.verdict_set.end(), [](const auto& v) {
-    return cause_types().find(v.text()) != nullptr;
-  });
+  std::stable_partition(result_.verdict_set.begin(), result_.verdict_set.end(),
+                        [](const auto& v) { return cause_types().find(v.text()) != nullptr; });
   if (!names.empty())
     result_.verdict = result_.verdict_set.front();
   else if (result_.p_after <= options_.significance)

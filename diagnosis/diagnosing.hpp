@@ -56,6 +56,8 @@ class Diagnosing {
   Scenario with_drift(Scenario scenario, const Series& recording) const;
   std::vector<Where> departures_of(const Ensemble& ensemble) const;
   void attribute();
+  /// Puts it in the verdict's set, once.
+  void cannot_rule_out(const Verdict& verdict);
   /// What each of the set's effects is worth: their names. Where the simulator with all of them
   /// misses the recording, its likelihood is not the recording's, and an effect without which the
   /// readings of the train part are foretold as well is the form of another one: it goes.

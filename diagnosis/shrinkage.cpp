@@ -21,11 +21,9 @@ void Diagnosing::complete() {
   };
   remainder.parts = without_needless_means(found_.nameless(result_.enriched), score_of);
   // A name beside which a mean without one is clear may be what that mean passes for.
-  auto& set = result_.verdict_set;
   if (std::any_of(remainder.parts.begin(), remainder.parts.end(),
-                  [](const auto& part) { return is_mean_without_name(part.effect); }) &&
-      std::find(set.begin(), set.end(), Verdict::unknown()) == set.end())
-    set.push_back(Verdict::unknown());
+                  [](const auto& part) { return is_mean_without_name(part.effect); }))
+    cannot_rule_out(Verdict::unknown());
   if (!remainder.parts.empty())
     yardstick_ = completed_by(remainder.parts, options_.candidate_replicas);
   remainder.parts =

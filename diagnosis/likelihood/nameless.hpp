@@ -21,11 +21,11 @@ struct Nameless {
 };
 
 /// What a fitted set leaves of the mean over temperature and over the rate, as linear splines; what
-/// its white noise lacks of the recording's fast spectrum, and what its white
-/// compass noise lacks of the heading's, each as an autoregression of the train part. Its order is
-/// that of the least Akaike criterion, which is what leaving out one by one would choose (Stone,
-/// Journal of the Royal Statistical Society B 39, 1977), with the likelihood of Whittle; none where
-/// it gains no more than chance would.
+/// its white noise lacks of the recording's fast spectrum, and what its white compass noise lacks
+/// of the heading's, each as an autoregression of the train part. Its order is that of the least
+/// Akaike criterion, which is what leaving out one by one would choose (Stone, Journal of the Royal
+/// Statistical Society B 39, 1977), with the likelihood of Whittle; none where it gains no more
+/// than chance would.
 ///
 /// `fitted` is the set as `fitter` knows it, `set` the same with its drift, its compass and its
 /// names.

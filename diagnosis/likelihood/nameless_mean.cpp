@@ -45,31 +45,24 @@ Found likeliest_mean(const Conditions& conditions, const SetFitter& fitter, cons
   for (const std::size_t knots : {3, 5, 9}) {
     Eigen::MatrixXd columns(static_cast<Eigen::Index>(conditions.slow_size()),
                             static_cast<Eigen::Index>(knots));
-    std::vector<double> sizes, centres;
     for (std::size_t k = 0; k < knots; ++k) {
-      const auto unit = unit_spline(from, to - from, knots, k);
       std::vector<double> values(x.size());
-      std::transform(x.begin(), x.end(), values.begin(), unit);
-      auto means = conditions.slow_means(values);
-      for (double& mean : means)
-        if (is_missing(mean)) mean = 0.0;
+      std::transform(x.begin(), x.end(), values.begin(), unit_spline(from, to - from, knots, k));
+      const auto means = conditions.slow_means(values);
       auto column = columns.col(static_cast<Eigen::Index>(k));
-      column = Eigen::Map<const Eigen::VectorXd>(means.data(), column.size());
-      centres.push_back(column.mean());
-      sizes.push_back(std::sqrt((column.array() - column.mean()).square().mean()));
+      std::transform(means.begin(), means.end(), column.begin(),
+                     [](double mean) { return is_missing(mean) ? 0.0 : mean; });
     }
     const auto beside = fitter.beside(columns);
     const auto fit = beside.maximise(with_walk_times(set, 0.1), iterations, Jumping::no);
     if (fit.log_likelihood - without <= best.gain) continue;
     best = {fit.log_likelihood - without, {from, to - from, {}}, fit.scenario.random_error};
-    const Eigen::VectorXd found = beside.terms(fit.scenario, Jumping::no)
-                                      .slow.coefficients.tail(static_cast<Eigen::Index>(knots));
+    const Eigen::VectorXd heights = beside.further_sizes(fit.scenario);
     for (std::size_t k = 0; k < knots; ++k) {
-      if (!(sizes[k] > 0.0)) continue;
-      const double height = found[static_cast<Eigen::Index>(k)] / sizes[k];
+      const auto at = static_cast<Eigen::Index>(k);
       const auto unit = unit_spline(from, to - from, knots, k);
       for (std::size_t j = 0; j < LinearSpline::knots; ++j)
-        best.spline.values[j] += height * (unit.values[j] - centres[k]);
+        best.spline.values[j] += heights[at] * (unit.values[j] - columns.col(at).mean());
     }
   }
   return best;

@@ -107,11 +107,13 @@ SetFitter::SetFitter(const Conditions& conditions, std::shared_ptr<const Reduced
       reduced_(std::move(reduced)),
       interrupt_(interrupt),
       further_(further) {
+  further_spreads_.resize(further_.cols());
   for (Eigen::Index c = 0; c < further_.cols(); ++c) {
     auto column = further_.col(c);
     column.array() -= column.mean();
-    column /=
+    further_spreads_[c] =
         std::max(1e-300, std::sqrt(column.squaredNorm() / static_cast<double>(column.size())));
+    column /= further_spreads_[c];
   }
   slow_series_.t_s = conditions.slow_time_s();
   slow_series_.temperature_C = conditions.slow_temperature_C();
@@ -204,6 +206,12 @@ RateTerms SetFitter::terms_with(const Scenario& scenario, const Regressors& regr
 RateTerms SetFitter::terms(const Scenario& scenario, Jumping jumping) const {
   interrupt_.check();
   return terms_with(scenario, regressors_of(scenario), jumping);
+}
+
+Eigen::VectorXd SetFitter::further_sizes(const Scenario& scenario) const {
+  return terms(scenario, Jumping::no)
+      .slow.coefficients.tail(further_.cols())
+      .cwiseQuotient(further_spreads_);
 }
 
 Scenario SetFitter::with_white_noise_scaled(Scenario scenario) const {

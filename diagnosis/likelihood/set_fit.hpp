@@ -45,6 +45,8 @@ class SetFitter {
   SetFitter beside(const Eigen::MatrixXd& further) const {
     return SetFitter(conditions_, reduced_, interrupt_, further);
   }
+  /// The most likely size of each of them under a scenario, in units of the regressor.
+  Eigen::VectorXd further_sizes(const Scenario& scenario) const;
 
   const ReducedRate& reduced() const { return *reduced_; }
   /// Standard deviation of all cluster means.
@@ -97,7 +99,8 @@ class SetFitter {
   mutable std::mutex mutex_;
   mutable std::map<std::pair<std::string, std::size_t>, Eigen::VectorXd> fixed_;
   Series slow_series_;
-  Eigen::MatrixXd drift_, further_;
+  Eigen::MatrixXd drift_, further_;  ///< of unit spread, further_ about its mean
+  Eigen::VectorXd further_spreads_;
   std::vector<double> drift_spreads_;
   double amplitude_dps_;  ///< to be expected of a slow signature
 };

@@ -9,6 +9,7 @@
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/core/series.hpp>
 #include <gyrostat/generators/fast_part.hpp>
+#include <gyrostat/generators/linear_spline.hpp>
 #include <gyrostat/generators/sampled.hpp>
 #include <gyrostat/generators/stage.hpp>
 
@@ -62,10 +63,7 @@ struct EmpiricalNoiseOverRate {
       const double rate = series.rate_ref_dps[i];
       const double fast = part(series.t_s, i, error_beside_drift(series, i));
       const double place = std::isfinite(rate) ? place_of(rate, fastest_dps) : 0.0;
-      const auto below = std::min(static_cast<std::size_t>(place), knots - 2);
-      const double gain =
-          gains[below] + (place - static_cast<double>(below)) * (gains[below + 1] - gains[below]);
-      series.gyro_dps[i] += (gain - 1.0) * fast;
+      series.gyro_dps[i] += (between_knots(gains, place) - 1.0) * fast;
     }
   }
 };

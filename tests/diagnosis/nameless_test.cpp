@@ -74,7 +74,7 @@ TEST(Nameless, IsNothingWhereNothingIsLeft) {
 TEST(Nameless, IsTheMeanOverTemperature) {
   Scenario s = still();
   s.effects = {effects::EmpiricalMeanOverTemperature{
-      .from_C = 23.0, .span_C = 34.0, .mean_4_dps = 0.06, .mean_5_dps = 0.06}};
+      .from = 23.0, .span = 34.0, .mean_4_dps = 0.06, .mean_5_dps = 0.06}};
   const auto parts = left_by_the_baseline(s, 4);
   ASSERT_EQ(parts.size(), 1);
   const auto* mean = parts[0].effect.as<effects::EmpiricalMeanOverTemperature>();
@@ -90,11 +90,8 @@ TEST(Nameless, IsTheMeanOverTemperature) {
 /// Turned to and fro 37 times, beside a reference.
 TEST(Nameless, IsTheMeanOverTheRate) {
   Scenario s = moving();
-  s.effects = {effects::EmpiricalMeanOverRate{.from_dps = -80.0,
-                                              .span_dps = 160.0,
-                                              .mean_1_dps = 0.06,
-                                              .mean_5_dps = 0.0,
-                                              .mean_9_dps = 0.06}};
+  s.effects = {effects::EmpiricalMeanOverRate{
+      .from = -80.0, .span = 160.0, .mean_1_dps = 0.06, .mean_5_dps = 0.0, .mean_9_dps = 0.06}};
   const Series series = recorded(s, 4, true);
   const Simulator simulator(series, 1);
   const auto standing = SetBench(simulator, series, {}).beside_noise({});

@@ -125,14 +125,19 @@ TEST(SlowFilter, FollowsTwoLevelsAsTheSumOverAllHistoriesDoes) {
   EXPECT_NEAR(terms.log_likelihood, std::log(sum), 0.1);
 }
 
+struct Reduced {
+  Series series = recorded(still(), 3, false);
+  Conditions conditions{series};
+  ReducedRate reduced{
+      conditions, series.gyro_dps,
+      std::make_shared<const RateGrid>(conditions, std::vector<char>(series.size(), 0))};
+};
+
 /// The means of a decaying error over clusters have the covariances that integrating its own twice
 /// gives: of one that is slow to the clusters the law has them at every lag.
 TEST(SlowLaw, HasTheCovariancesOfMeans) {
-  const Series series = recorded(still(), 3, false);
-  const Conditions conditions(series);
-  const ReducedRate reduced(
-      conditions, series.gyro_dps,
-      std::make_shared<const RateGrid>(conditions, std::vector<char>(series.size(), 0)));
+  const Reduced at_rest;
+  const auto& [series, conditions, reduced] = at_rest;
   const double memory_s = 15.0, variance = 4e-4, interval_s = conditions.slow_interval_s();
   const NoiseLaw white{.interval_s = conditions.interval_s(), .white = 0.0025};
   NoiseLaw law = white;
@@ -160,11 +165,8 @@ TEST(SlowLaw, HasTheCovariancesOfMeans) {
 /// Differences of the means of a strong ARIMA(1,1,1), which white noise beside a walk cannot have:
 /// the means of a walk move alike from one to the next, and those of a smoothed one for longer.
 TEST(SlowLaw, HasTheCovariancesOfTheMeansOfAStrongWalk) {
-  const Series series = recorded(still(), 3, false);
-  const Conditions conditions(series);
-  const ReducedRate reduced(
-      conditions, series.gyro_dps,
-      std::make_shared<const RateGrid>(conditions, std::vector<char>(series.size(), 0)));
+  const Reduced at_rest;
+  const auto& [series, conditions, reduced] = at_rest;
   const std::size_t cluster = conditions.cluster();
   const auto n = static_cast<double>(cluster);
   for (const auto& e :

@@ -51,8 +51,8 @@ TEST(ThermalCurvature, AddsACubicAboutTheSameReference) {
 }
 
 TEST(EmpiricalMean, GoesStraightFromKnotToKnotAndStaysBeyond) {
-  const auto bias = drift(effects::EmpiricalMeanOverTemperature{.from_C = 20.0,
-                                                                .span_C = 40.0,
+  const auto bias = drift(effects::EmpiricalMeanOverTemperature{.from = 20.0,
+                                                                .span = 40.0,
                                                                 .mean_1_dps = 0.1,
                                                                 .mean_2_dps = -0.1,
                                                                 .mean_5_dps = 0.0,

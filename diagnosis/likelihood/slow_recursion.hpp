@@ -1,0 +1,135 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <gyrostat/diagnosis/likelihood/slow_filter.hpp>
+
+namespace gyrostat::gap {
+
+/// Up to so many states, a filter is compiled for each number.
+inline constexpr int counted_states = 9;
+inline const double log_two_pi = std::log(2.0 * std::numbers::pi);
+
+/// How the states of a law move, for at most N of them: the level, then its decaying errors.
+template <int N>
+class SlowMotion {
+ public:
+  explicit SlowMotion(const SlowLaw& law)
+      : white(law.white), states_(1 + std::min<int>(N - 1, static_cast<int>(law.parts.size()))) {
+    decay_[0] = 1.0;
+    drive_[0] = law.walk;
+    double total = std::abs(law.white);
+    for (int i = 1; i < states(); ++i) {
+      const auto& part = law.parts[static_cast<std::size_t>(i - 1)];
+      decay_[i] = part.decay;
+      drive_[i] = part.variance * (1.0 - part.decay) * (1.0 + part.decay);
+      first_variance[i] = part.variance;
+      total += std::abs(part.variance);
+    }
+    first_variance[0] = 1e7 * (total + law.walk);
+  }
+
+  int states() const { return N <= counted_states ? N : states_; }
+  /// What is left of each state after so many steps.
+  std::array<double, N> decays(std::size_t steps) const {
+    if (steps == 1) return decay_;
+    std::array<double, N> left{};
+    for (int i = 0; i < states(); ++i) left[i] = std::pow(decay_[i], static_cast<double>(steps));
+    return left;
+  }
+  /// The variance that each state gains in them, given what is left of it.
+  std::array<double, N> drives(std::size_t steps, const std::array<double, N>& left) const {
+    std::array<double, N> gained = drive_;
+    gained[0] = drive_[0] * static_cast<double>(steps);
+    for (int i = 1; i < states() && steps != 1; ++i)
+      gained[i] = first_variance[i] * (1.0 - left[i] * left[i]);
+    return gained;
+  }
+
+  double white;
+  std::array<double, N> first_variance{};
+
+ private:
+  int states_;
+  std::array<double, N> decay_{}, drive_{};
+};
+
+/// The covariance recursion, the same for every series that is filtered.
+template <int N>
+class SlowRecursion {
+ public:
+  explicit SlowRecursion(const SlowLaw& law) : motion_(law) {
+    for (int i = 0; i < states(); ++i) at(i, i) = motion_.first_variance[i];
+  }
+
+  int states() const { return motion_.states(); }
+  const SlowMotion<N>& motion() const { return motion_; }
+  const std::array<double, N>& gain() const { return gain_; }
+  /// Variance of the innovation.
+  double variance() const { return innovation_; }
+  double log_variance() const { return log_innovation_; }
+
+  void predict(std::size_t steps) {
+    if (settled_ && steps == 1) return;
+    settled_ = false;
+    const auto left = motion_.decays(steps), gained = motion_.drives(steps, left);
+    for (int i = 0; i < states(); ++i)
+      for (int j = 0; j < states(); ++j) at(i, j) *= left[i] * left[j];
+    for (int i = 0; i < states(); ++i) at(i, i) += gained[i];
+    one_step_ = steps == 1;
+  }
+  void update() {
+    if (settled_) return;
+    double innovation = motion_.white;
+    std::array<double, N> row{};
+    for (int i = 0; i < states(); ++i) {
+      for (int j = 0; j < states(); ++j) row[i] += at(i, j);
+      innovation += row[i];
+    }
+    // Settled once nothing moves any more: the gains of a long even stretch are constant.
+    double moved = std::abs(innovation - innovation_) / innovation;
+    for (int i = 0; i < states(); ++i) {
+      const double gain = row[i] / innovation;
+      moved = std::max(moved, std::abs(gain - gain_[i]));
+      gain_[i] = gain;
+    }
+    innovation_ = innovation;
+    log_innovation_ = std::log(innovation);
+    for (int i = 0; i < states(); ++i)
+      for (int j = 0; j < states(); ++j) at(i, j) -= gain_[i] * row[j];
+    settled_ = one_step_ && moved < 1e-9;
+  }
+
+ private:
+  double& at(int i, int j) { return covariance_[i * N + j]; }
+
+  SlowMotion<N> motion_;
+  std::array<double, N> gain_{};
+  std::array<double, N * N> covariance_{};
+  double innovation_ = 0.0, log_innovation_ = 0.0;
+  bool one_step_ = false, settled_ = false;
+};
+
+/// The state of one filtered series.
+template <int N>
+struct SlowEstimate {
+  std::array<double, N> state{};
+
+  void predict(const std::array<double, N>& left, int states) {
+    for (int i = 1; i < states; ++i) state[i] *= left[i];
+  }
+  double expected(int states) const {
+    double sum = 0.0;
+    for (int i = 0; i < states; ++i) sum += state[i];
+    return sum;
+  }
+  void update(const SlowRecursion<N>& r, double innovation) {
+    for (int i = 0; i < r.states(); ++i) state[i] += r.gain()[i] * innovation;
+  }
+};
+
+}  // namespace gyrostat::gap
