@@ -33,9 +33,9 @@ std::vector<double> without_drift(const Series& series, const std::optional<Ther
   for (std::size_t i = 0; i < rest.size(); ++i) {
     rest[i] = series.gyro_dps[i] - (series.rate_ref_dps.empty() ? 0.0 : series.rate_ref_dps[i]);
     if (!thermal) continue;
-    const std::size_t before = i < lag ? 0 : i - lag;
-    const double slope =
-        i == before ? 0.0 : (T[i] - T[before]) / (series.t_s[i] - series.t_s[before]);
+    const std::size_t to = std::max(i, std::min(lag, rest.size() - 1));
+    const std::size_t from = to < lag ? 0 : to - lag;
+    const double slope = to == from ? 0.0 : (T[to] - T[from]) / (series.t_s[to] - series.t_s[from]);
     rest[i] -= drift_at(thermal->parameters, T[i], slope);
   }
   return rest;

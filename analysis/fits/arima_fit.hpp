@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include <gyrostat/core/models/arima111.hpp>
@@ -18,6 +19,9 @@ namespace gyrostat {
 struct ArimaFit {
   Arima111<double> parameters;
   Arima111<double> standard_errors;
+  /// Of a fit by likelihood, whose `parameters` may be of a simpler model: the likeliest of all
+  /// four.
+  std::optional<Arima111<double>> likeliest;
   /// Of phi, delta1, delta2 and sqrt(R), in that order and in their units.
   std::array<std::array<double, 4>, 4> covariance{};
   bool converged = false;

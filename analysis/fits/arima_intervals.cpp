@@ -7,7 +7,6 @@
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include <gyrostat/analysis/fits/arima_likelihood.hpp>
-#include <gyrostat/analysis/fits/arima_profile.hpp>
 #include <gyrostat/analysis/statistics/distributions.hpp>
 
 namespace gyrostat {
@@ -24,19 +23,16 @@ double value_of(Parameter parameter, const Arima111<double>& p) {
 }  // namespace
 
 ArimaIntervals::ArimaIntervals(const ArimaFit& fit, std::span<const double> rate_dps)
-    : z_(rate_dps),
+    : profile_(rate_dps,
+               fit.likeliest ? *fit.likeliest : fit_whole_arima_likelihood(rate_dps).parameters),
       reported_(fit.parameters),
       errors_(fit.standard_errors),
-      starts_(likely_arima_models(rate_dps)) {
-  const auto whole = fit_whole_arima_likelihood(rate_dps).parameters;
-  starts_.push_back(whole);
-  least_ = arima_misfit(arima_sums(whole, z_));
-  needed_ = 2.0 * (arima_misfit(arima_sums(reported_, z_)) - least_);
+      needed_(2.0 * (arima_misfit(arima_sums(reported_, rate_dps)) - profile_.least_misfit())) {
   find_other_modes();
 }
 
 double ArimaIntervals::deviance(Parameter parameter, double value) const {
-  return std::max(0.0, 2.0 * (least_misfit(z_, parameter, value, starts_).misfit - least_));
+  return std::max(0.0, 2.0 * (profile_.point(parameter, value).misfit - profile_.least_misfit()));
 }
 
 void ArimaIntervals::find_other_modes() {
@@ -48,8 +44,8 @@ void ArimaIntervals::find_other_modes() {
     double highest = needed_;  // since the last mode
     bool falls = false;
     for (; from != to; ++from) {
-      const auto found = least_misfit(z_, phi, *from, starts_);
-      const double height = std::max(0.0, 2.0 * (found.misfit - least_));
+      const auto found = profile_.point(ArimaProfile::phi, *from);
+      const double height = std::max(0.0, 2.0 * (found.misfit - profile_.least_misfit()));
       if (height > highest) falls = false;
       if (height < std::min(highest - ridge, most)) {
         if (falls) other_modes_.pop_back();
@@ -76,7 +72,7 @@ double ArimaIntervals::end(Parameter parameter, double limit, double reach) cons
 
   // A parabola would have it here, where the fit is its bottom.
   const double error = value_of(parameter, errors_);
-  const double typical = parameter == phi ? 0.2 : 0.5 * starts_.back().delta1_dps;
+  const double typical = parameter == phi ? 0.2 : 0.5 * profile_.likeliest().delta1_dps;
   const bool has_error = std::isfinite(error) && error > 0.0;
   double step = has_error ? reach * error : typical;
   const auto within = [&](double v) { return side * (limit - v) > 0.0; };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gyrostat/analysis/fits/arima_fit.hpp>
+#include <gyrostat/analysis/fits/arima_profile.hpp>
 
 namespace gyrostat {
 
@@ -33,7 +34,8 @@ struct ArimaMode {
 /// Thread safety: any number of threads may ask one at once.
 class ArimaIntervals {
  public:
-  enum Parameter { phi, delta1, delta2, measurement_noise_std };
+  using Parameter = ArimaProfile::Parameter;
+  using enum ArimaProfile::Parameter;
 
   /// `fit` by likelihood to `rate_dps`, which is looked at again for every value. Throws as the
   /// fit.
@@ -62,11 +64,9 @@ class ArimaIntervals {
   /// The end of the interval on the side of `limit`, which may be infinite.
   double end(Parameter parameter, double limit, double reach) const;
 
-  std::span<const double> z_;
+  ArimaProfile profile_;  ///< about the fit of all four parameters
   Arima111<double> reported_, errors_;
-  std::vector<Arima111<double>> starts_;  ///< the last is the fit of all four parameters
-  double least_ = 0.0;                    ///< half of -2 log-likelihood there, up to a constant
-  double needed_ = 0.0;                   ///< the highest deviance of the fit and the other modes
+  double needed_;  ///< the highest deviance of the fit and the other modes
   std::vector<ArimaMode> other_modes_;
 };
 

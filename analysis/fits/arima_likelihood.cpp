@@ -11,6 +11,8 @@
 #include <ceres/ceres.h>
 
 #include <gyrostat/analysis/fits/arima_sums.hpp>
+#include <gyrostat/analysis/fits/arima_whittle.hpp>
+#include <gyrostat/analysis/fits/fisher_scoring.hpp>
 #include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/numerics/dense.hpp>
@@ -24,6 +26,7 @@ using Shape = std::array<double, 3>;
 constexpr std::size_t fewest_samples = 50;
 constexpr double shape_limit = 6.0;  // |phi|, |theta| < 1 - 1.2e-5
 constexpr double log_ratio_limit = 12.0;
+constexpr std::size_t most_starts = 3;
 
 template <class T>
 Arima111<T> unit_model(const T* shape) {
@@ -109,11 +112,37 @@ constexpr std::array<Variant, 4> simpler = {{
 
 struct Start {
   Shape shape;
-  double objective;
+  double delta1, objective;
 };
 
-/// The most promising points of a coarse grid, best first.
-std::vector<Start> starting_points(std::span<const double> z, const Variant& variant) {
+/// Of many starts, best first, where the spectrum leads the best of them.
+std::vector<Shape> led_by(const ArimaWhittle& spectrum, std::span<const Start> starts) {
+  constexpr std::size_t most_led = 6;
+  constexpr double within = 0.99;  // of the limits
+  std::vector<std::array<double, 4>> from;
+  for (const auto& [shape, delta1, objective] : starts.first(std::min(starts.size(), most_led)))
+    from.push_back({shape[0], shape[1], shape[2], std::log(delta1)});
+  const auto ends = descend<4>(
+      from,
+      [](const auto* u) {
+        using std::exp;
+        auto model = unit_model(u);
+        const auto delta1 = exp(u[3]);
+        return Arima111{model.phi, delta1, model.delta2_dps * delta1,
+                        model.measurement_noise_std_dps * delta1};
+      },
+      spectrum);
+  std::vector<Shape> shapes;
+  for (const auto& u : different_ends<4>(ends, most_starts))
+    shapes.push_back({std::clamp(u[0], -within * shape_limit, within * shape_limit),
+                      std::clamp(u[1], -within * shape_limit, within * shape_limit),
+                      std::clamp(u[2], -within * log_ratio_limit, within * log_ratio_limit)});
+  return shapes;
+}
+
+/// The most promising points of a coarse grid, best first; those of a long recording from where
+/// its spectrum leads them to.
+std::vector<Shape> starting_points(std::span<const double> z, const Variant& variant) {
   std::vector<Shape> shapes;
   for (const double phi : {-0.6, 0.0, 0.6, 0.9})
     for (const double theta : {-0.6, 0.0, 0.7, 0.95})
@@ -128,11 +157,16 @@ std::vector<Start> starting_points(std::span<const double> z, const Variant& var
   const auto sums = arima_sums(models, z);
   std::vector<Start> starts;
   for (std::size_t i = 0; i < shapes.size(); ++i)
-    starts.push_back({shapes[i], concentrated(sums[i])});
+    starts.push_back(
+        {shapes[i], std::sqrt(sums[i].squares / sums[i].count), concentrated(sums[i])});
   std::sort(starts.begin(), starts.end(),
             [](const Start& a, const Start& b) { return a.objective < b.objective; });
-  starts.resize(std::min<std::size_t>(starts.size(), 3));
-  return starts;
+  const ArimaWhittle spectrum(z);
+  if (spectrum.has_terms() && variant.held() == 0) return led_by(spectrum, starts);
+  std::vector<Shape> best;
+  for (std::size_t i = 0; i < std::min(starts.size(), most_starts); ++i)
+    best.push_back(starts[i].shape);
+  return best;
 }
 
 /// Covariance of the free ones of (phi, delta1, delta2, sqrt R); empty where they are not
@@ -182,14 +216,13 @@ ArimaFit descend(std::span<const double> z, const Variant& variant) {
   const auto starts = starting_points(z, variant);
   ArimaFit fit;
   double best = std::numeric_limits<double>::infinity();
-  Shape shape = starts.front().shape;
+  Shape shape = starts.front();
   fit.message = "did not converge from any starting point";
   std::vector<int> held;
   if (!variant.phi) held.push_back(0);
   if (!variant.theta) held.push_back(1);
   if (!variant.noise) held.push_back(2);
-  for (const auto& start : starts) {
-    Shape candidate = start.shape;
+  for (Shape candidate : starts) {
     ceres::Problem problem;
     problem.AddResidualBlock(new PredictionErrors(z), nullptr, candidate.data());
     if (!held.empty()) problem.SetManifold(candidate.data(), new ceres::SubsetManifold(3, held));
@@ -202,6 +235,8 @@ ArimaFit descend(std::span<const double> z, const Variant& variant) {
     options.linear_solver_type = ceres::DENSE_QR;
     options.max_num_iterations = 100;
     options.function_tolerance = 1e-12;
+    // Bounds make Ceres search along each step, which doubles the passes.
+    if (z.size() >= ArimaWhittle::shortest) options.max_num_line_search_step_size_iterations = 0;
     options.parameter_tolerance = 1e-9;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
@@ -234,13 +269,22 @@ ArimaFit descend(std::span<const double> z, const Variant& variant) {
   return fit;
 }
 
-bool is_identified(const ArimaFit& fit) { return std::isfinite(fit.covariance[1][1]); }
+/// Whether the free parameters are told at all: phi to a part of what it can be, white noise to
+/// less than all that there is in a sample.
+bool is_identified(const ArimaFit& fit, const Variant& variant) {
+  const auto& [phi, delta1, delta2, noise] = fit.standard_errors;
+  return std::isfinite(delta1) && (!variant.phi || phi <= 1.0) &&
+         (!variant.noise ||
+          noise <= std::hypot(fit.parameters.delta1_dps, fit.parameters.measurement_noise_std_dps));
+}
 
 }  // namespace
 
 ArimaFit fit_whole_arima_likelihood(std::span<const double> rate_dps) {
   check(rate_dps);
-  return descend(rate_dps, full);
+  ArimaFit whole = descend(rate_dps, full);
+  whole.likeliest = whole.parameters;
+  return whole;
 }
 
 ArimaFit fit_walk_likelihood(std::span<const double> rate_dps) {
@@ -250,11 +294,13 @@ ArimaFit fit_walk_likelihood(std::span<const double> rate_dps) {
 
 ArimaFit fit_arima_likelihood(std::span<const double> rate_dps) {
   const ArimaFit whole = fit_whole_arima_likelihood(rate_dps);
-  if (is_identified(whole)) return whole;
+  if (is_identified(whole, full)) return whole;
   for (const auto& variant : simpler) {
-    const ArimaFit fit = descend(rate_dps, variant);
+    ArimaFit fit = descend(rate_dps, variant);
+    fit.likeliest = whole.parameters;
     const double loss = 2.0 * (whole.objective - fit.objective);
-    if (fit.converged && is_identified(fit) && loss < chi_squared_quantile(0.95, variant.held()))
+    if (fit.converged && is_identified(fit, variant) &&
+        loss < chi_squared_quantile(0.99, variant.held()))
       return fit;
   }
   return whole;

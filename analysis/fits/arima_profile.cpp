@@ -5,17 +5,19 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <ceres/jet.h>
+#include <gyrostat/analysis/fits/fisher_scoring.hpp>
 
 namespace gyrostat {
 namespace {
 
-using Parameter = ArimaIntervals::Parameter;
+using Parameter = ArimaProfile::Parameter;
 /// What is free beside the held parameter, each over all real numbers.
 using Free = std::array<double, 3>;
 
 constexpr double smallest = 1e-9;  ///< of a standard deviation beside the largest of the model
+constexpr std::size_t most_descents = 3, most_by_spectrum = 6;
+/// Half the deviance of a point that the exact likelihood is not asked about.
+constexpr double far = 100.0;
 
 /// The model with one parameter held at `value`. |delta2| < delta1 throughout.
 template <class T>
@@ -59,129 +61,19 @@ Free coordinates(Parameter held, const Arima111<double>& p) {
   }
 }
 
-/// Half of the deviance, up to a constant, with its gradient and expected curvature (Durbin and
-/// Koopman 2012, sec. 7.3.5).
-struct Misfit {
-  double value = std::numeric_limits<double>::infinity();
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-};
-
-std::vector<Misfit> misfits_about(std::span<const double> z, Parameter held, double value,
-                                  std::span<const Free> points) {
-  using Jet = ceres::Jet<double, 3>;
-  std::vector<Arima111<double>> models;
-  for (const auto& u : points) models.push_back(model(held, value, u.data()));
-  const auto found = arima_derivatives(models, z);
-  std::vector<Misfit> misfits;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto& u = points[i];
-    const std::array<Jet, 3> jets = {Jet(u[0], 0), Jet(u[1], 1), Jet(u[2], 2)};
-    const auto at = model(held, value, jets.data());
-    Eigen::Matrix<double, 4, 3> chain;
-    chain << at.phi.v.transpose(), at.delta1_dps.v.transpose(), at.delta2_dps.v.transpose(),
-        at.measurement_noise_std_dps.v.transpose();
-    const Misfit misfit{.value = found[i].sums.misfit(),
-                        .gradient = chain.transpose() * found[i].gradient(),
-                        .information = chain.transpose() * found[i].information * chain};
-    const bool finite = std::isfinite(misfit.value) && misfit.gradient.allFinite() &&
-                        misfit.information.allFinite();
-    misfits.push_back(finite ? misfit : Misfit{});
-  }
-  return misfits;
+/// The `most` with the least misfit, least first.
+std::vector<Free> most_promising(std::span<const Free> from, std::span<const double> misfits,
+                                 std::size_t most) {
+  std::vector<std::pair<double, Free>> ranked;
+  for (std::size_t i = 0; i < from.size(); ++i) ranked.emplace_back(misfits[i], from[i]);
+  std::sort(ranked.begin(), ranked.end());
+  ranked.resize(std::min(ranked.size(), most));
+  std::vector<Free> promising;
+  for (const auto& [misfit, u] : ranked) promising.push_back(u);
+  return promising;
 }
 
-/// Fisher scoring to the least misfit, damped as by Marquardt: it says where to look next, and is
-/// told what is there.
-class Descent {
- public:
-  explicit Descent(const Free& from) : next_(from) {}
-
-  bool is_done() const { return done_; }
-  const Free& next() const { return next_; }
-  double misfit() const { return at_.value; }
-  const Free& lowest() const { return u_; }
-
-  void take(const Misfit& there) {
-    if (steps_ == 0) {
-      at_ = there;
-      u_ = next_;
-    } else if (!(there.value < at_.value)) {
-      damping_ *= 8.0;
-    } else {
-      done_ = damping_ < 1.0 && at_.value - there.value < enough;
-      at_ = there;
-      u_ = next_;
-      damping_ *= 0.2;
-    }
-    done_ = done_ || steps_++ == most_steps || !std::isfinite(at_.value) || !(damping_ < 1e8);
-    if (!done_) step();
-  }
-
- private:
-  static constexpr int most_steps = 60;
-  static constexpr double enough = 1e-4;  ///< of half a deviance
-
-  void step() {
-    Eigen::Matrix3d damped = at_.information;
-    damped.diagonal() *= 1.0 + damping_;
-    damped.diagonal().array() += 1e-12 * damped.trace() + 1e-300;
-    const Eigen::Vector3d step = damped.ldlt().solve(-at_.gradient).cwiseMax(-2.0).cwiseMin(2.0);
-    done_ = !(-step.dot(at_.gradient) > 2.0 * enough);
-    next_ = {u_[0] + step[0], u_[1] + step[1], u_[2] + step[2]};
-  }
-
-  Free next_, u_{};
-  Misfit at_;
-  double damping_ = 1e-2;
-  int steps_ = 0;
-  bool done_ = false;
-};
-
-/// Side by side: a pass over the signal for all of them takes hardly longer than for one.
-void descend(std::span<const double> z, Parameter held, double value, std::span<Descent> descents) {
-  for (;;) {
-    std::vector<Descent*> going;
-    std::vector<Free> next;
-    for (auto& descent : descents)
-      if (!descent.is_done()) going.push_back(&descent), next.push_back(descent.next());
-    if (going.empty()) return;
-    const auto there = misfits_about(z, held, value, next);
-    for (std::size_t i = 0; i < going.size(); ++i) going[i]->take(there[i]);
-  }
-}
-
-}  // namespace
-
-double arima_misfit(const ArimaSums& sums) {
-  const double misfit = sums.misfit();
-  return std::isfinite(misfit) ? misfit : std::numeric_limits<double>::infinity();
-}
-
-LeastMisfit least_misfit(std::span<const double> z, Parameter held, double value,
-                         std::span<const Arima111<double>> starts) {
-  constexpr std::size_t most_descents = 3;
-  std::vector<Free> at;
-  std::vector<Arima111<double>> models;
-  for (const auto& start : starts) {
-    at.push_back(coordinates(held, start));
-    models.push_back(model(held, value, at.back().data()));
-  }
-  const auto sums = arima_sums(models, z);
-  std::vector<std::pair<double, Free>> from;
-  for (std::size_t i = 0; i < at.size(); ++i) from.emplace_back(arima_misfit(sums[i]), at[i]);
-  std::sort(from.begin(), from.end());
-  from.resize(std::min(from.size(), most_descents));
-  std::vector<Descent> descents;
-  for (const auto& [misfit, u] : from) descents.emplace_back(u);
-  descend(z, held, value, descents);
-  LeastMisfit least;
-  for (const auto& descent : descents)
-    if (descent.misfit() < least.misfit)
-      least = {descent.misfit(), model(held, value, descent.lowest().data())};
-  return least;
-}
-
+/// The likeliest of models all over what is possible, each at the scale that suits `z` best.
 std::vector<Arima111<double>> likely_arima_models(std::span<const double> z) {
   constexpr std::size_t kept = 12;
   std::vector<Arima111<double>> grid;
@@ -204,6 +96,51 @@ std::vector<Arima111<double>> likely_arima_models(std::span<const double> z) {
     likely.push_back({phi, delta1, delta2, noise});
   }
   return likely;
+}
+
+}  // namespace
+
+double arima_misfit(const ArimaSums& sums) {
+  const double misfit = sums.misfit();
+  return std::isfinite(misfit) ? misfit : std::numeric_limits<double>::infinity();
+}
+
+ArimaProfile::ArimaProfile(std::span<const double> rate_dps, const Arima111<double>& likeliest)
+    : z_(rate_dps),
+      spectrum_(rate_dps),
+      starts_(likely_arima_models(rate_dps)),
+      least_(arima_misfit(arima_sums(likeliest, rate_dps))),
+      least_by_spectrum_(spectrum_.about(likeliest).value) {
+  starts_.push_back(likeliest);
+}
+
+ArimaProfile::Point ArimaProfile::point(Parameter held, double value) const {
+  const auto chart = [&](const auto* u) { return model(held, value, u); };
+  std::vector<Free> at;
+  std::vector<Arima111<double>> models;
+  for (const auto& start : starts_) {
+    at.push_back(coordinates(held, start));
+    models.push_back(chart(at.back().data()));
+  }
+  std::vector<double> misfits;
+  std::vector<Free> from;
+  if (spectrum_.has_terms()) {
+    for (const auto& one : models) misfits.push_back(spectrum_.about(one).value);
+    const auto ends = descend<3>(most_promising(at, misfits, most_by_spectrum), chart, spectrum_);
+    const double above = ends.front().misfit() - least_by_spectrum_;
+    if (above > far) return {least_ + above, chart(ends.front().lowest().data())};
+    from = different_ends<3>(ends, most_descents);
+  } else {
+    for (const auto& sums : arima_sums(models, z_)) misfits.push_back(arima_misfit(sums));
+    from = most_promising(at, misfits, most_descents);
+  }
+  const auto ends = descend<3>(from, chart, [&](const std::vector<Arima111<double>>& next) {
+    std::vector<ArimaMisfit> exact;
+    for (const auto& found : arima_derivatives(next, z_))
+      exact.push_back({found.sums.misfit(), found.gradient(), found.information});
+    return exact;
+  });
+  return {ends.front().misfit(), chart(ends.front().lowest().data())};
 }
 
 }  // namespace gyrostat

@@ -244,8 +244,8 @@ std::size_t apart(std::size_t places, std::size_t m) {
   return places <= many ? 1 : std::max<std::size_t>(1, m / a_cluster);
 }
 
-/// Squares of differences, and how many places were looked at, whether something was there or not.
-struct Squares {
+/// With how many places were looked at, whether something was there or not.
+struct SquaredDifferences {
   SideBySide side{};
   std::size_t count = 0, looked_at = 0;
 
@@ -254,10 +254,11 @@ struct Squares {
 
 /// Of each cluster size, over all places or many. A stretch of the phase serves all sizes while it
 /// is in the cache.
-std::vector<Squares> squares_of(const Phase& phase, std::span<const std::size_t> clusters) {
+std::vector<SquaredDifferences> squares_of(const Phase& phase,
+                                           std::span<const std::size_t> clusters) {
   constexpr std::size_t stretch = 1 << 15;
   const std::size_t n = phase.size() - 1;
-  std::vector<Squares> all(clusters.size());
+  std::vector<SquaredDifferences> all(clusters.size());
   for (std::size_t first = 0; first + 2 <= n; first += stretch)
     for (std::size_t c = 0; c < clusters.size(); ++c) {
       const std::size_t m = clusters[c];

@@ -80,7 +80,7 @@ TEST(ArimaIntervals, ReachTheEndsOfWhatASignalDoesNotTell) {
   const auto noise = intervals.interval(ArimaIntervals::measurement_noise_std);
   EXPECT_LE(noise[0], fit.parameters.measurement_noise_std_dps);
   EXPECT_GE(noise[1], fit.parameters.measurement_noise_std_dps);
-  EXPECT_THROW(ArimaIntervals(fit, std::vector<double>(20, 1.0)), InputError);
+  EXPECT_THROW(ArimaIntervals(ArimaFit{}, std::vector<double>(20, 1.0)), InputError);
 }
 
 // A walk of long memory far below white noise: the fit is a plain walk, or lies on another maximum.
