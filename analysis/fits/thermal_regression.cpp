@@ -175,7 +175,7 @@ double bias_measurement_std(const Series& series, const ThermalDrift<double>& dr
     return epoch ? epoch->bias_dps : no_value;
   });
   if (y.size() < 2) return no_value;
-  const Eigen::VectorXd residual = y - X * coefficients_of(drift);
+  const Eigen::VectorXd residual = y - X.lazyProduct(coefficients_of(drift));
   return std::sqrt((residual.array() - residual.mean()).square().sum() /
                    static_cast<double>(y.size() - 1));
 }
