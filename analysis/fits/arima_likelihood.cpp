@@ -161,8 +161,8 @@ std::vector<Shape> starting_points(std::span<const double> z, const Variant& var
         {shapes[i], std::sqrt(sums[i].squares / sums[i].count), concentrated(sums[i])});
   std::sort(starts.begin(), starts.end(),
             [](const Start& a, const Start& b) { return a.objective < b.objective; });
-  const ArimaWhittle spectrum(z);
-  if (spectrum.has_terms() && variant.held() == 0) return led_by(spectrum, starts);
+  if (variant.held() == 0)
+    if (const ArimaWhittle spectrum(z); spectrum.has_terms()) return led_by(spectrum, starts);
   std::vector<Shape> best;
   for (std::size_t i = 0; i < std::min(starts.size(), most_starts); ++i)
     best.push_back(starts[i].shape);
