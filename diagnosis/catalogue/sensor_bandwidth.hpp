@@ -7,7 +7,7 @@
 
 namespace gyrostat::gap {
 
-/// The rate through a low-pass filter.
+/// The rate through a low-pass filter of one or two poles, each a start of its own.
 template <>
 struct Diagnosed<effects::SensorBandwidth> {
   static constexpr auto signature = Signature::repeated;
@@ -15,8 +15,12 @@ struct Diagnosed<effects::SensorBandwidth> {
 
   static std::vector<effects::SensorBandwidth> starts(const Evidence& e) {
     const double rate_hz = e.conditions().rate_hz();
-    return {shaped(e, Trace::rate, effects::SensorBandwidth{}, &effects::SensorBandwidth::cutoff_hz,
-                   0.002 * rate_hz, 0.5 * rate_hz)};
+    std::vector<effects::SensorBandwidth> all;
+    for (const auto& form : {effects::SensorBandwidth{},
+                             effects::SensorBandwidth{.poles = 2.0, .maximally_flat = 1.0}})
+      all.push_back(shaped(e, Trace::rate, form, &effects::SensorBandwidth::cutoff_hz,
+                           0.002 * rate_hz, 0.49 * rate_hz));
+    return all;
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

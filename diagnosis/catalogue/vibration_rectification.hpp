@@ -8,15 +8,20 @@
 
 namespace gyrostat::gap {
 
-/// The slow rate follows the mean square of the vibration.
+/// The slow rate follows the mean square of the vibration, at once or as it is averaged: a start of
+/// its own each.
 template <>
 struct Diagnosed<effects::VibrationRectification> {
   static constexpr auto signature = Signature::slow;
   static constexpr std::array free_parameters = {
       &effects::VibrationRectification::coefficient_dps_per_m2ps4};
 
-  static std::vector<effects::VibrationRectification> guesses(const Beside& /*beside*/) {
-    return {{1.0}};
+  static std::vector<effects::VibrationRectification> guesses(const Beside& beside) {
+    const double least_s = 2.0 * beside.conditions.interval_s();
+    std::vector<effects::VibrationRectification> all;
+    for (const double averaged_s : {0.1, 0.5, 2.0})
+      all.push_back({1.0, std::max(averaged_s, least_s)});
+    return all;
   }
 
   static std::string why_not_assessable(const Conditions& c) {

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <algorithm>
-#include <numbers>
+#include <cmath>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/gap/spectral_bands.hpp>
@@ -19,13 +18,20 @@ struct Diagnosed<effects::WanderingLine> {
       &effects::WanderingLine::amplitude_dps, &effects::WanderingLine::frequency_hz,
       &effects::WanderingLine::wander_hz, &effects::WanderingLine::correlation_time_s};
 
-  /// The line that its frequency leaves, as wide as the frequency wanders while it is remembered.
+  /// Bands that the frequency wanders through slowly, so that they have no skirts: one with skirts
+  /// has the spectrum of a vibration.
+  static std::vector<effects::WanderingLine> guesses(const Beside& beside) {
+    std::vector<effects::WanderingLine> all;
+    for (const auto& band : beside.lines())
+      all.push_back({.amplitude_dps = std::sqrt(2.0 * band.variance),
+                     .frequency_hz = band.centre_hz,
+                     .wander_hz = 0.5 * band.bandwidth_hz,
+                     .correlation_time_s = 1.0 / band.bandwidth_hz});
+    return all;
+  }
+
   static void enter(const effects::WanderingLine& effect, NoiseLaw& law) {
-    const double slow_hz = 2.0 * effect.wander_hz;
-    const double fast_hz =
-        4.0 * std::numbers::pi * effect.wander_hz * effect.wander_hz * effect.correlation_time_s;
-    law.resonances.push_back({0.5 * effect.amplitude_dps * effect.amplitude_dps,
-                              effect.frequency_hz, std::min(slow_hz, fast_hz)});
+    law.wandering.push_back(effect);
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }

@@ -37,6 +37,7 @@ class CompassSearch {
           cosine += std::cos(error[i] * std::numbers::pi / 180.0);
         }
     centre_deg_ = std::atan2(sine, cosine) * 180.0 / std::numbers::pi;
+    shift_ = shift_of(error_of({}));
   }
 
   void run(const SetSearchOptions& options);
@@ -54,6 +55,12 @@ class CompassSearch {
 
   /// The heading less the reference's and what the effects add, NaN where it is not known.
   std::vector<double> error_of(const std::vector<Effect>& effects) const;
+  /// Means of the clusters of which half the samples are there at least; of a few, noise would pass
+  /// for a burst.
+  std::vector<double> slow_error_of(const std::vector<Effect>& effects) const;
+  /// By how much the heading is late, in samples, at most one: recorders differ in whether a sample
+  /// has turned by its own rate, by half of it or not yet.
+  double shift_of(const std::vector<double>& error) const;
   /// Of white noise about a level; clusters with bursts do not count.
   Law law_of(const std::vector<Effect>& effects) const;
   /// One step of Gauss and Newton in all free parameters.
@@ -79,6 +86,7 @@ class CompassSearch {
   std::vector<char> hidden_;  ///< a flag a cluster: within a burst
   double cost_of_a_value_;
   double centre_deg_ = 0.0;
+  double shift_ = 0.0;  ///< that errors are taken beside
   double burst_gain_ = 0.0, bursts_per_hour_ = 0.0, burst_s_ = 0.0, burst_deg_ = 0.0;
 };
 
@@ -89,12 +97,51 @@ std::vector<double> CompassSearch::error_of(const std::vector<Effect>& effects) 
   quiet.compass.initial_heading_deg = centre_deg_;
   Series ideal;
   synthesise_heading_under(quiet, conditions_.series(), {}, ideal);
+  // Since the sample before, or until the next.
+  const auto turned = [&, last = ideal.size() - 1](std::size_t i) {
+    const std::size_t from = shift_ > 0.0 ? std::max<std::size_t>(i, 1) - 1 : i;
+    const std::size_t to = shift_ > 0.0 ? i : std::min(i + 1, last);
+    return shift_ * wrap_degrees(ideal.heading_deg[to] - ideal.heading_deg[from]);
+  };
   std::vector<double> error(recording_.size(), no_value);
   for (std::size_t i = 0; i < error.size(); ++i)
     if (!is_missing(recording_.heading_deg[i]) &&
         (recording_.mag_valid.empty() || recording_.mag_valid[i] > 0.5))
-      error[i] = wrap_degrees(recording_.heading_deg[i] - ideal.heading_deg[i]);
+      error[i] = wrap_degrees(recording_.heading_deg[i] - ideal.heading_deg[i] + turned(i));
   return error;
+}
+
+std::vector<double> CompassSearch::slow_error_of(const std::vector<Effect>& effects) const {
+  const auto error = error_of(effects);
+  auto slow = conditions_.slow_means(error);
+  const std::size_t cluster = conditions_.cluster();
+  for (std::size_t k = 0; k < slow.size(); ++k) {
+    const auto first = error.begin() + static_cast<std::ptrdiff_t>(k * cluster);
+    const auto last =
+        error.begin() + static_cast<std::ptrdiff_t>(std::min((k + 1) * cluster, error.size()));
+    const auto missing = std::count_if(first, last, [](double e) { return is_missing(e); });
+    if (2 * missing > last - first) slow[k] = no_value;
+  }
+  return slow;
+}
+
+double CompassSearch::shift_of(const std::vector<double>& error) const {
+  const auto& rate = conditions_.series().rate_ref_dps;
+  if (rate.empty()) return 0.0;
+  std::vector<double> sizes;
+  for (const double e : error)
+    if (!is_missing(e)) sizes.push_back(std::abs(e));
+  if (sizes.empty()) return 0.0;
+  // Bursts say nothing of it.
+  const double largest = std::max(3.0 * quantile(sizes, 0.75), 1e-12);
+  double product = 0.0, square = 0.0;
+  for (const auto& span : conditions_.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (!is_missing(error[i]) && std::abs(error[i]) < largest) {
+        product -= error[i] * rate[i];
+        square += rate[i] * rate[i];
+      }
+  return square > 0.0 ? std::clamp(product / (square * conditions_.interval_s()), -1.0, 1.0) : 0.0;
 }
 
 CompassSearch::Law CompassSearch::law_of(const std::vector<Effect>& effects) const {
@@ -175,7 +222,7 @@ std::vector<Effect> CompassSearch::stepped(const std::vector<Effect>& set) const
 }
 
 void CompassSearch::find_bursts(const std::vector<Effect>& effects) {
-  const auto slow = conditions_.slow_means(error_of(effects));
+  const auto slow = slow_error_of(effects);
   std::vector<double> sizes;
   for (const auto& span : conditions_.slow_spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i)
@@ -189,6 +236,7 @@ void CompassSearch::find_bursts(const std::vector<Effect>& effects) {
   for (const auto& span : conditions_.slow_spans(Part::train)) {
     bool inside = false;
     for (std::size_t i = span.first; i < span.last; ++i) {
+      if (is_missing(slow[i])) continue;
       const double z = std::abs(slow[i] - centre) / deviation;
       const bool now = z > 5.0;
       count += 1.0;
@@ -274,7 +322,7 @@ std::vector<Effect> CompassSearch::grown(std::vector<Effect> set, Bursts bursts)
 }
 
 double CompassSearch::robust_score(const std::vector<Effect>& set) const {
-  const auto slow = conditions_.slow_means(error_of(set));
+  const auto slow = slow_error_of(set);
   std::vector<double> squares;
   for (const auto& span : conditions_.slow_spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i)
@@ -317,6 +365,10 @@ void CompassSearch::run(const SetSearchOptions& options) {
         !is_left_out(cause.id) && cause.why_not_assessable(conditions_).empty())
       candidates_.push_back(&cause);
   auto set = searched();
+  if (std::any_of(set.begin(), set.end(), [](const auto& e) { return e.id() == "compass_lag"; })) {
+    shift_ = 0.0;
+    set = polished(set);
+  }
   std::vector<Member> members;
   for (std::size_t k = 0; k < set.size();) {
     auto rest = set;

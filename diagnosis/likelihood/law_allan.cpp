@@ -71,6 +71,16 @@ double allan_variance(const NoiseLaw& given, std::size_t cluster) {
       return now;
     });
   }
+  for (const auto& line : law.wandering) {
+    const auto turn = std::polar(1.0, 2.0 * std::numbers::pi * line.frequency_hz * law.interval_s);
+    std::complex<double> c = 0.5 * line.amplitude_dps * line.amplitude_dps;
+    double lag = 0.0;
+    variance += of_autocovariance(cluster, [&] {
+      const double now = c.real() * line.coherence(lag++ * law.interval_s);
+      c *= turn;
+      return now;
+    });
+  }
   return variance;
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <tbb/parallel_for.h>
 
+#include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/line_shape.hpp>
 
@@ -14,49 +16,47 @@ namespace {
 /// An envelope that is so many times likelier than that of normal noise, as a logarithm.
 constexpr double clear_shape = 4.0;
 
-Resonance line_of(const Effect& vibration) {
-  const auto value = [&](std::string_view name) {
-    return vibration.value(field_of(vibration, name));
-  };
-  return {value("std_dps") * value("std_dps"), value("centre_hz"), value("bandwidth_hz")};
+Resonance line_of(const Effect& band) {
+  const auto value = [&](std::string_view name) { return band.value(field_of(band, name)); };
+  if (band.id() == "vibration")
+    return {value("std_dps") * value("std_dps"), value("centre_hz"), value("bandwidth_hz")};
+  // As wide as the frequency wanders, or as it does while it is remembered.
+  const double wander_hz = value("wander_hz");
+  const double fast_hz =
+      4.0 * std::numbers::pi * wander_hz * wander_hz * value("correlation_time_s");
+  return {0.5 * value("amplitude_dps") * value("amplitude_dps"), value("frequency_hz"),
+          std::min(2.0 * wander_hz, fast_hz)};
 }
 
 bool is_bursts(const LineShape& shape) {
   return shape.bursts > std::max(shape.wandering, clear_shape);
 }
 
-/// What two neighbouring bands are together.
-Resonance joined(const Resonance& a, const Resonance& b) {
-  const double variance = a.variance + b.variance;
-  const double centre_hz = (a.variance * a.centre_hz + b.variance * b.centre_hz) / variance;
-  const double apart_hz = std::abs(a.centre_hz - b.centre_hz);
-  const double spread_hz = std::sqrt(a.variance * b.variance) / variance * apart_hz;
-  const double bandwidth_hz =
-      (a.variance * a.bandwidth_hz + b.variance * b.bandwidth_hz) / variance;
-  return {variance, centre_hz, std::hypot(bandwidth_hz, 2.0 * spread_hz)};
+/// A line that fills a band and whose phase wanders by so many radians within a correlation time:
+/// few leave it the skirts of a resonance, many none.
+Effect wandering_line_in(const Resonance& band, double radians) {
+  const double wander_hz = 0.5 * band.bandwidth_hz * std::max(1.0, 1.0 / radians);
+  return with_values("wandering_line",
+                     {{"amplitude_dps", std::sqrt(2.0 * band.variance)},
+                      {"frequency_hz", band.centre_hz},
+                      {"wander_hz", wander_hz},
+                      {"correlation_time_s", radians / (2.0 * std::numbers::pi * wander_hz)}});
 }
 
-/// The spectrum of a line that wanders is not that of a resonance, and is found as several side by
-/// side. They are parts of it where two together have the envelope of a sine more clearly than
-/// alone: by how much, an effect each; 0 where they have not.
-std::vector<double> parts_of_wandering_lines(const SetBench& bench, const std::vector<double>& left,
-                                             const Scenario& scenario,
-                                             const std::vector<LineShape>& shapes) {
-  const auto& effects = scenario.effects;
-  std::vector<double> gains(effects.size(), 0.0);
-  for (std::size_t a = 0; a < effects.size(); ++a)
-    for (std::size_t b = a + 1; b < effects.size(); ++b) {
-      if (effects[a].id() != "vibration" || effects[b].id() != "vibration") continue;
-      const auto one = line_of(effects[a]), other = line_of(effects[b]);
-      const double reach_hz = 2.0 * (one.bandwidth_hz + other.bandwidth_hz);
-      if (std::abs(one.centre_hz - other.centre_hz) > reach_hz) continue;
-      const double together = line_shape(bench.conditions(), left, joined(one, other)).wandering;
-      if (together < clear_shape || together <= std::max(shapes[a].wandering, shapes[b].wandering))
-        continue;
-      gains[a] = std::max(gains[a], together);
-      gains[b] = std::max(gains[b], together);
-    }
-  return gains;
+/// In the place of a resonance, the likelier of both, fitted.
+Standing with_wandering_line(const SetBench& bench, const Standing& standing, std::size_t at) {
+  const auto band = line_of(standing.scenario.effects[at]);
+  Standing best = standing;
+  best.score = -1e300;
+  for (const double radians : {3.0, 0.5}) {
+    Scenario scenario = standing.scenario;
+    scenario.effects[at] = wandering_line_in(band, radians);
+    if (best.score < -1e299) best.scenario = scenario;  // as it is where no fit is called so
+    constexpr int iterations = 15;
+    if (auto fit = bench.fitted(scenario, standing.fitter, iterations); fit.score > best.score)
+      best = std::move(fit);
+  }
+  return best;
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ std::vector<char> samples_in_bursts(const SetBench& bench, const Scenario& scena
                                     const std::vector<double>& left_dps) {
   std::vector<char> inside(left_dps.size(), 0);
   for (const auto& effect : scenario.effects) {
-    if (effect.id() != "vibration") continue;
+    if (!is_narrow_band(effect.id())) continue;
     const auto line = line_of(effect);
     const auto shape = line_shape(bench.conditions(), left_dps, line);
     if (!is_bursts(shape)) continue;
@@ -75,48 +75,57 @@ std::vector<char> samples_in_bursts(const SetBench& bench, const Scenario& scena
   return inside;
 }
 
-void name_lines(const SetBench& bench, const std::vector<char>& hidden, FoundSet& found) {
+void name_lines(const SetBench& bench, Standing standing, const std::vector<char>& hidden,
+                FoundSet& found) {
   // Lines are not taken out, so that what is left is the same whatever they are called.
   const auto left = bench.rate_left_by(found.scenario, hidden);
-  std::vector<LineShape> shapes(found.scenario.effects.size());
+  auto& effects = found.scenario.effects;
+  std::vector<LineShape> shapes(effects.size());
   tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t k) {
-    const auto& effect = found.scenario.effects[k];
-    if (effect.id() == "vibration")
-      shapes[k] = line_shape(bench.conditions(), left, line_of(effect));
+    if (is_narrow_band(effects[k].id()))
+      shapes[k] = line_shape(bench.conditions(), left, line_of(effects[k]));
   });
-  const auto parts = parts_of_wandering_lines(bench, left, found.scenario, shapes);
-  for (std::size_t k = 0; k < found.scenario.effects.size(); ++k) {
-    auto& effect = found.scenario.effects[k];
-    if (effect.id() != "vibration") continue;
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    auto& effect = effects[k];
+    if (!is_narrow_band(effect.id())) continue;
     const auto line = line_of(effect);
     const auto& shape = shapes[k];
-    const bool bursts = is_bursts(shape) && parts[k] == 0.0;
-    const double gain = std::max({shape.bursts, shape.wandering, parts[k]});
-    const std::string_view name = bursts ? "vibration_bursts" : "wandering_line";
-    if (gain < clear_shape) continue;
+    const double gain = std::max(shape.bursts, shape.wandering);
+    const std::string_view name = gain < clear_shape ? "vibration"
+                                  : is_bursts(shape) ? "vibration_bursts"
+                                                     : "wandering_line";
+    if (name == effect.id() && gain < clear_shape) continue;
     const auto known = std::find_if(found.members.begin(), found.members.end(),
-                                    [](const auto& m) { return m.effect == "vibration"; });
+                                    [&](const auto& m) { return m.effect == effect.id(); });
     if (!bench.is_allowed(name)) {
-      found.nameless_log_odds = std::max(found.nameless_log_odds, gain);
+      const double odds = known != found.members.end() ? known->log_odds : clear_shape;
+      found.nameless_log_odds = std::max(found.nameless_log_odds, gain < clear_shape ? odds : gain);
       if (known != found.members.end()) found.members.erase(known);
       continue;
     }
-    // Those of the resonance are not those of what it is called.
-    std::erase_if(found.intervals, [&](const auto& interval) { return interval.effect == k; });
-    if (bursts)
-      effect = with_values("vibration_bursts", {{"std_dps", shape.on_std_dps},
-                                                {"centre_hz", line.centre_hz},
-                                                {"bandwidth_hz", line.bandwidth_hz},
-                                                {"mean_duration_s", shape.on_s},
-                                                {"mean_interval_s", shape.off_s}});
-    else
-      effect = with_values("wandering_line", {{"amplitude_dps", std::sqrt(2.0 * line.variance)},
-                                              {"frequency_hz", line.centre_hz},
-                                              {"wander_hz", 0.5 * line.bandwidth_hz},
-                                              {"correlation_time_s", 1.0 / line.bandwidth_hz}});
     if (known != found.members.end()) {
       known->effect = name;
-      known->log_odds = std::min(known->log_odds, gain);
+      if (gain >= clear_shape) known->log_odds = std::min(known->log_odds, gain);
+    }
+    if (name == effect.id()) continue;
+    // Those of the form that it was found in are not those of what it is called.
+    std::erase_if(found.intervals, [&](const auto& interval) { return interval.effect == k; });
+    if (name == "vibration") {
+      effect = with_values(name, {{"std_dps", std::sqrt(line.variance)},
+                                  {"centre_hz", line.centre_hz},
+                                  {"bandwidth_hz", line.bandwidth_hz}});
+    } else if (name == "vibration_bursts") {
+      effect = with_values(name, {{"std_dps", shape.on_std_dps},
+                                  {"centre_hz", line.centre_hz},
+                                  {"bandwidth_hz", line.bandwidth_hz},
+                                  {"mean_duration_s", shape.on_s},
+                                  {"mean_interval_s", shape.off_s}});
+    } else {
+      standing = with_wandering_line(bench, standing, k);
+      found.scenario.random_error = standing.scenario.random_error;
+      for (std::size_t other = 0; other < standing.scenario.effects.size(); ++other)
+        if (effects[other].id() == standing.scenario.effects[other].id() || other == k)
+          effects[other] = standing.scenario.effects[other];
     }
   }
   // One name each, however many lines it has.
@@ -127,8 +136,8 @@ void name_lines(const SetBench& bench, const std::vector<char>& hidden, FoundSet
       members.erase(members.begin() + static_cast<std::ptrdiff_t>(k));
     else
       ++k;
-  for (const auto& effect : found.scenario.effects)
-    if ((effect.id() != "vibration" || found.nameless_log_odds == 0.0) &&
+  for (const auto& effect : effects)
+    if ((!is_narrow_band(effect.id()) || found.nameless_log_odds == 0.0) &&
         std::none_of(members.begin(), members.end(),
                      [&](const auto& m) { return m.effect == effect.id(); }))
       members.push_back({std::string(effect.id()), clear_shape});

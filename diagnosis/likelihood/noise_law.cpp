@@ -1,8 +1,12 @@
 #include <gyrostat/diagnosis/likelihood/noise_law.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
+
+#include <gyrostat/analysis/spectra/cosine_sums.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -10,6 +14,51 @@ namespace {
 /// Density of a unit process with autocovariance a^|k| over that of unit white noise.
 double poisson_kernel(double a, double cosine) {
   return (1.0 - a) * (1.0 + a) / (1.0 - 2.0 * a * cosine + a * a);
+}
+
+/// Autocovariance of Hann's window at a lag that is such a share of its length, over that at 0.
+double of_hann_window(double share) {
+  const double angle = 2.0 * std::numbers::pi * share;
+  return (1.0 - share) * (2.0 + std::cos(angle)) / 3.0 + std::sin(angle) / (2.0 * std::numbers::pi);
+}
+
+/// As a periodogram through Hann's window shows it, over that of unit white noise.
+std::vector<double> transformed(const effects::WanderingLine& line, std::size_t bins,
+                                double interval_s) {
+  const std::size_t length = 2 * (bins - 1);
+  // At its angles, a periodogram takes lags for those that are a segment less.
+  std::vector<double> covariance(bins, 0.0);
+  const auto turn = std::polar(1.0, 2.0 * std::numbers::pi * line.frequency_hz * interval_s);
+  std::complex<double> turned = 0.5 * line.amplitude_dps * line.amplitude_dps;
+  constexpr double forgotten = 1e-10;
+  for (std::size_t lag = 0; lag < length; ++lag) {
+    const double left = line.coherence(static_cast<double>(lag) * interval_s) *
+                        of_hann_window(static_cast<double>(lag) / static_cast<double>(length));
+    if (left < forgotten) break;
+    covariance[std::min(lag, length - lag)] += left * turned.real();
+    turned *= turn;
+  }
+  covariance.back() *= 2.0;
+  auto density = cosine_sums(covariance);
+  for (double& d : density) d = std::max(d, 0.0);
+  return density;
+}
+
+/// A fit moves one parameter at a time: most lines are those that were asked for just before.
+const std::vector<double>& density_of(const effects::WanderingLine& line, std::size_t bins,
+                                      double interval_s) {
+  struct Known {
+    effects::WanderingLine line;
+    double interval_s = 0.0;
+    std::vector<double> density;
+  };
+  static thread_local std::array<Known, 8> known;
+  static thread_local std::size_t oldest = 0;
+  for (const auto& k : known)
+    if (k.line == line && k.interval_s == interval_s && k.density.size() == bins) return k.density;
+  auto& place = known[oldest++ % known.size()];
+  place = {line, interval_s, transformed(line, bins, interval_s)};
+  return place.density;
 }
 
 }  // namespace
@@ -74,6 +123,10 @@ std::vector<double> density_of(const NoiseLaw& given, const Angles& angles) {
       density[k] += 0.5 * r.variance *
                     (poisson_kernel(a, in_phase + across) + poisson_kernel(a, in_phase - across));
     }
+  }
+  for (const auto& line : law.wandering) {
+    const auto& of_line = density_of(line, bins, law.interval_s);
+    for (std::size_t k = 0; k < bins; ++k) density[k] += of_line[k];
   }
   for (double& d : density) d *= 2.0 * law.interval_s;
   return density;

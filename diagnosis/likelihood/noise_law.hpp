@@ -5,6 +5,7 @@
 
 #include <gyrostat/diagnosis/likelihood/rate_grid.hpp>
 #include <gyrostat/generators/effects/noise_bandwidth.hpp>
+#include <gyrostat/generators/effects/wandering_line.hpp>
 
 namespace gyrostat::gap {
 
@@ -39,6 +40,7 @@ struct NoiseLaw {
       averaging{};  ///< autocovariance of unit white noise that is averaged, or empty
   std::vector<Decaying> decaying{};
   std::vector<Resonance> resonances{};
+  std::vector<effects::WanderingLine> wandering{};
   std::optional<Jumps> jumps{};
   double angle = 0.0;  ///< variance of the rate's part that is a difference of white errors, dps²
   double rounding = 0.0;  ///< variance that is white after the filter, dps²

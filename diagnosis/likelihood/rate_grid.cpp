@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
-#include <unsupported/Eigen/FFT>
+#include <gyrostat/analysis/spectra/cosine_sums.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -76,18 +75,13 @@ RateGrid::RateGrid(const Conditions& conditions, std::vector<char> masked)
 std::vector<double> RateGrid::shown(const std::vector<double>& density) const {
   if (pairs_.empty()) return density;
   // The covariance of a product of independent series is the product of their covariances.
-  const std::size_t bins = density.size();
-  std::vector<std::complex<double>> half(bins, 0.0);
-  for (std::size_t k = first_fast_bin_ / 2; k < bins; ++k) half[k] = density[k];
-  Eigen::FFT<double> fft;
-  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  std::vector<double> covariance(2 * (bins - 1));
-  fft.inv(covariance, half, static_cast<Eigen::Index>(covariance.size()));
-  for (std::size_t lag = 0; lag < covariance.size(); ++lag)
-    covariance[lag] *= pairs_[std::min(lag, covariance.size() - lag)];
-  fft.fwd(half, covariance);
-  std::vector<double> seen(bins);
-  for (std::size_t k = 0; k < bins; ++k) seen[k] = std::max(half[k].real(), 1e-6 * density[k]);
+  auto covariance = density;
+  std::fill_n(covariance.begin(), first_fast_bin_ / 2, 0.0);
+  covariance = cosine_sums(covariance);
+  const auto period = static_cast<double>(segment());
+  for (std::size_t lag = 0; lag < covariance.size(); ++lag) covariance[lag] *= pairs_[lag] / period;
+  auto seen = cosine_sums(covariance);
+  for (std::size_t k = 0; k < seen.size(); ++k) seen[k] = std::max(seen[k], 1e-6 * density[k]);
   return seen;
 }
 

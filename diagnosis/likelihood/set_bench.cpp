@@ -1,7 +1,9 @@
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include <tbb/parallel_invoke.h>
 
@@ -9,6 +11,7 @@
 #include <gyrostat/diagnosis/likelihood/arima_law.hpp>
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 
 namespace gyrostat::gap {
@@ -40,6 +43,18 @@ bool passes_the_noise_filter(const Effect& effect, const Scenario& scenario) {
     return other.id() == "noise_bandwidth" &&
            std::abs(std::log(other.value(field_of(other, "cutoff_hz")) / cutoff_hz)) < alike;
   });
+}
+
+/// Of data sheets, and of the recording on the average.
+std::array<double, 2> told_at_C(const Conditions& conditions) {
+  const auto& T = conditions.slow_temperature_C();
+  const double sum = std::accumulate(T.begin(), T.end(), 0.0);
+  return {25.0, sum / static_cast<double>(T.size())};
+}
+
+/// A start each, of which the likeliest is kept.
+bool comes_in_forms(std::string_view effect) {
+  return effect == "noise_bandwidth" || effect == "vibration_rectification";
 }
 
 }  // namespace
@@ -137,10 +152,10 @@ double SetBench::cost(const Scenario& scenario) const {
     if (cause == nullptr || is_marked(effect.id())) continue;
     sum += prior +
            of_a_parameter * static_cast<double>(cause->free_parameters.size() - cause->amplitudes +
-                                                (effect.id() == "noise_bandwidth" ? 1 : 0));
+                                                (comes_in_forms(effect.id()) ? 1 : 0));
     if (passes_the_noise_filter(effect, scenario)) sum -= prior;
     if (effect.id() == "sinusoidal") sum += std::log(static_cast<double>(conditions_.size()));
-    if (effect.id() == "vibration") sum += 0.5 * std::log(values);
+    if (is_narrow_band(effect.id())) sum += 0.5 * std::log(values);
   }
   return sum;
 }
@@ -183,6 +198,10 @@ Standing SetBench::with(const Standing& standing, const CauseType& cause,
   };
   if (cause.guesses != nullptr) {
     const Beside beside{conditions_, *standing.fitter, standing.fit};
+    // The walk that stands in for jumps of the set takes up whatever is slow, so beside a slow
+    // effect they are followed; of a fast one, what was screened without them is not taken over.
+    const bool jumps = law_of(standing.scenario, conditions_.interval_s()).jumps.has_value();
+    const bool slow = is_slow(cause.id);
     std::vector<Standing> screened;
     for (const auto& guess : cause.guesses(beside)) {
       screened.emplace_back();
@@ -190,24 +209,35 @@ Standing SetBench::with(const Standing& standing, const CauseType& cause,
         Scenario scenario = with_walk_times(standing.scenario, walk);
         scenario.effects.push_back(guess);
         scenario = standing.fitter->with_white_noise_scaled(std::move(scenario));
-        auto tried = fitted(scenario, standing.fitter, screening_iterations, Jumping::no);
+        auto tried = fitted(scenario, standing.fitter, screening_iterations,
+                            jumps && slow ? Jumping::yes : Jumping::no);
         if (tried.score > screened.back().score) screened.back() = std::move(tried);
       }
     }
     std::stable_sort(screened.begin(), screened.end(),
                      [](const auto& a, const auto& b) { return a.score > b.score; });
-    for (std::size_t k = 0; k < std::min(guesses_fitted, screened.size()); ++k)
-      if (screened[k].score > -1e299)
-        keep(fitted(screened[k].scenario, standing.fitter, fitting_iterations));
+    for (std::size_t k = 0; k < std::min(guesses_fitted, screened.size()); ++k) {
+      if (screened[k].score < -1e299) continue;
+      Scenario start = screened[k].scenario;
+      if (jumps && !slow) {
+        std::copy(standing.scenario.effects.begin(), standing.scenario.effects.end(),
+                  start.effects.begin());
+        const double white = start.random_error.measurement_noise_std_dps;
+        start.random_error = standing.scenario.random_error;
+        start.random_error.measurement_noise_std_dps = white;
+      }
+      keep(fitted(start, standing.fitter, fitting_iterations));
+    }
     return best;
   }
   if (left == nullptr || !is_taken_out(cause.effect())) return best;
   for (const auto& start : cause.starts(*left)) {
     Scenario scenario = standing.scenario;
     scenario.effects.push_back(start);
-    keep(refitted(scenario, 6));
+    auto tried = refitted(scenario, 6);
+    if (tried.score > standing.score - within_reach_of_polish) keep(polished(tried));
+    keep(std::move(tried));
   }
-  if (best.score > standing.score - within_reach_of_polish) keep(polished(best));
   return best;
 }
 
@@ -255,10 +285,27 @@ Standing SetBench::without(const Standing& standing, std::size_t effect) const {
   const double small =
       0.1 * beside.slow_std_dps() / std::sqrt(static_cast<double>(conditions_.cluster()));
   Standing best = refitted(rest);
+  // A scale factor is told at some temperature, and its change with temperature about another.
+  if (standing.scenario.effects[effect].id() == "scale_factor")
+    for (auto& other : rest.effects)
+      if (other.id() == "scale_temperature")
+        for (const double reference_C : told_at_C(conditions_)) {
+          other.value(field_of(other, "reference_C")) = reference_C;
+          if (auto moved = polished(refitted(rest)); moved.score > best.score)
+            best = std::move(moved);
+        }
   if (ArimaLaw::of(rest.random_error).walk_dps < small)
     if (auto other = refitted(with_walk_of_at_least(rest, small)); other.score > best.score)
       best = std::move(other);
   return best;
+}
+
+std::optional<Standing> SetBench::vacated(const Standing& standing, std::size_t effect) const {
+  if (is_taken_out(standing.scenario.effects[effect])) return std::nullopt;
+  Standing rest = standing;
+  for (auto* effects : {&rest.scenario.effects, &rest.fit.scenario.effects})
+    effects->erase(effects->begin() + static_cast<std::ptrdiff_t>(effect));
+  return rest;
 }
 
 std::vector<double> SetBench::rate_left_by(const Scenario& scenario,

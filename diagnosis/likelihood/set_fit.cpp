@@ -134,9 +134,12 @@ SetFitter::SetFitter(const Conditions& conditions, std::shared_ptr<const Reduced
 }
 
 /// From all samples, once: it depends on nothing that is fitted.
-Eigen::VectorXd SetFitter::fixed_signature(const Scenario& alone, std::size_t unit) const {
+Eigen::VectorXd SetFitter::fixed_signature(const Scenario& alone) const {
+  const auto& effect = alone.effects.front();
+  std::vector<double> values;
+  for (std::size_t f = 0; f < effect.fields().size(); ++f) values.push_back(effect.value(f));
   const std::scoped_lock lock(mutex_);
-  auto& known = fixed_[{std::string(alone.effects.front().id()), unit}];
+  auto& known = fixed_[{std::string(effect.id()), values}];
   if (known.size() == 0) {
     Series with;
     synthesise_rate_under(alone, conditions_.series(), {}, with);
@@ -173,7 +176,7 @@ SetFitter::Regressors SetFitter::regressors_of(const Scenario& scenario) const {
                                     regressors.cols() + 1);
       auto column = regressors.col(regressors.cols() - 1);
       if (is_fixed) {
-        column = fixed_signature(alone, unit);
+        column = fixed_signature(alone);
       } else {
         synthesise_rate_under(alone, slow_series_, {}, with);
         column = Eigen::Map<const Eigen::VectorXd>(with.gyro_dps.data(), column.size());

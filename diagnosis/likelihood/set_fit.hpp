@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
@@ -93,11 +94,12 @@ class SetFitter {
   Regressors regressors_of(const Scenario& scenario) const;
   RateTerms terms_with(const Scenario& scenario, const Regressors& regressors,
                        Jumping jumping) const;
-  Eigen::VectorXd fixed_signature(const Scenario& alone, std::size_t unit) const;
+  Eigen::VectorXd fixed_signature(const Scenario& alone) const;
   void take_coefficients(const RateTerms& terms, SetFit& fit) const;
 
   mutable std::mutex mutex_;
-  mutable std::map<std::pair<std::string, std::size_t>, Eigen::VectorXd> fixed_;
+  /// Of an effect with its parameters.
+  mutable std::map<std::pair<std::string, std::vector<double>>, Eigen::VectorXd> fixed_;
   Series slow_series_;
   Eigen::MatrixXd drift_, further_;  ///< of unit spread, further_ about its mean
   Eigen::VectorXd further_spreads_;

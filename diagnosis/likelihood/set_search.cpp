@@ -74,7 +74,7 @@ FoundSet SetSearcher::run() {
   if (has_outliers_)
     for (std::size_t i = 0; i < unseen.size(); ++i)
       if (tails_.outliers[i] != 0) unseen[i] = 1;
-  name_lines(bench_, unseen, found);
+  name_lines(bench_, standing, unseen, found);
   if (coarse) found.scenario.random_error.measurement_noise_std_dps = marks.white_under_grid_dps;
   auto& drift = found.scenario.thermal_drift;
   const auto& coefficients = standing.fit.drift;

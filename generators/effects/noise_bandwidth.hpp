@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 #include <span>
-#include <vector>
 
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/butterworth.hpp>
 #include <gyrostat/generators/sampled.hpp>
 #include <gyrostat/generators/stage.hpp>
 
@@ -90,44 +90,6 @@ struct NoiseBandwidth {
       gain[k] *= poles == 1.0 ? of_one : std::pow(of_one, poles);
     }
   }
-
- private:
-  /// Sections of two poles, and one of a single pole where their number is odd.
-  class Butterworth {
-   public:
-    Butterworth(double cycles_a_sample, std::size_t poles) {
-      if (cycles_a_sample >= 0.5) return;
-      const double k = std::tan(std::numbers::pi * cycles_a_sample);
-      for (std::size_t j = 0; j < poles / 2; ++j) {
-        const double angle = std::numbers::pi * (2.0 * static_cast<double>(j) + 1.0) /
-                             (2.0 * static_cast<double>(poles));
-        const double damping = 2.0 * std::sin(angle) * k;
-        const double scale = 1.0 / (1.0 + damping + k * k);
-        sections_.push_back({{k * k * scale, 2.0 * k * k * scale, k * k * scale},
-                             {2.0 * (k * k - 1.0) * scale, (1.0 - damping + k * k) * scale}});
-      }
-      if (poles % 2 == 1)
-        sections_.push_back({{k / (1.0 + k), k / (1.0 + k), 0.0}, {(k - 1.0) / (1.0 + k), 0.0}});
-    }
-
-    double operator()(double value) {
-      for (auto& s : sections_) {  // direct form II transposed
-        const double out = s.b[0] * value + s.state[0];
-        s.state[0] = s.b[1] * value - s.a[0] * out + s.state[1];
-        s.state[1] = s.b[2] * value - s.a[1] * out;
-        value = out;
-      }
-      return value;
-    }
-
-   private:
-    struct Section {
-      std::array<double, 3> b;
-      std::array<double, 2> a;
-      std::array<double, 2> state{};
-    };
-    std::vector<Section> sections_;
-  };
 };
 
 }  // namespace gyrostat::effects

@@ -40,6 +40,18 @@ struct WanderingLine {
     };
   }
 
+  /// Of its phase at two times: the last factor of its autocovariance.
+  double coherence(double lag_s) const {
+    const double radians = 2.0 * std::numbers::pi * wander_hz * correlation_time_s;
+    const double memories = lag_s / correlation_time_s;
+    // Near lag 0 the sum of its terms would be lost.
+    const double spread =
+        memories < 1e-4 ? 0.5 * memories * memories : memories + std::expm1(-memories);
+    return std::exp(-radians * radians * spread);
+  }
+
+  friend bool operator==(const WanderingLine&, const WanderingLine&) = default;
+
   static constexpr WanderingLine absent() { return {.amplitude_dps = 0.0}; }
 
   void apply(Series& series, const Noise& noise) const {

@@ -87,6 +87,14 @@ INSTANTIATE_TEST_SUITE_P(
         Effect(effects::BiasInstability{.coefficient_dps = 0.03}),
         Effect(effects::Telegraph{.amplitude_dps = 0.05, .mean_dwell_s = 1.5}),
         Effect(effects::Vibration{.std_dps = 0.05, .centre_hz = 4.0, .bandwidth_hz = 0.8}),
+        Effect(effects::WanderingLine{.amplitude_dps = 0.07,
+                                      .frequency_hz = 4.0,
+                                      .wander_hz = 0.8,
+                                      .correlation_time_s = 0.1}),
+        Effect(effects::WanderingLine{.amplitude_dps = 0.07,
+                                      .frequency_hz = 4.0,
+                                      .wander_hz = 0.5,
+                                      .correlation_time_s = 1.0}),
         Effect(effects::Quantization{.lsb_dps = 0.05})));
 
 }  // namespace

@@ -59,6 +59,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Known{"levels",
                           {effects::Telegraph{0.03, 40.0}, effects::Quantization{0.1},
                            effects::NoiseTemperature{0.03}}},
+                    Known{"stairs",
+                          {effects::BiasSteps{20.0, 0.1}, effects::ThermalHysteresis{0.08, 3.0}}},
                     Known{"motion",
                           {effects::ScaleFactor{0.01}, effects::SensorBandwidth{1.0},
                            effects::HardIron{5.0, 40.0}},
@@ -148,6 +150,30 @@ TEST(SetSearch, NamesALineThatWandersLittle) {
                effects::Quantization{0.0076}};
   EXPECT_EQ(found_in(recorded(s, 5, false)),
             (std::set<std::string>{"quantization", "wandering_line"}));
+}
+
+/// Whether a sample has turned by its own rate, by half of it or not yet is the recorder's habit.
+TEST(SetSearch, AHeadingThatIsHalfASampleLateHasNoLag) {
+  for (const double late : {-0.5, 0.5, 1.0}) {
+    const auto series = recorded(moving(), 21, true);
+    Series shifted = series;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      const std::size_t next = std::min(i + 1, series.size() - 1);
+      const double mean_rate = 0.5 * (series.rate_ref_dps[i] + series.rate_ref_dps[next]);
+      shifted.heading_deg[i] =
+          std::remainder(series.heading_deg[i] - late * mean_rate / 20.0, 360.0);
+    }
+    EXPECT_EQ(found_in(shifted), std::set<std::string>{}) << late;
+  }
+}
+
+/// A scale that changes with temperature is right at 25 °C: not at the middle of what was recorded,
+/// and still no scale factor besides.
+TEST(SetSearch, AScaleThatIsRightAt25DegreesIsOneEffect) {
+  Scenario s = moving();
+  s.temperature = temperature::Cycle{23.0, 57.0, 800.0};
+  s.effects = {effects::ScaleTemperature{5e-4, 25.0}};
+  EXPECT_EQ(found_in(recorded(s, 22, true)), std::set<std::string>{"scale_temperature"});
 }
 
 /// Noise that belongs in R is there, for quantised and for coloured sensors alike.

@@ -53,6 +53,16 @@ TEST(SensorBandwidth, HasHalfThePowerAtItsCutoff) {
   EXPECT_NEAR(mean_square({z.end() - 400, z.end()}), 0.25, 0.005);
 }
 
+TEST(SensorBandwidth, OfButterworthHasHalfThePowerAtItsCutoffAndAllAtRest) {
+  std::vector<double> sine;
+  for (int i = 0; i < 4000; ++i) sine.push_back(5.0 + std::sin(2.0 * std::numbers::pi * i / 400.0));
+  const effects::SensorBandwidth two{.cutoff_hz = 0.25, .poles = 2.0, .maximally_flat = 1.0};
+  auto z = sensed(two, sine);
+  EXPECT_DOUBLE_EQ(z.front(), 5.0);
+  for (double& value : z) value -= 5.0;
+  EXPECT_NEAR(mean_square({z.end() - 400, z.end()}), 0.25, 0.005);
+}
+
 TEST(SensorBandwidth, OverUnevenIntervalsIsTheSameResponse) {
   auto series = silent({0.0, 0.1, 0.15, 0.9});
   series.rate_ref_dps = series.gyro_dps = {0.0, 5.0, 5.0, 5.0};
