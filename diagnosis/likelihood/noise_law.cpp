@@ -16,12 +16,6 @@ double poisson_kernel(double a, double cosine) {
   return (1.0 - a) * (1.0 + a) / (1.0 - 2.0 * a * cosine + a * a);
 }
 
-/// Autocovariance of Hann's window at a lag that is such a share of its length, over that at 0.
-double of_hann_window(double share) {
-  const double angle = 2.0 * std::numbers::pi * share;
-  return (1.0 - share) * (2.0 + std::cos(angle)) / 3.0 + std::sin(angle) / (2.0 * std::numbers::pi);
-}
-
 /// As a periodogram through Hann's window shows it, over that of unit white noise.
 std::vector<double> transformed(const effects::WanderingLine& line, std::size_t bins,
                                 double interval_s) {
@@ -30,13 +24,19 @@ std::vector<double> transformed(const effects::WanderingLine& line, std::size_t 
   std::vector<double> covariance(bins, 0.0);
   const auto turn = std::polar(1.0, 2.0 * std::numbers::pi * line.frequency_hz * interval_s);
   std::complex<double> turned = 0.5 * line.amplitude_dps * line.amplitude_dps;
+  const auto step = std::polar(1.0, 2.0 * std::numbers::pi / static_cast<double>(length));
+  std::complex<double> angle = 1.0;  // of a lag in the segment that goes once round
   constexpr double forgotten = 1e-10;
   for (std::size_t lag = 0; lag < length; ++lag) {
-    const double left = line.coherence(static_cast<double>(lag) * interval_s) *
-                        of_hann_window(static_cast<double>(lag) / static_cast<double>(length));
-    if (left < forgotten) break;
-    covariance[std::min(lag, length - lag)] += left * turned.real();
+    const double coherence = line.coherence(static_cast<double>(lag) * interval_s);
+    if (coherence < forgotten) break;
+    // The window's own autocovariance, over that at lag 0.
+    const double share = static_cast<double>(lag) / static_cast<double>(length);
+    const double of_window =
+        (1.0 - share) * (2.0 + angle.real()) / 3.0 + angle.imag() / (2.0 * std::numbers::pi);
+    covariance[std::min(lag, length - lag)] += coherence * of_window * turned.real();
     turned *= turn;
+    angle *= step;
   }
   covariance.back() *= 2.0;
   auto density = cosine_sums(covariance);

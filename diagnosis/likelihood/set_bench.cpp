@@ -231,13 +231,19 @@ Standing SetBench::with(const Standing& standing, const CauseType& cause,
     return best;
   }
   if (left == nullptr || !is_taken_out(cause.effect())) return best;
+  const auto is_within_reach = [&](const Standing& tried) {
+    return tried.score > standing.score - within_reach_of_polish;
+  };
+  // Starts of a motion's effect are forms of it: which is the likelier is seen when each fits.
+  const bool are_forms = band_of(cause.id) == EffectBand::motion;
   for (const auto& start : cause.starts(*left)) {
     Scenario scenario = standing.scenario;
     scenario.effects.push_back(start);
     auto tried = refitted(scenario, 6);
-    if (tried.score > standing.score - within_reach_of_polish) keep(polished(tried));
+    if (are_forms && is_within_reach(tried)) keep(polished(tried));
     keep(std::move(tried));
   }
+  if (!are_forms && is_within_reach(best)) keep(polished(best));
   return best;
 }
 

@@ -35,6 +35,10 @@ bool are_one(std::string_view effect, std::string_view other) {
   return effect == other || (is_narrow_band(effect) && is_narrow_band(other));
 }
 
+double white_of(const Standing& standing) {
+  return standing.scenario.random_error.measurement_noise_std_dps;
+}
+
 }  // namespace
 
 std::vector<Standing> SetSearcher::each_added(const Standing& standing,
@@ -157,9 +161,10 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
       const auto rest = bench_.without(standing, k);
       // The same effect from other parameters may stand there, too, but is no rival.
       auto others = each_added(rest);
-      // What was fitted to what is left may have grown into the place: others begin beside the rest
-      // as it is, too.
-      if (const auto place = bench_.vacated(standing, k)) {
+      // What is left may have grown into the place, down to no white noise for a filter to pass:
+      // there others begin beside the rest as it was, too.
+      if (const auto place = bench_.vacated(standing, k);
+          place && white_of(rest) < 0.5 * white_of(standing)) {
         auto in_place = each_added(*place, band_of(effect.id()));
         for (std::size_t c = 0; c < others.size(); ++c)
           if (in_place[c].score > others[c].score) others[c] = std::move(in_place[c]);
