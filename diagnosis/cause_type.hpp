@@ -33,13 +33,17 @@ struct CauseType {
   std::vector<std::string_view> free_parameters;
   /// How many of them, the first, are amplitudes of a slow signature.
   std::size_t amplitudes;
-  Effect (*effect)();  ///< with its default parameters
+  bool comes_in_forms;  ///< one more parameter, which no fit moves: starts have each its own
+  Effect (*effect)();   ///< with its default parameters
   /// First parameters from what a set leaves of the recording, one or several; none where it shows
   /// nothing alike, nullptr where `guesses` finds them.
   std::vector<Effect> (*starts)(const Evidence& evidence);
   /// First parameters beside what a set already has, for a fit by likelihood; nullptr where
   /// `starts` on what the set leaves finds them.
   std::vector<Effect> (*guesses)(const Beside& beside);
+  /// The same effect as others would tell it, with which something beside it may be needless;
+  /// nullptr where there is one way alone.
+  std::vector<Effect> (*told_otherwise)(const Effect& effect, const Conditions& conditions);
   /// What the effect adds to the law of the noise; nullptr where it has none.
   void (*enter)(const Effect& effect, NoiseLaw& law);
   /// Why the recording cannot show the effect, with how much more it would need; empty where it

@@ -10,9 +10,10 @@
 #include <Eigen/Eigenvalues>
 #include <ceres/ceres.h>
 
+#include <gyrostat/analysis/fits/arima_shape.hpp>
+#include <gyrostat/analysis/fits/arima_starts.hpp>
 #include <gyrostat/analysis/fits/arima_sums.hpp>
 #include <gyrostat/analysis/fits/arima_whittle.hpp>
-#include <gyrostat/analysis/fits/fisher_scoring.hpp>
 #include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/numerics/dense.hpp>
@@ -20,27 +21,7 @@
 namespace gyrostat {
 namespace {
 
-/// phi and theta are tanh of the first two, sqrt(R) / delta1 is exp of the third.
-using Shape = std::array<double, 3>;
-
 constexpr std::size_t fewest_samples = 50;
-constexpr double shape_limit = 6.0;  // |phi|, |theta| < 1 - 1.2e-5
-constexpr double log_ratio_limit = 12.0;
-constexpr std::size_t most_starts = 3;
-
-template <class T>
-Arima111<T> unit_model(const T* shape) {
-  using std::exp;
-  using std::tanh;
-  const T phi = tanh(shape[0]);
-  const T theta = tanh(shape[1]);
-  return {phi, T(1.0), theta, exp(shape[2])};
-}
-
-/// What concentrating out the scale leaves of the deviance of each term.
-double concentrated(const ArimaSums& sums) {
-  return std::log(sums.squares / sums.count) + sums.logs / sums.count;
-}
 
 /// The prediction errors, whitened and scaled so that half of their sum of squares is what the
 /// concentrated likelihood leaves to be minimised. Their number is that of the samples, but a
@@ -60,7 +41,7 @@ class PredictionErrors final : public ceres::SizedCostFunction<4, 3> {
   static double scale_of(const ArimaSums& sums) { return std::exp(0.5 * sums.logs / sums.count); }
 
   bool evaluate(const double* shape, double* residuals) const {
-    const auto sums = arima_sums(unit_model(shape), z_);
+    const auto sums = arima_sums(unit_arima(shape), z_);
     std::fill_n(residuals, 4, 0.0);
     residuals[0] = std::sqrt(sums.squares) * scale_of(sums);
     return std::isfinite(residuals[0]);  // numbers that are none Ceres would print
@@ -69,8 +50,8 @@ class PredictionErrors final : public ceres::SizedCostFunction<4, 3> {
   bool evaluate(const double* at, double* residuals, double* jacobian) const {
     using Jet = ceres::Jet<double, 3>;
     const std::array<Jet, 3> shape = {Jet(at[0], 0), Jet(at[1], 1), Jet(at[2], 2)};
-    const auto model = unit_model(shape.data());
-    const auto found = arima_derivatives(unit_model(at), z_);
+    const auto model = unit_arima(shape.data());
+    const auto found = arima_derivatives(unit_arima(at), z_);
     Eigen::Matrix<double, 5, 4> chain = Eigen::Matrix<double, 5, 4>::Zero();
     chain.block<1, 3>(0, 0) = model.phi.v;
     chain.block<1, 3>(1, 0) = model.delta1_dps.v;
@@ -93,85 +74,19 @@ class PredictionErrors final : public ceres::SizedCostFunction<4, 3> {
   std::span<const double> z_;
 };
 
-/// Which of phi, theta and R a model leaves free; the others are zero.
-struct Variant {
-  bool phi, theta, noise;
-  const char* message;
-
-  int held() const { return !phi + !theta + !noise; }
-};
-
-constexpr Variant full = {true, true, true, "converged"};
+constexpr ArimaVariant full = {true, true, true, "converged"};
 /// Simpler models, simplest first, for signals that do not tell all four parameters.
-constexpr std::array<Variant, 4> simpler = {{
+constexpr std::array<ArimaVariant, 4> simpler = {{
     {false, false, true, "converged; phi and delta2 cannot be told and are held at 0"},
     {true, false, true, "converged; delta2 cannot be told and is held at 0"},
     {false, true, true, "converged; phi cannot be told and is held at 0"},
     {true, true, false, "converged; R cannot be told and is held at 0"},
 }};
 
-struct Start {
-  Shape shape;
-  double delta1, objective;
-};
-
-/// Of many starts, best first, where the spectrum leads the best of them.
-std::vector<Shape> led_by(const ArimaWhittle& spectrum, std::span<const Start> starts) {
-  constexpr std::size_t most_led = 6;
-  constexpr double within = 0.99;  // of the limits
-  std::vector<std::array<double, 4>> from;
-  for (const auto& [shape, delta1, objective] : starts.first(std::min(starts.size(), most_led)))
-    from.push_back({shape[0], shape[1], shape[2], std::log(delta1)});
-  const auto ends = descend<4>(
-      from,
-      [](const auto* u) {
-        using std::exp;
-        auto model = unit_model(u);
-        const auto delta1 = exp(u[3]);
-        return Arima111{model.phi, delta1, model.delta2_dps * delta1,
-                        model.measurement_noise_std_dps * delta1};
-      },
-      spectrum);
-  std::vector<Shape> shapes;
-  for (const auto& u : different_ends<4>(ends, most_starts))
-    shapes.push_back({std::clamp(u[0], -within * shape_limit, within * shape_limit),
-                      std::clamp(u[1], -within * shape_limit, within * shape_limit),
-                      std::clamp(u[2], -within * log_ratio_limit, within * log_ratio_limit)});
-  return shapes;
-}
-
-/// The most promising points of a coarse grid, best first; those of a long recording from where
-/// its spectrum leads them to.
-std::vector<Shape> starting_points(std::span<const double> z, const Variant& variant) {
-  std::vector<Shape> shapes;
-  for (const double phi : {-0.6, 0.0, 0.6, 0.9})
-    for (const double theta : {-0.6, 0.0, 0.7, 0.95})
-      for (const double log_ratio : {-log_ratio_limit, -1.0, 1.0, 2.5, 4.5, 6.5}) {
-        if ((!variant.phi && phi != 0.0) || (!variant.theta && theta != 0.0) ||
-            (variant.noise == (log_ratio == -log_ratio_limit)))
-          continue;
-        shapes.push_back({std::atanh(phi), std::atanh(theta), log_ratio});
-      }
-  std::vector<Arima111<double>> models;
-  for (const auto& shape : shapes) models.push_back(unit_model(shape.data()));
-  const auto sums = arima_sums(models, z);
-  std::vector<Start> starts;
-  for (std::size_t i = 0; i < shapes.size(); ++i)
-    starts.push_back(
-        {shapes[i], std::sqrt(sums[i].squares / sums[i].count), concentrated(sums[i])});
-  std::sort(starts.begin(), starts.end(),
-            [](const Start& a, const Start& b) { return a.objective < b.objective; });
-  if (variant.held() == 0)
-    if (const ArimaWhittle spectrum(z); spectrum.has_terms()) return led_by(spectrum, starts);
-  std::vector<Shape> best;
-  for (std::size_t i = 0; i < std::min(starts.size(), most_starts); ++i)
-    best.push_back(starts[i].shape);
-  return best;
-}
-
 /// Covariance of the free ones of (phi, delta1, delta2, sqrt R); empty where they are not
 /// identifiable.
-std::optional<Eigen::Matrix4d> covariance_of(const Arima111<double>& arima, const Variant& variant,
+std::optional<Eigen::Matrix4d> covariance_of(const Arima111<double>& arima,
+                                             const ArimaVariant& variant,
                                              std::span<const double> z) {
   // R enters as a square, so its root has no information near zero, whatever the scale.
   if (variant.noise && arima.measurement_noise_std_dps < 1e-3 * arima.delta1_dps)
@@ -212,22 +127,22 @@ double arima_log_likelihood(const Arima111<double>& arima, std::span<const doubl
 namespace {
 
 /// The best of a few descents from the grid, with the held parameters at zero.
-ArimaFit descend(std::span<const double> z, const Variant& variant) {
-  const auto starts = starting_points(z, variant);
+ArimaFit descend(std::span<const double> z, const ArimaVariant& variant) {
+  const auto starts = arima_starts(z, variant);
   ArimaFit fit;
   double best = std::numeric_limits<double>::infinity();
-  Shape shape = starts.front();
+  ArimaShape shape = starts.front();
   fit.message = "did not converge from any starting point";
   std::vector<int> held;
   if (!variant.phi) held.push_back(0);
   if (!variant.theta) held.push_back(1);
   if (!variant.noise) held.push_back(2);
-  for (Shape candidate : starts) {
+  for (ArimaShape candidate : starts) {
     ceres::Problem problem;
     problem.AddResidualBlock(new PredictionErrors(z), nullptr, candidate.data());
     if (!held.empty()) problem.SetManifold(candidate.data(), new ceres::SubsetManifold(3, held));
     for (int i = 0; i < 3; ++i) {
-      const double limit = i < 2 ? shape_limit : log_ratio_limit;
+      const double limit = i < 2 ? ArimaLimits::shape : ArimaLimits::log_ratio;
       problem.SetParameterLowerBound(candidate.data(), i, -limit);
       problem.SetParameterUpperBound(candidate.data(), i, limit);
     }
@@ -248,12 +163,12 @@ ArimaFit descend(std::span<const double> z, const Variant& variant) {
     fit.converged = summary.termination_type == ceres::CONVERGENCE;
     fit.message = fit.converged ? variant.message : "did not converge: " + summary.message;
   }
-  const auto sums = arima_sums(unit_model(shape.data()), z);
+  const auto sums = arima_sums(unit_arima(shape.data()), z);
   const double delta1 = std::sqrt(sums.squares / sums.count);
-  const auto unit = unit_model(shape.data());
+  const auto unit = unit_arima(shape.data());
   fit.parameters = {unit.phi, delta1, unit.delta2_dps * delta1,
                     variant.noise ? unit.measurement_noise_std_dps * delta1 : 0.0};
-  if (variant.theta && std::abs(shape[1]) > 0.99 * shape_limit)
+  if (variant.theta && std::abs(shape[1]) > 0.99 * ArimaLimits::shape)
     fit.message += "; |delta2| = delta1, the limit: x does not wander";
   fit.samples = z.size();
   fit.objective = arima_log_likelihood(fit.parameters, z);
@@ -271,7 +186,7 @@ ArimaFit descend(std::span<const double> z, const Variant& variant) {
 
 /// Whether the free parameters are told at all: phi to a part of what it can be, white noise to
 /// less than all that there is in a sample.
-bool is_identified(const ArimaFit& fit, const Variant& variant) {
+bool is_identified(const ArimaFit& fit, const ArimaVariant& variant) {
   const auto& [phi, delta1, delta2, noise] = fit.standard_errors;
   return std::isfinite(delta1) && (!variant.phi || phi <= 1.0) &&
          (!variant.noise ||

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <numeric>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
@@ -21,6 +22,14 @@ struct Diagnosed<effects::ScaleTemperature> {
     const double middle = 0.5 * (std::ranges::min(T) + std::ranges::max(T));
     return {scaled(e, Trace::rate, effects::ScaleTemperature{1.0, middle},
                    [](auto& p, double a) { p.scale_per_C = a; })};
+  }
+
+  /// Right at the temperature of data sheets, or at the recording's mean.
+  static std::vector<effects::ScaleTemperature> told_otherwise(
+      const effects::ScaleTemperature& effect, const Conditions& c) {
+    const auto& T = c.slow_temperature_C();
+    const double mean_C = std::accumulate(T.begin(), T.end(), 0.0) / static_cast<double>(T.size());
+    return {{effect.scale_per_C, 25.0}, {effect.scale_per_C, mean_C}};
   }
 
   static std::string why_not_assessable(const Conditions& c) {

@@ -16,6 +16,7 @@ struct Diagnosed<effects::VibrationRectification> {
   static constexpr std::array free_parameters = {
       &effects::VibrationRectification::coefficient_dps_per_m2ps4};
 
+  static constexpr bool comes_in_forms = true;
   static std::vector<effects::VibrationRectification> guesses(const Beside& beside) {
     const double least_s = 2.0 * beside.conditions.interval_s();
     std::vector<effects::VibrationRectification> all;

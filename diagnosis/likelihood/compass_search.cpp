@@ -9,6 +9,7 @@
 #include <gyrostat/core/values.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/evidence.hpp>
+#include <gyrostat/diagnosis/likelihood/compass_errors.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
@@ -26,43 +27,17 @@ class CompassSearch {
         conditions_(simulator.conditions()),
         recording_(recording),
         found_(found),
+        errors_(conditions_, recording, found.baseline),
         hidden_(conditions_.slow_size(), 0),
-        cost_of_a_value_(0.5 * std::log(static_cast<double>(recording.size()))) {
-    const auto error = error_of({});
-    double sine = 0.0, cosine = 0.0;
-    for (const auto& span : conditions_.spans(Part::train))
-      for (std::size_t i = span.first; i < span.last; ++i)
-        if (!is_missing(error[i])) {
-          sine += std::sin(error[i] * std::numbers::pi / 180.0);
-          cosine += std::cos(error[i] * std::numbers::pi / 180.0);
-        }
-    centre_deg_ = std::atan2(sine, cosine) * 180.0 / std::numbers::pi;
-    shift_ = shift_of(error_of({}));
-  }
+        cost_of_a_value_(0.5 * std::log(static_cast<double>(recording.size()))) {}
 
   void run(const SetSearchOptions& options);
 
  private:
-  struct Law {
-    double count, variance;  ///< effective number of values
-
-    double std_deg() const { return std::sqrt(variance); }
-    /// Log-likelihood beyond another law's.
-    double gain_on(const Law& other) const {
-      return 0.5 * count * std::log(other.variance / variance);
-    }
-  };
-
-  /// The heading less the reference's and what the effects add, NaN where it is not known.
-  std::vector<double> error_of(const std::vector<Effect>& effects) const;
-  /// Means of the clusters of which half the samples are there at least; of a few, noise would pass
-  /// for a burst.
-  std::vector<double> slow_error_of(const std::vector<Effect>& effects) const;
-  /// By how much the heading is late, in samples, at most one: recorders differ in whether a sample
-  /// has turned by its own rate, by half of it or not yet.
-  double shift_of(const std::vector<double>& error) const;
-  /// Of white noise about a level; clusters with bursts do not count.
-  Law law_of(const std::vector<Effect>& effects) const;
+  CompassErrors::Law law_of(const std::vector<Effect>& effects) const {
+    simulator_.interrupt().check();
+    return errors_.law_of(effects, hidden_);
+  }
   /// One step of Gauss and Newton in all free parameters.
   std::vector<Effect> stepped(const std::vector<Effect>& set) const;
   std::vector<Effect> polished(std::vector<Effect> set) const;
@@ -83,96 +58,11 @@ class CompassSearch {
   const Series& recording_;
   FoundSet& found_;
   std::vector<const CauseType*> candidates_;
+  CompassErrors errors_;
   std::vector<char> hidden_;  ///< a flag a cluster: within a burst
   double cost_of_a_value_;
-  double centre_deg_ = 0.0;
-  double shift_ = 0.0;  ///< that errors are taken beside
   double burst_gain_ = 0.0, bursts_per_hour_ = 0.0, burst_s_ = 0.0, burst_deg_ = 0.0;
 };
-
-std::vector<double> CompassSearch::error_of(const std::vector<Effect>& effects) const {
-  Scenario quiet = found_.baseline;
-  quiet.effects = effects;
-  quiet.compass.noise_std_deg = 0.0;
-  quiet.compass.initial_heading_deg = centre_deg_;
-  Series ideal;
-  synthesise_heading_under(quiet, conditions_.series(), {}, ideal);
-  // Since the sample before, or until the next.
-  const auto turned = [&, last = ideal.size() - 1](std::size_t i) {
-    const std::size_t from = shift_ > 0.0 ? std::max<std::size_t>(i, 1) - 1 : i;
-    const std::size_t to = shift_ > 0.0 ? i : std::min(i + 1, last);
-    return shift_ * wrap_degrees(ideal.heading_deg[to] - ideal.heading_deg[from]);
-  };
-  std::vector<double> error(recording_.size(), no_value);
-  for (std::size_t i = 0; i < error.size(); ++i)
-    if (!is_missing(recording_.heading_deg[i]) &&
-        (recording_.mag_valid.empty() || recording_.mag_valid[i] > 0.5))
-      error[i] = wrap_degrees(recording_.heading_deg[i] - ideal.heading_deg[i] + turned(i));
-  return error;
-}
-
-std::vector<double> CompassSearch::slow_error_of(const std::vector<Effect>& effects) const {
-  const auto error = error_of(effects);
-  auto slow = conditions_.slow_means(error);
-  const std::size_t cluster = conditions_.cluster();
-  for (std::size_t k = 0; k < slow.size(); ++k) {
-    const auto first = error.begin() + static_cast<std::ptrdiff_t>(k * cluster);
-    const auto last =
-        error.begin() + static_cast<std::ptrdiff_t>(std::min((k + 1) * cluster, error.size()));
-    const auto missing = std::count_if(first, last, [](double e) { return is_missing(e); });
-    if (2 * missing > last - first) slow[k] = no_value;
-  }
-  return slow;
-}
-
-double CompassSearch::shift_of(const std::vector<double>& error) const {
-  const auto& rate = conditions_.series().rate_ref_dps;
-  if (rate.empty()) return 0.0;
-  std::vector<double> sizes;
-  for (const double e : error)
-    if (!is_missing(e)) sizes.push_back(std::abs(e));
-  if (sizes.empty()) return 0.0;
-  // Bursts say nothing of it.
-  const double largest = std::max(3.0 * quantile(sizes, 0.75), 1e-12);
-  double product = 0.0, square = 0.0;
-  for (const auto& span : conditions_.spans(Part::train))
-    for (std::size_t i = span.first; i < span.last; ++i)
-      if (!is_missing(error[i]) && std::abs(error[i]) < largest) {
-        product -= error[i] * rate[i];
-        square += rate[i] * rate[i];
-      }
-  return square > 0.0 ? std::clamp(product / (square * conditions_.interval_s()), -1.0, 1.0) : 0.0;
-}
-
-CompassSearch::Law CompassSearch::law_of(const std::vector<Effect>& effects) const {
-  simulator_.interrupt().check();
-  const auto error = error_of(effects);
-  double count = 0.0, sum = 0.0, square = 0.0, lagged = 0.0;
-  for (int pass = 0; pass < 2; ++pass) {
-    const double mean = pass == 0 ? 0.0 : sum / count;
-    double before = no_value;
-    for (const auto& span : conditions_.spans(Part::train))
-      for (std::size_t i = span.first; i < span.last; ++i) {
-        const double e = error[i] - mean;
-        const std::size_t k = std::min(i / conditions_.cluster(), hidden_.size() - 1);
-        if (is_missing(e) || hidden_[k] != 0) continue;
-        if (pass == 0) {
-          count += 1.0;
-          sum += e;
-        } else {
-          square += e * e;
-          if (!is_missing(before)) lagged += e * before;
-          before = e;
-        }
-      }
-  }
-  if (count < 10.0) return {0.0, 1.0};
-  const double variance = std::max(square / count, 1e-18);
-  // Neighbours that are alike count as fewer.
-  const double alike = std::clamp(lagged / std::max(square, 1e-300), 0.0, 0.99);
-  const double effective = count * (1.0 - alike) / (1.0 + alike);
-  return {std::max(effective, 10.0), variance};
-}
 
 std::vector<Effect> CompassSearch::stepped(const std::vector<Effect>& set) const {
   struct Place {
@@ -188,12 +78,12 @@ std::vector<Effect> CompassSearch::stepped(const std::vector<Effect>& set) const
             {k, f,
              set[k].fields()[f].unit == "deg" ? 0.01 : 1e-3 * std::abs(set[k].value(f)) + 1e-6});
   }
-  const auto here = error_of(set);
+  const auto here = errors_.of(set);
   std::vector<std::vector<double>> moved;
   for (const auto& place : places) {
     auto other = set;
     other[place.effect].value(place.field) += place.step;
-    moved.push_back(error_of(other));
+    moved.push_back(errors_.of(other));
   }
   const auto columns = static_cast<Eigen::Index>(places.size()) + 1;
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns, columns);
@@ -222,7 +112,7 @@ std::vector<Effect> CompassSearch::stepped(const std::vector<Effect>& set) const
 }
 
 void CompassSearch::find_bursts(const std::vector<Effect>& effects) {
-  const auto slow = slow_error_of(effects);
+  const auto slow = errors_.means_of(effects);
   std::vector<double> sizes;
   for (const auto& span : conditions_.slow_spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i)
@@ -266,7 +156,7 @@ double CompassSearch::cost(const Effect& effect) const {
 
 std::vector<Effect> CompassSearch::starts(const CauseType& cause,
                                           const std::vector<Effect>& beside) const {
-  const auto error = error_of(beside), plain = error_of({});
+  const auto error = errors_.of(beside), plain = errors_.of({});
   Series left = recording_;
   for (std::size_t i = 0; i < left.size(); ++i) {
     const std::size_t k = std::min(i / conditions_.cluster(), hidden_.size() - 1);
@@ -276,7 +166,7 @@ std::vector<Effect> CompassSearch::starts(const CauseType& cause,
   }
   left.gyro_dps.clear();
   Evidence evidence{simulator_, recording_, Scene(conditions_, left), found_.baseline};
-  evidence.baseline.compass.initial_heading_deg = centre_deg_;
+  evidence.baseline.compass.initial_heading_deg = errors_.centre_deg();
   return cause.starts(evidence);
 }
 
@@ -293,7 +183,7 @@ std::vector<Effect> CompassSearch::grown(std::vector<Effect> set, Bursts bursts)
   double clearest = set.empty() ? 0.0 : law_of(set).gain_on(law_of({}));
   for (std::size_t step = set.size(); step <= candidates_.size(); ++step) {
     if (bursts == Bursts::hidden) find_bursts(set);
-    const Law before = law_of(set);
+    const CompassErrors::Law before = law_of(set);
     std::vector<Effect> best;
     // Nature's form of what is there differs from ours by as much.
     double most = share_of_clearest * clearest;
@@ -322,7 +212,7 @@ std::vector<Effect> CompassSearch::grown(std::vector<Effect> set, Bursts bursts)
 }
 
 double CompassSearch::robust_score(const std::vector<Effect>& set) const {
-  const auto slow = slow_error_of(set);
+  const auto slow = errors_.means_of(set);
   std::vector<double> squares;
   for (const auto& span : conditions_.slow_spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i)
@@ -366,7 +256,7 @@ void CompassSearch::run(const SetSearchOptions& options) {
       candidates_.push_back(&cause);
   auto set = searched();
   if (std::any_of(set.begin(), set.end(), [](const auto& e) { return e.id() == "compass_lag"; })) {
-    shift_ = 0.0;
+    errors_.unshift();
     set = polished(set);
   }
   std::vector<Member> members;
@@ -386,9 +276,9 @@ void CompassSearch::run(const SetSearchOptions& options) {
   }
   const auto law = law_of(set);
   found_.scenario.compass.noise_std_deg = law.std_deg();
-  found_.scenario.compass.initial_heading_deg = centre_deg_;
+  found_.scenario.compass.initial_heading_deg = errors_.centre_deg();
   found_.baseline.compass.noise_std_deg = law_of({}).std_deg();
-  found_.baseline.compass.initial_heading_deg = centre_deg_;
+  found_.baseline.compass.initial_heading_deg = errors_.centre_deg();
   const double odds_of_bursts = burst_gain_ - 3.0 * cost_of_a_value_ - prior_odds;
   if (!is_left_out("magnetic_bursts") && odds_of_bursts > 0.0) {
     set.push_back(with_values("magnetic_bursts", {{"bursts_per_hour", bursts_per_hour_},

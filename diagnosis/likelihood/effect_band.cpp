@@ -15,11 +15,11 @@ EffectBand band_of(std::string_view id) {
              : EffectBand::slow;
 }
 
-bool is_narrow_band(std::string_view id) { return id == "vibration" || id == "wandering_line"; }
-
 bool is_slow(std::string_view id) {
   const auto band = band_of(id);
   return band == EffectBand::slow || band == EffectBand::thermal;
 }
+
+bool is_narrow_band(std::string_view id) { return id == "vibration" || id == "wandering_line"; }
 
 }  // namespace gyrostat::gap

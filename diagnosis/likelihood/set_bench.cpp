@@ -1,9 +1,7 @@
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 
 #include <tbb/parallel_invoke.h>
 
@@ -43,18 +41,6 @@ bool passes_the_noise_filter(const Effect& effect, const Scenario& scenario) {
     return other.id() == "noise_bandwidth" &&
            std::abs(std::log(other.value(field_of(other, "cutoff_hz")) / cutoff_hz)) < alike;
   });
-}
-
-/// Of data sheets, and of the recording on the average.
-std::array<double, 2> told_at_C(const Conditions& conditions) {
-  const auto& T = conditions.slow_temperature_C();
-  const double sum = std::accumulate(T.begin(), T.end(), 0.0);
-  return {25.0, sum / static_cast<double>(T.size())};
-}
-
-/// A start each, of which the likeliest is kept.
-bool comes_in_forms(std::string_view effect) {
-  return effect == "noise_bandwidth" || effect == "vibration_rectification";
 }
 
 }  // namespace
@@ -152,7 +138,7 @@ double SetBench::cost(const Scenario& scenario) const {
     if (cause == nullptr || is_marked(effect.id())) continue;
     sum += prior +
            of_a_parameter * static_cast<double>(cause->free_parameters.size() - cause->amplitudes +
-                                                (comes_in_forms(effect.id()) ? 1 : 0));
+                                                (cause->comes_in_forms ? 1 : 0));
     if (passes_the_noise_filter(effect, scenario)) sum -= prior;
     if (effect.id() == "sinusoidal") sum += std::log(static_cast<double>(conditions_.size()));
     if (is_narrow_band(effect.id())) sum += 0.5 * std::log(values);
@@ -291,15 +277,17 @@ Standing SetBench::without(const Standing& standing, std::size_t effect) const {
   const double small =
       0.1 * beside.slow_std_dps() / std::sqrt(static_cast<double>(conditions_.cluster()));
   Standing best = refitted(rest);
-  // A scale factor is told at some temperature, and its change with temperature about another.
-  if (standing.scenario.effects[effect].id() == "scale_factor")
-    for (auto& other : rest.effects)
-      if (other.id() == "scale_temperature")
-        for (const double reference_C : told_at_C(conditions_)) {
-          other.value(field_of(other, "reference_C")) = reference_C;
-          if (auto moved = polished(refitted(rest)); moved.score > best.score)
-            best = std::move(moved);
-        }
+  // What is told otherwise may do without it.
+  const auto band = band_of(standing.scenario.effects[effect].id());
+  for (std::size_t k = 0; k < rest.effects.size(); ++k) {
+    const auto& cause = cause_types().named(rest.effects[k].id(), "effects");
+    if (cause.told_otherwise == nullptr || band_of(cause.id) != band) continue;
+    for (const auto& other : cause.told_otherwise(rest.effects[k], conditions_)) {
+      Scenario told = rest;
+      told.effects[k] = other;
+      if (auto fit = polished(refitted(told)); fit.score > best.score) best = std::move(fit);
+    }
+  }
   if (ArimaLaw::of(rest.random_error).walk_dps < small)
     if (auto other = refitted(with_walk_of_at_least(rest, small)); other.score > best.score)
       best = std::move(other);

@@ -1,0 +1,111 @@
+#include <gyrostat/diagnosis/likelihood/compass_errors.hpp>
+
+#include <algorithm>
+#include <numbers>
+
+#include <gyrostat/core/step.hpp>
+#include <gyrostat/core/values.hpp>
+#include <gyrostat/diagnosis/starts/quantile.hpp>
+
+namespace gyrostat::gap {
+
+CompassErrors::CompassErrors(const Conditions& conditions, const Series& recording,
+                             const Scenario& baseline)
+    : conditions_(conditions), recording_(recording), baseline_(baseline) {
+  const auto error = of({});
+  double sine = 0.0, cosine = 0.0;
+  for (const auto& span : conditions_.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (!is_missing(error[i])) {
+        sine += std::sin(error[i] * std::numbers::pi / 180.0);
+        cosine += std::cos(error[i] * std::numbers::pi / 180.0);
+      }
+  centre_deg_ = std::atan2(sine, cosine) * 180.0 / std::numbers::pi;
+  shift_ = shift_of(of({}));
+}
+
+std::vector<double> CompassErrors::of(const std::vector<Effect>& effects) const {
+  Scenario quiet = baseline_;
+  quiet.effects = effects;
+  quiet.compass.noise_std_deg = 0.0;
+  quiet.compass.initial_heading_deg = centre_deg_;
+  Series ideal;
+  synthesise_heading_under(quiet, conditions_.series(), {}, ideal);
+  // Since the sample before, or until the next.
+  const auto turned = [&, last = ideal.size() - 1](std::size_t i) {
+    const std::size_t from = shift_ > 0.0 ? std::max<std::size_t>(i, 1) - 1 : i;
+    const std::size_t to = shift_ > 0.0 ? i : std::min(i + 1, last);
+    return shift_ * wrap_degrees(ideal.heading_deg[to] - ideal.heading_deg[from]);
+  };
+  std::vector<double> error(recording_.size(), no_value);
+  for (std::size_t i = 0; i < error.size(); ++i)
+    if (!is_missing(recording_.heading_deg[i]) &&
+        (recording_.mag_valid.empty() || recording_.mag_valid[i] > 0.5))
+      error[i] = wrap_degrees(recording_.heading_deg[i] - ideal.heading_deg[i] + turned(i));
+  return error;
+}
+
+std::vector<double> CompassErrors::means_of(const std::vector<Effect>& effects) const {
+  const auto error = of(effects);
+  auto slow = conditions_.slow_means(error);
+  const std::size_t cluster = conditions_.cluster();
+  for (std::size_t k = 0; k < slow.size(); ++k) {
+    const auto first = error.begin() + static_cast<std::ptrdiff_t>(k * cluster);
+    const auto last =
+        error.begin() + static_cast<std::ptrdiff_t>(std::min((k + 1) * cluster, error.size()));
+    const auto missing = std::count_if(first, last, [](double e) { return is_missing(e); });
+    if (2 * missing > last - first) slow[k] = no_value;
+  }
+  return slow;
+}
+
+double CompassErrors::shift_of(const std::vector<double>& error) const {
+  const auto& rate = conditions_.series().rate_ref_dps;
+  if (rate.empty()) return 0.0;
+  std::vector<double> sizes;
+  for (const double e : error)
+    if (!is_missing(e)) sizes.push_back(std::abs(e));
+  if (sizes.empty()) return 0.0;
+  // Bursts say nothing of it.
+  const double largest = std::max(3.0 * quantile(sizes, 0.75), 1e-12);
+  double product = 0.0, square = 0.0;
+  for (const auto& span : conditions_.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (!is_missing(error[i]) && std::abs(error[i]) < largest) {
+        product -= error[i] * rate[i];
+        square += rate[i] * rate[i];
+      }
+  return square > 0.0 ? std::clamp(product / (square * conditions_.interval_s()), -1.0, 1.0) : 0.0;
+}
+
+CompassErrors::Law CompassErrors::law_of(const std::vector<Effect>& effects,
+                                         const std::vector<char>& hidden) const {
+  const auto error = of(effects);
+  double count = 0.0, sum = 0.0, square = 0.0, lagged = 0.0;
+  for (int pass = 0; pass < 2; ++pass) {
+    const double mean = pass == 0 ? 0.0 : sum / count;
+    double before = no_value;
+    for (const auto& span : conditions_.spans(Part::train))
+      for (std::size_t i = span.first; i < span.last; ++i) {
+        const double e = error[i] - mean;
+        const std::size_t k = std::min(i / conditions_.cluster(), hidden.size() - 1);
+        if (is_missing(e) || hidden[k] != 0) continue;
+        if (pass == 0) {
+          count += 1.0;
+          sum += e;
+        } else {
+          square += e * e;
+          if (!is_missing(before)) lagged += e * before;
+          before = e;
+        }
+      }
+  }
+  if (count < 10.0) return {0.0, 1.0};
+  const double variance = std::max(square / count, 1e-18);
+  // Neighbours that are alike count as fewer.
+  const double alike = std::clamp(lagged / std::max(square, 1e-300), 0.0, 0.99);
+  const double effective = count * (1.0 - alike) / (1.0 + alike);
+  return {std::max(effective, 10.0), variance};
+}
+
+}  // namespace gyrostat::gap

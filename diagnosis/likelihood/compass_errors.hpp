@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include <gyrostat/diagnosis/gap/conditions.hpp>
+#include <gyrostat/generators/scenario.hpp>
+
+namespace gyrostat::gap {
+
+/// What a recording's heading differs by from that of the reference, with effects on the compass.
+class CompassErrors {
+ public:
+  CompassErrors(const Conditions& conditions, const Series& recording, const Scenario& baseline);
+
+  struct Law {
+    double count, variance;  ///< effective number of values
+
+    double std_deg() const { return std::sqrt(variance); }
+    /// Log-likelihood beyond another law's.
+    double gain_on(const Law& other) const {
+      return 0.5 * count * std::log(other.variance / variance);
+    }
+  };
+
+  /// The heading less the reference's and what the effects add, NaN where it is not known.
+  std::vector<double> of(const std::vector<Effect>& effects) const;
+  /// Means of the clusters of which half the samples are there at least; of a few, noise would pass
+  /// for a burst.
+  std::vector<double> means_of(const std::vector<Effect>& effects) const;
+  /// Of white noise about a level; clusters that are `hidden` (a flag each) do not count.
+  Law law_of(const std::vector<Effect>& effects, const std::vector<char>& hidden) const;
+  double centre_deg() const { return centre_deg_; }
+  /// Errors are no longer taken beside a shift of time.
+  void unshift() { shift_ = 0.0; }
+
+ private:
+  /// By how much the heading is late, in samples, at most one: recorders differ in whether a sample
+  /// has turned by its own rate, by half of it or not yet.
+  double shift_of(const std::vector<double>& error) const;
+
+  const Conditions& conditions_;
+  const Series& recording_;
+  Scenario baseline_;
+  double centre_deg_ = 0.0, shift_ = 0.0;
+};
+
+}  // namespace gyrostat::gap
