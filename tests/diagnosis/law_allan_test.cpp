@@ -43,6 +43,18 @@ TEST(LawAllan, OfALineFallsAsTheSquareOfTheAveragingTime) {
   EXPECT_LT(gap::allan_variance(law, 500), 1e-3 * peak);
 }
 
+/// A frequency that forgets at once leaves a resonance of the width 4 pi wander² T.
+TEST(LawAllan, OfALineThatWandersFastIsThatOfAResonance) {
+  const double wander_hz = 2.0, memory_s = 1e-3;
+  const gap::NoiseLaw line{.interval_s = interval_s,
+                           .wandering = {{std::sqrt(2.0 * 0.01), 5.0, wander_hz, memory_s}}};
+  const gap::NoiseLaw band{
+      .interval_s = interval_s,
+      .resonances = {{0.01, 5.0, 4.0 * std::numbers::pi * wander_hz * wander_hz * memory_s}}};
+  for (const std::size_t m : {1, 5, 15, 100})
+    EXPECT_NEAR(gap::allan_variance(line, m) / gap::allan_variance(band, m), 1.0, 0.01) << m;
+}
+
 TEST(LawAllan, AFilterLowersItAtShortTimesAndLeavesTheDensity) {
   gap::NoiseLaw law{.interval_s = interval_s, .white = 1.0};
   law.filter = effects::NoiseBandwidth{.cutoff_hz = 2.0};
