@@ -18,18 +18,6 @@ struct Diagnosed<effects::WanderingLine> {
       &effects::WanderingLine::amplitude_dps, &effects::WanderingLine::frequency_hz,
       &effects::WanderingLine::wander_hz, &effects::WanderingLine::correlation_time_s};
 
-  /// Bands that the frequency wanders through slowly, so that they have no skirts: one with skirts
-  /// has the spectrum of a vibration.
-  static std::vector<effects::WanderingLine> guesses(const Beside& beside) {
-    std::vector<effects::WanderingLine> all;
-    for (const auto& band : beside.lines())
-      all.push_back({.amplitude_dps = std::sqrt(2.0 * band.variance),
-                     .frequency_hz = band.centre_hz,
-                     .wander_hz = 0.5 * band.bandwidth_hz,
-                     .correlation_time_s = 1.0 / band.bandwidth_hz});
-    return all;
-  }
-
   static void enter(const effects::WanderingLine& effect, NoiseLaw& law) {
     law.wandering.push_back(effect);
   }

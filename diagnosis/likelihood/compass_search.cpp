@@ -258,6 +258,8 @@ void CompassSearch::run(const SetSearchOptions& options) {
   if (std::any_of(set.begin(), set.end(), [](const auto& e) { return e.id() == "compass_lag"; })) {
     errors_.unshift();
     set = polished(set);
+    find_bursts(set);
+    set = polished(set);
   }
   std::vector<Member> members;
   for (std::size_t k = 0; k < set.size();) {

@@ -20,6 +20,4 @@ bool is_slow(std::string_view id) {
   return band == EffectBand::slow || band == EffectBand::thermal;
 }
 
-bool is_narrow_band(std::string_view id) { return id == "vibration" || id == "wandering_line"; }
-
 }  // namespace gyrostat::gap

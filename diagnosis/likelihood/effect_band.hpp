@@ -9,7 +9,5 @@ enum class EffectBand { fast, slow, thermal, motion };
 EffectBand band_of(std::string_view effect);
 /// Of what warming does, too.
 bool is_slow(std::string_view effect);
-/// Has the spectrum of a narrow band; what it is called, its envelope says.
-bool is_narrow_band(std::string_view effect);
 
 }  // namespace gyrostat::gap

@@ -6,7 +6,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/line_shape.hpp>
 
@@ -16,20 +15,49 @@ namespace {
 /// An envelope that is so many times likelier than that of normal noise, as a logarithm.
 constexpr double clear_shape = 4.0;
 
-Resonance line_of(const Effect& band) {
-  const auto value = [&](std::string_view name) { return band.value(field_of(band, name)); };
-  if (band.id() == "vibration")
-    return {value("std_dps") * value("std_dps"), value("centre_hz"), value("bandwidth_hz")};
-  // As wide as the frequency wanders, or as it does while it is remembered.
-  const double wander_hz = value("wander_hz");
-  const double fast_hz =
-      4.0 * std::numbers::pi * wander_hz * wander_hz * value("correlation_time_s");
-  return {0.5 * value("amplitude_dps") * value("amplitude_dps"), value("frequency_hz"),
-          std::min(2.0 * wander_hz, fast_hz)};
+Resonance line_of(const Effect& vibration) {
+  const auto value = [&](std::string_view name) {
+    return vibration.value(field_of(vibration, name));
+  };
+  return {value("std_dps") * value("std_dps"), value("centre_hz"), value("bandwidth_hz")};
 }
 
 bool is_bursts(const LineShape& shape) {
   return shape.bursts > std::max(shape.wandering, clear_shape);
+}
+
+/// What two neighbouring bands are together.
+Resonance joined(const Resonance& a, const Resonance& b) {
+  const double variance = a.variance + b.variance;
+  const double centre_hz = (a.variance * a.centre_hz + b.variance * b.centre_hz) / variance;
+  const double apart_hz = std::abs(a.centre_hz - b.centre_hz);
+  const double spread_hz = std::sqrt(a.variance * b.variance) / variance * apart_hz;
+  const double bandwidth_hz =
+      (a.variance * a.bandwidth_hz + b.variance * b.bandwidth_hz) / variance;
+  return {variance, centre_hz, std::hypot(bandwidth_hz, 2.0 * spread_hz)};
+}
+
+/// The spectrum of a line that wanders is not that of a resonance, and is found as several side by
+/// side. They are parts of it where two together have the envelope of a sine more clearly than
+/// alone: by how much, an effect each; 0 where they have not.
+std::vector<double> parts_of_wandering_lines(const SetBench& bench, const std::vector<double>& left,
+                                             const Scenario& scenario,
+                                             const std::vector<LineShape>& shapes) {
+  const auto& effects = scenario.effects;
+  std::vector<double> gains(effects.size(), 0.0);
+  for (std::size_t a = 0; a < effects.size(); ++a)
+    for (std::size_t b = a + 1; b < effects.size(); ++b) {
+      if (effects[a].id() != "vibration" || effects[b].id() != "vibration") continue;
+      const auto one = line_of(effects[a]), other = line_of(effects[b]);
+      const double reach_hz = 2.0 * (one.bandwidth_hz + other.bandwidth_hz);
+      if (std::abs(one.centre_hz - other.centre_hz) > reach_hz) continue;
+      const double together = line_shape(bench.conditions(), left, joined(one, other)).wandering;
+      if (together < clear_shape || together <= std::max(shapes[a].wandering, shapes[b].wandering))
+        continue;
+      gains[a] = std::max(gains[a], together);
+      gains[b] = std::max(gains[b], together);
+    }
+  return gains;
 }
 
 /// A line that fills a band and whose phase wanders by so many radians within a correlation time:
@@ -59,13 +87,21 @@ Standing with_wandering_line(const SetBench& bench, const Standing& standing, st
   return best;
 }
 
+/// The noise and the other effects as they were fitted beside wandering lines.
+void take_over(const Standing& standing, Scenario& scenario) {
+  scenario.random_error = standing.scenario.random_error;
+  for (std::size_t k = 0; k < standing.scenario.effects.size(); ++k)
+    if (scenario.effects[k].id() == standing.scenario.effects[k].id())
+      scenario.effects[k] = standing.scenario.effects[k];
+}
+
 }  // namespace
 
 std::vector<char> samples_in_bursts(const SetBench& bench, const Scenario& scenario,
                                     const std::vector<double>& left_dps) {
   std::vector<char> inside(left_dps.size(), 0);
   for (const auto& effect : scenario.effects) {
-    if (!is_narrow_band(effect.id())) continue;
+    if (effect.id() != "vibration") continue;
     const auto line = line_of(effect);
     const auto shape = line_shape(bench.conditions(), left_dps, line);
     if (!is_bursts(shape)) continue;
@@ -82,52 +118,46 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
   auto& effects = found.scenario.effects;
   std::vector<LineShape> shapes(effects.size());
   tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t k) {
-    if (is_narrow_band(effects[k].id()))
+    if (effects[k].id() == "vibration")
       shapes[k] = line_shape(bench.conditions(), left, line_of(effects[k]));
   });
+  const auto parts = parts_of_wandering_lines(bench, left, found.scenario, shapes);
+  bool wanders = false;
   for (std::size_t k = 0; k < effects.size(); ++k) {
     auto& effect = effects[k];
-    if (!is_narrow_band(effect.id())) continue;
+    if (effect.id() != "vibration") continue;
     const auto line = line_of(effect);
     const auto& shape = shapes[k];
-    const double gain = std::max(shape.bursts, shape.wandering);
-    const std::string_view name = gain < clear_shape ? "vibration"
-                                  : is_bursts(shape) ? "vibration_bursts"
-                                                     : "wandering_line";
-    if (name == effect.id() && gain < clear_shape) continue;
+    const bool bursts = is_bursts(shape) && parts[k] == 0.0;
+    const double gain = std::max({shape.bursts, shape.wandering, parts[k]});
+    const std::string_view name = bursts ? "vibration_bursts" : "wandering_line";
+    if (gain < clear_shape) continue;
     const auto known = std::find_if(found.members.begin(), found.members.end(),
-                                    [&](const auto& m) { return m.effect == effect.id(); });
+                                    [](const auto& m) { return m.effect == "vibration"; });
     if (!bench.is_allowed(name)) {
-      const double odds = known != found.members.end() ? known->log_odds : clear_shape;
-      found.nameless_log_odds = std::max(found.nameless_log_odds, gain < clear_shape ? odds : gain);
+      found.nameless_log_odds = std::max(found.nameless_log_odds, gain);
       if (known != found.members.end()) found.members.erase(known);
       continue;
     }
-    if (known != found.members.end()) {
-      known->effect = name;
-      if (gain >= clear_shape) known->log_odds = std::min(known->log_odds, gain);
-    }
-    if (name == effect.id()) continue;
-    // Those of the form that it was found in are not those of what it is called.
+    // Those of the resonance are not those of what it is called.
     std::erase_if(found.intervals, [&](const auto& interval) { return interval.effect == k; });
-    if (name == "vibration") {
-      effect = with_values(name, {{"std_dps", std::sqrt(line.variance)},
-                                  {"centre_hz", line.centre_hz},
-                                  {"bandwidth_hz", line.bandwidth_hz}});
-    } else if (name == "vibration_bursts") {
-      effect = with_values(name, {{"std_dps", shape.on_std_dps},
-                                  {"centre_hz", line.centre_hz},
-                                  {"bandwidth_hz", line.bandwidth_hz},
-                                  {"mean_duration_s", shape.on_s},
-                                  {"mean_interval_s", shape.off_s}});
+    if (bursts) {
+      effect = with_values("vibration_bursts", {{"std_dps", shape.on_std_dps},
+                                                {"centre_hz", line.centre_hz},
+                                                {"bandwidth_hz", line.bandwidth_hz},
+                                                {"mean_duration_s", shape.on_s},
+                                                {"mean_interval_s", shape.off_s}});
     } else {
       standing = with_wandering_line(bench, standing, k);
-      found.scenario.random_error = standing.scenario.random_error;
-      for (std::size_t other = 0; other < standing.scenario.effects.size(); ++other)
-        if (effects[other].id() == standing.scenario.effects[other].id() || other == k)
-          effects[other] = standing.scenario.effects[other];
+      effect = standing.scenario.effects[k];
+      wanders = true;
+    }
+    if (known != found.members.end()) {
+      known->effect = name;
+      known->log_odds = std::min(known->log_odds, gain);
     }
   }
+  if (wanders) take_over(standing, found.scenario);
   // One name each, however many lines it has.
   auto& members = found.members;
   for (std::size_t k = 1; k < members.size();)
@@ -137,7 +167,7 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
     else
       ++k;
   for (const auto& effect : effects)
-    if ((!is_narrow_band(effect.id()) || found.nameless_log_odds == 0.0) &&
+    if ((effect.id() != "vibration" || found.nameless_log_odds == 0.0) &&
         std::none_of(members.begin(), members.end(),
                      [&](const auto& m) { return m.effect == effect.id(); }))
       members.push_back({std::string(effect.id()), clear_shape});

@@ -141,7 +141,8 @@ double SetBench::cost(const Scenario& scenario) const {
                                                 (cause->comes_in_forms ? 1 : 0));
     if (passes_the_noise_filter(effect, scenario)) sum -= prior;
     if (effect.id() == "sinusoidal") sum += std::log(static_cast<double>(conditions_.size()));
-    if (is_narrow_band(effect.id())) sum += 0.5 * std::log(values);
+    if (effect.id() == "vibration" || effect.id() == "wandering_line")
+      sum += 0.5 * std::log(values);
   }
   return sum;
 }
@@ -192,6 +193,7 @@ Standing SetBench::with(const Standing& standing, const CauseType& cause,
     for (const auto& guess : cause.guesses(beside)) {
       screened.emplace_back();
       for (const double walk : {1.0, 0.1}) {
+        if (jumps && slow && walk < 1.0) continue;  // beside them it is small, and they take long
         Scenario scenario = with_walk_times(standing.scenario, walk);
         scenario.effects.push_back(guess);
         scenario = standing.fitter->with_white_noise_scaled(std::move(scenario));
@@ -292,14 +294,6 @@ Standing SetBench::without(const Standing& standing, std::size_t effect) const {
     if (auto other = refitted(with_walk_of_at_least(rest, small)); other.score > best.score)
       best = std::move(other);
   return best;
-}
-
-std::optional<Standing> SetBench::vacated(const Standing& standing, std::size_t effect) const {
-  if (is_taken_out(standing.scenario.effects[effect])) return std::nullopt;
-  Standing rest = standing;
-  for (auto* effects : {&rest.scenario.effects, &rest.fit.scenario.effects})
-    effects->erase(effects->begin() + static_cast<std::ptrdiff_t>(effect));
-  return rest;
 }
 
 std::vector<double> SetBench::rate_left_by(const Scenario& scenario,

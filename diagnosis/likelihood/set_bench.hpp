@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,9 +56,6 @@ class SetBench {
   /// With one more effect; a score of -1e300 where it cannot be had. `left` is what the set leaves.
   Standing with(const Standing& standing, const CauseType& cause, const Evidence* left) const;
   Standing without(const Standing& standing, std::size_t effect) const;
-  /// Without an effect, all else as it was fitted beside it: where another may take its place. None
-  /// of an effect that is taken out.
-  std::optional<Standing> vacated(const Standing& standing, std::size_t effect) const;
   /// Of the parameters of a fitted set; those of what is taken out from the curvature of the
   /// likelihood, the other effects as they are.
   std::vector<ParameterInterval> intervals_of(const Standing& standing) const;

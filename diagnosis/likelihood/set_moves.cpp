@@ -23,26 +23,16 @@ EffectBand band_of_last(const Standing& standing) {
 }
 
 /// A sensor has lines as it has them; every other effect is there once.
-bool may_be_added(const Scenario& scenario, std::string_view effect) {
+bool may_repeat(const Scenario& scenario, std::string_view effect) {
   constexpr std::ptrdiff_t most_lines = 3;
-  if (!is_narrow_band(effect)) return !has(scenario, effect);
-  return std::count_if(scenario.effects.begin(), scenario.effects.end(),
-                       [](const auto& e) { return is_narrow_band(e.id()); }) < most_lines;
-}
-
-/// Whether one may stand for the other as itself in another form.
-bool are_one(std::string_view effect, std::string_view other) {
-  return effect == other || (is_narrow_band(effect) && is_narrow_band(other));
-}
-
-double white_of(const Standing& standing) {
-  return standing.scenario.random_error.measurement_noise_std_dps;
+  return effect == "vibration" &&
+         std::count_if(scenario.effects.begin(), scenario.effects.end(),
+                       [&](const auto& e) { return e.id() == effect; }) < most_lines;
 }
 
 }  // namespace
 
-std::vector<Standing> SetSearcher::each_added(const Standing& standing,
-                                              std::optional<EffectBand> band) {
+std::vector<Standing> SetSearcher::each_added(const Standing& standing) {
   std::vector<Standing> all(candidates_.size());
   std::atomic<std::size_t> tried{0};
   const auto caller = std::this_thread::get_id();
@@ -52,8 +42,7 @@ std::vector<Standing> SetSearcher::each_added(const Standing& standing,
         [&](std::size_t k) {
           const auto& cause = *candidates_[k];
           if ((cause.guesses != nullptr) != with_guesses) return;
-          if (band && band_of(cause.id) != *band) return;
-          if (may_be_added(standing.scenario, cause.id))
+          if (!has(standing.scenario, cause.id) || may_repeat(standing.scenario, cause.id))
             all[k] = bench_.with(standing, cause, left);
           const auto done = static_cast<double>(++tried);
           if (std::this_thread::get_id() == caller)
@@ -64,7 +53,6 @@ std::vector<Standing> SetSearcher::each_added(const Standing& standing,
   // Guesses need no evidence, and are tried while it is made for the others.
   tbb::parallel_invoke(
       [&] {
-        if (band && *band != EffectBand::motion) return;
         if (std::all_of(candidates_.begin(), candidates_.end(),
                         [](const auto* cause) { return cause->guesses != nullptr; }))
           return;
@@ -160,21 +148,12 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
       tell(fmt::format("rivals of {}", effect.id()), standing.scenario.effects.size() - k);
       const auto rest = bench_.without(standing, k);
       // The same effect from other parameters may stand there, too, but is no rival.
-      auto others = each_added(rest);
-      // What is left may have grown into the place, down to no white noise for a filter to pass:
-      // there others begin beside the rest as it was, too.
-      if (const auto place = bench_.vacated(standing, k);
-          place && white_of(rest) < 0.5 * white_of(standing)) {
-        auto in_place = each_added(*place, band_of(effect.id()));
-        for (std::size_t c = 0; c < others.size(); ++c)
-          if (in_place[c].score > others[c].score) others[c] = std::move(in_place[c]);
-      }
+      const auto others = each_added(rest);
       double second = rest.score;
       const Standing* best = &rest;
       for (const auto& other : others) {
         if (other.score > best->score) best = &other;
-        if (other.score < -1e299 || are_one(other.scenario.effects.back().id(), effect.id()))
-          continue;
+        if (other.score < -1e299 || other.scenario.effects.back().id() == effect.id()) continue;
         second = std::max(second, other.score);
         if (other.score > standing.score - 3.0)
           found.rivals.push_back({other.scenario.effects.back(),

@@ -52,8 +52,8 @@ class SetSearcher {
     const auto rounds = static_cast<double>(rounds_);
     if (progress_) progress_(doing_, (rounds + of_round) / (rounds + static_cast<double>(left_)));
   }
-  /// One round of the search: with each candidate (of one band), one more.
-  std::vector<Standing> each_added(const Standing& standing, std::optional<EffectBand> band = {});
+  /// One round of the search.
+  std::vector<Standing> each_added(const Standing& standing);
   Standing searched(Standing standing);
   /// The best of the sets with two more effects, neither of which pays alone: where both are slow,
   /// one leaves to the walk what hides it. The standing itself where there is none better.
