@@ -1,7 +1,6 @@
 #include <gyrostat/diagnosis/likelihood/noise_law.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -17,8 +16,8 @@ double poisson_kernel(double a, double cosine) {
 }
 
 /// As a periodogram through Hann's window shows it, over that of unit white noise.
-std::vector<double> transformed(const effects::WanderingLine& line, std::size_t bins,
-                                double interval_s) {
+std::vector<double> density_of(const effects::WanderingLine& line, std::size_t bins,
+                               double interval_s) {
   const std::size_t length = 2 * (bins - 1);
   // At its angles, a periodogram takes lags for those that are a segment less.
   std::vector<double> covariance(bins, 0.0);
@@ -42,23 +41,6 @@ std::vector<double> transformed(const effects::WanderingLine& line, std::size_t 
   auto density = cosine_sums(covariance);
   for (double& d : density) d = std::max(d, 0.0);
   return density;
-}
-
-/// A fit moves one parameter at a time: most lines are those that were asked for just before.
-const std::vector<double>& density_of(const effects::WanderingLine& line, std::size_t bins,
-                                      double interval_s) {
-  struct Known {
-    effects::WanderingLine line;
-    double interval_s = 0.0;
-    std::vector<double> density;
-  };
-  static thread_local std::array<Known, 8> known;
-  static thread_local std::size_t oldest = 0;
-  for (const auto& k : known)
-    if (k.line == line && k.interval_s == interval_s && k.density.size() == bins) return k.density;
-  auto& place = known[oldest++ % known.size()];
-  place = {line, interval_s, transformed(line, bins, interval_s)};
-  return place.density;
 }
 
 }  // namespace
@@ -125,7 +107,7 @@ std::vector<double> density_of(const NoiseLaw& given, const Angles& angles) {
     }
   }
   for (const auto& line : law.wandering) {
-    const auto& of_line = density_of(line, bins, law.interval_s);
+    const auto of_line = density_of(line, bins, law.interval_s);
     for (std::size_t k = 0; k < bins; ++k) density[k] += of_line[k];
   }
   for (double& d : density) d *= 2.0 * law.interval_s;

@@ -50,8 +50,6 @@ struct WanderingLine {
     return std::exp(-radians * radians * spread);
   }
 
-  friend bool operator==(const WanderingLine&, const WanderingLine&) = default;
-
   static constexpr WanderingLine absent() { return {.amplitude_dps = 0.0}; }
 
   void apply(Series& series, const Noise& noise) const {
