@@ -90,10 +90,10 @@ double jump_log_likelihood(const SlowLaw& law, std::span<const std::size_t> poin
   JumpHistories<N> histories(still, *law.jumps);
   double total = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    if (k > 0) histories.predict(points[k] - points[k - 1], *law.jumps, law.interval_s);
-    histories.update(values[static_cast<Eigen::Index>(k)], k == 0);
-    total += histories.normalise();
-    histories.keep_the_likeliest();
+    if (k > 0) histories.predict(points[k] - points[k - 1]);
+    const double log_density = histories.update(values[static_cast<Eigen::Index>(k)]);
+    if (k > 0) total += log_density;
+    histories.reduce();
   }
   return total;
 }

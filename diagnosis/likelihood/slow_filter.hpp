@@ -36,9 +36,8 @@ struct SlowTerms {
 /// Time Series Models and the Kalman Filter", 1989, 3.4.3), of `values` at the strictly rising
 /// `points`. The coefficients of `regressors` (points x any) are integrated out, with normal priors
 /// of the standard deviations `prior_std` (Harvey 1989, 3.4.4, where they are infinite). Jumps,
-/// where the law has them, are followed by the likeliest of their histories (a Gaussian sum:
-/// Alspach and Sorenson, IEEE Trans. AC-17, 1972), with the coefficients of the Gaussian law of the
-/// same covariance.
+/// where the law has them, are followed by a Gaussian sum of their histories (Alspach and Sorenson,
+/// IEEE Trans. AC-17, 1972), with the coefficients of the Gaussian law of the same covariance.
 SlowTerms slow_terms(const SlowLaw& law, std::span<const std::size_t> points,
                      const Eigen::VectorXd& values, const Eigen::MatrixXd& regressors,
                      const Eigen::VectorXd& prior_std);
