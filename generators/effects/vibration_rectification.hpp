@@ -7,6 +7,7 @@
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/between_changes.hpp>
 #include <gyrostat/generators/sampled.hpp>
 #include <gyrostat/generators/stage.hpp>
 
@@ -15,10 +16,13 @@ namespace gyrostat::effects {
 /// Vibration shifts the bias (IEEE Std 528, acceleration-squared-sensitive drift
 /// rate): + coefficient times the mean square of what the
 /// specific force deviates by from its own mean, of all three axes together. Both means forget with
-/// the time constant; so gravity, and turning it slowly, count for nothing.
+/// the time constant; so gravity, and turning it slowly, count for nothing. Or the mean square is
+/// that of the stretch between two changes of the vibration: what squares tell of its strength is
+/// noisy, and the vibration of a machine keeps to a strength until it is set to another.
 struct VibrationRectification {
   double coefficient_dps_per_m2ps4 = 0.01;
   double time_constant_s = 2.0;
+  double between_its_changes = 0.0;
 
   static constexpr std::string_view title = "the bias depends on the strength of vibration";
   static constexpr Stage stage = Stage::electronics;
@@ -32,12 +36,15 @@ struct VibrationRectification {
               ranges::any, "bias per mean square of the vibration"},
         Field{"time_constant_s", &P::time_constant_s, "s", ranges::positive,
               "time over which it is averaged"},
+        Field{"between_its_changes", &P::between_its_changes, "1",
+              Range{.from = 0, .to = 1, .whole = true},
+              "1: the mean square is that of a stretch of even vibration"},
     };
   }
 
   static constexpr VibrationRectification absent() { return {.coefficient_dps_per_m2ps4 = 0.0}; }
 
-  /// Mean square of the vibration at each sample, (m/s²)²; 0 at the first.
+  /// Mean square of the vibration at each sample, (m/s²)².
   std::vector<double> mean_square(const Series& series) const {
     constexpr std::array axes = {&Series::acc_x_mps2, &Series::acc_y_mps2, &Series::acc_z_mps2};
     std::vector<double> squares(samples_with(series, axes));
@@ -52,9 +59,14 @@ struct VibrationRectification {
         mean[k] = now + kept * (mean[k] - now);
         square += (now - mean[k]) * (now - mean[k]);
       }
-      squares[i] = averaged = square + kept * (averaged - square);
+      averaged = square + kept * (averaged - square);
+      squares[i] = between_its_changes > 0.5 ? square : averaged;
     }
-    return squares;
+    if (between_its_changes < 0.5 || squares.size() < 2) return squares;
+    const double interval_s =
+        (series.t_s[squares.size() - 1] - series.t_s[0]) / static_cast<double>(squares.size() - 1);
+    const double block = std::max(0.5 / interval_s, static_cast<double>(squares.size()) / 4096.0);
+    return between_changes(squares, static_cast<std::size_t>(std::max(block, 4.0)));
   }
 
   void apply(Series& series, const Noise& /*noise*/) const {

@@ -199,6 +199,23 @@ TEST(VibrationRectification, OfAStepIsForgotten) {
     EXPECT_NEAR(bias[i], 0.5 * 4.0 * std::pow(k, i + 1) * (1.0 - std::pow(k, i)), 1e-12) << i;
 }
 
+/// Of two stretches, each in proportion to its own mean square from its first sample on.
+TEST(VibrationRectification, BetweenItsChangesKeepsToALevel) {
+  auto series = silent(even_times(4000, 50.0));
+  series.acc_x_mps2.assign(series.size(), 0.0);
+  series.acc_y_mps2.assign(series.size(), 0.0);
+  const NormalStream noise(5, 0, "shaker");
+  for (std::size_t i = 0; i < series.size(); ++i)
+    series.acc_z_mps2.push_back(9.8 + (i < 1500 ? 1.0 : 4.0) * noise.normal(i));
+  effects::VibrationRectification{0.01, 2.0, 1.0}.apply(series, {1, 0});
+  const double before = series.gyro_dps[1480], after = series.gyro_dps[1520];
+  EXPECT_NEAR(before, 0.01, 0.01 * 5.0 * std::sqrt(2.0 / 1500.0));
+  EXPECT_NEAR(after, 0.16, 0.16 * 5.0 * std::sqrt(2.0 / 2500.0));
+  // The first seconds are those of a mean that is not known yet.
+  for (std::size_t i = 200; i < 1480; ++i) ASSERT_EQ(series.gyro_dps[i], before) << i;
+  for (std::size_t i = 1520; i < series.size(); ++i) ASSERT_EQ(series.gyro_dps[i], after) << i;
+}
+
 /// What the effect adds to the drift at these temperatures, 1 s apart.
 std::vector<double> lag(const effects::ThermalLag& effect,
                         const std::vector<double>& temperature_C) {
