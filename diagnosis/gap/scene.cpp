@@ -25,21 +25,27 @@ Spectrum spectrum_of(const std::vector<double>& values, const std::vector<Span>&
   return welch(stretches, rate_hz, length, segments < 32 ? length / 2 : length);
 }
 
-/// Takes out of `heading` what a misalignment of time by up to one sampling interval explains: the
-/// true heading at a sample and at the one before it are the same thing to most recorders.
+/// Takes out of `heading`, without its mean, what a misalignment of time by up to one sampling
+/// interval explains: the true heading at a sample and at the one before it are the same thing to
+/// most recorders.
 void align(const Conditions& conditions, std::vector<double>& heading) {
   const auto& rate = conditions.series().rate_ref_dps;
-  double product = 0.0, square = 0.0;
-  for (const auto& span : conditions.spans(Part::train))
-    for (std::size_t i = span.first; i < span.last; ++i)
-      if (!is_missing(heading[i])) {
-        product += heading[i] * rate[i];
-        square += rate[i] * rate[i];
-      }
+  const auto over_valid = [&](auto&& add) {
+    for (const auto& span : conditions.spans(Part::train))
+      for (std::size_t i = span.first; i < span.last; ++i)
+        if (!is_missing(heading[i])) add(i);
+  };
+  double sum = 0.0, count = 0.0, product = 0.0, square = 0.0;
+  over_valid([&](std::size_t i) { sum += rate[i], count += 1.0; });
+  const double mean = count > 0.0 ? sum / count : 0.0;
+  over_valid([&](std::size_t i) {
+    product += heading[i] * (rate[i] - mean);
+    square += (rate[i] - mean) * (rate[i] - mean);
+  });
   if (square == 0.0) return;
   const double lag = product / square;
   if (std::abs(lag) > conditions.interval_s()) return;  // more than a misalignment
-  for (std::size_t i = 0; i < heading.size(); ++i) heading[i] -= lag * rate[i];
+  for (std::size_t i = 0; i < heading.size(); ++i) heading[i] -= lag * (rate[i] - mean);
 }
 
 /// Takes out what slow values, in the middle of each cluster, say by linear interpolation.

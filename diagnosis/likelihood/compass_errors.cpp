@@ -68,14 +68,24 @@ double CompassErrors::shift_of(const std::vector<double>& error) const {
   if (sizes.empty()) return 0.0;
   // Bursts say nothing of it.
   const double largest = std::max(3.0 * quantile(sizes, 0.75), 1e-12);
-  double product = 0.0, square = 0.0;
+  double count = 0.0, errors = 0.0, rates = 0.0, product = 0.0, square = 0.0;
   for (const auto& span : conditions_.spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i)
       if (!is_missing(error[i]) && std::abs(error[i]) < largest) {
+        count += 1.0;
+        errors += error[i];
+        rates += rate[i];
         product -= error[i] * rate[i];
         square += rate[i] * rate[i];
       }
+  if (count == 0.0) return 0.0;
+  product += errors * rates / count;
+  square -= rates * rates / count;
   return square > 0.0 ? std::clamp(product / (square * conditions_.interval_s()), -1.0, 1.0) : 0.0;
+}
+
+void CompassErrors::shift_beside(const std::vector<Effect>& effects) {
+  shift_ = std::clamp(shift_ + shift_of(of(effects)), -1.0, 1.0);
 }
 
 CompassErrors::Law CompassErrors::law_of(const std::vector<Effect>& effects,

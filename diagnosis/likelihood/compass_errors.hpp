@@ -33,6 +33,9 @@ class CompassErrors {
   double centre_deg() const { return centre_deg_; }
   /// Errors are no longer taken beside a shift of time.
   void unshift() { shift_ = 0.0; }
+  /// They are taken beside the shift of time that is left beside the effects: iron turns with the
+  /// heading, and a shift shows as it does.
+  void shift_beside(const std::vector<Effect>& effects);
 
  private:
   /// By how much the heading is late, in samples, at most one: recorders differ in whether a sample

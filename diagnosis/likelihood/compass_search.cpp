@@ -255,11 +255,17 @@ void CompassSearch::run(const SetSearchOptions& options) {
         !is_left_out(cause.id) && cause.why_not_assessable(conditions_).empty())
       candidates_.push_back(&cause);
   auto set = searched();
-  if (std::any_of(set.begin(), set.end(), [](const auto& e) { return e.id() == "compass_lag"; })) {
+  const auto is_lag = [](const Effect& e) { return e.id() == "compass_lag"; };
+  const bool lags = std::any_of(set.begin(), set.end(), is_lag);
+  if (lags)
     errors_.unshift();
+  else
+    errors_.shift_beside(set);
+  if (!set.empty()) {
     set = polished(set);
     find_bursts(set);
     set = polished(set);
+    if (!lags) errors_.shift_beside(set);
   }
   std::vector<Member> members;
   for (std::size_t k = 0; k < set.size();) {
