@@ -87,37 +87,41 @@ std::vector<std::string> Diagnosing::weighed(std::vector<Member> members) {
         if (effect.id() == m.effect) result_.effects.back().parameters.push_back(effect);
       add_intervals(result_.effects.back());
     }
-    const auto least =
-        std::min_element(result_.effects.begin(), result_.effects.end(),
-                         [](const auto& x, const auto& y) { return x.lack < y.lack; });
-    if (members.size() < 2 || least->lack > 0.0 || !is_missed_by(whole)) return names;
-    const auto at = least - result_.effects.begin();
+    if (members.size() < 2 || !is_missed_by(whole)) return names;
+    // An effect that the readings of its own channel bear out stays, whatever the others miss.
+    std::ptrdiff_t at = -1;
+    for (std::size_t k = 0; k < members.size(); ++k)
+      if (const double lack = result_.effects[k].lack;
+          lack <= 0.0 && tempered(members[k], whole) < thresholds::clear_odds &&
+          (at < 0 || lack < result_.effects[static_cast<std::size_t>(at)].lack))
+        at = static_cast<std::ptrdiff_t>(k);
+    if (at < 0) return names;
     result_.enriched = without[static_cast<std::size_t>(at)].scenario;
     whole = std::move(without[static_cast<std::size_t>(at)]);
     members.erase(members.begin() + at);
   }
 }
 
-void Diagnosing::temper() {
-  const Ensemble enriched(simulator_.instrument(Part::train), rungs_.back().replicas[0], {});
+double Diagnosing::tempered(const Member& member, const Rung& set) const {
+  if (member.read_off) return member.log_odds;
+  const bool of_compass =
+      cause_types().named(member.effect, "effects").effect().stage() == Stage::compass;
+  const Ensemble enriched(simulator_.instrument(Part::train), set.replicas[0], {});
   const auto z = enriched.deviations(observed_[0]);
-  const auto dispersion_in = [&](bool compass) {
-    double squares = 0.0, count = 0.0;
-    for (const auto& lens : enriched.lenses()) {
-      if ((lens.channel == "heading_deg") != compass) continue;
-      squares += z.segment(lens.first, lens.count).squaredNorm();
-      count += static_cast<double>(lens.count);
-    }
-    return std::max(1.0, squares / std::max(1.0, count));
-  };
-  const double of_rate = dispersion_in(false), of_compass = dispersion_in(true);
+  double squares = 0.0, count = 0.0;
+  for (const auto& lens : enriched.lenses()) {
+    if ((lens.channel == "heading_deg") != of_compass) continue;
+    squares += z.segment(lens.first, lens.count).squaredNorm();
+    count += static_cast<double>(lens.count);
+  }
+  return member.log_odds / std::max(1.0, squares / std::max(1.0, count));
+}
+
+void Diagnosing::temper() {
   for (auto& effect : result_.effects) {
     const auto member = std::find_if(found_.members.begin(), found_.members.end(),
                                      [&](const auto& m) { return m.effect == effect.effect; });
-    if (member->read_off) continue;
-    const bool compass =
-        cause_types().named(effect.effect, "effects").effect().stage() == Stage::compass;
-    effect.log_odds /= compass ? of_compass : of_rate;
+    effect.log_odds = tempered(*member, rungs_.back());
     effect.inclusion = probability_of(effect.log_odds);
   }
 }

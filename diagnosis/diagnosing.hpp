@@ -59,13 +59,15 @@ class Diagnosing {
   /// Puts it in the verdict's set, once.
   void cannot_rule_out(const Verdict& verdict);
   /// What each of the set's effects is worth: their names. Where the simulator with all of them
-  /// misses the recording, its likelihood is not the recording's, and an effect without which the
-  /// readings of the train part are foretold as well is the form of another one: it goes.
+  /// misses the recording, its likelihood is not the recording's, and an effect that is not clear
+  /// and without which the readings of the train part are foretold as well is the form of another
+  /// one: it goes.
   std::vector<std::string> weighed(std::vector<Member> members);
   bool is_missed_by(const Rung& rung) const;
-  /// Odds are those of a likelihood that is as far off as the readings of its channel say: its
-  /// logarithm over their mean square deviation (quasi-likelihood; Wedderburn, Biometrika 61,
-  /// 1974). What is read off the values has no likelihood of the noise.
+  /// Log odds of a likelihood that is as far off as the readings of its channel say, beside the
+  /// set: over their mean square deviation (quasi-likelihood; Wedderburn, Biometrika 61, 1974).
+  /// What is read off the values has no likelihood of the noise.
+  double tempered(const Member& member, const Rung& set) const;
   void temper();
   void judge_claim();
   Rung rung(const std::string& effect, const Scenario& scenario, std::size_t replicas) const;

@@ -67,10 +67,11 @@ class JumpHistories {
     double most = -1e300;
     for (std::size_t h = 0; h < size_; ++h) {
       exponent[h] = -0.5 * (std::log(variance_[h]) + innovation[h] * innovation[h] / variance_[h]);
-      most = std::max(most, exponent[h]);
+      if (weight_[h] > 0.0) most = std::max(most, exponent[h]);
     }
     double total = 0.0;
-    for (std::size_t h = 0; h < size_; ++h) total += weight_[h] *= std::exp(exponent[h] - most);
+    for (std::size_t h = 0; h < size_; ++h)
+      if (weight_[h] > 0.0) total += weight_[h] *= std::exp(exponent[h] - most);
     for (std::size_t h = 0; h < size_; ++h) weight_[h] /= total;
     return most + std::log(total) - 0.5 * log_two_pi;
   }

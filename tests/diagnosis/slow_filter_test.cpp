@@ -195,6 +195,21 @@ TEST(SlowFilter, FollowsManyFaintJumpsAsAGridOfLevelsDoes) {
     }
 }
 
+/// A value far off leaves nothing of the histories without a jump there, and the next one is as
+/// they say.
+TEST(SlowFilter, AValueThatNoJumpExplainsHasAFiniteLikelihood) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(200);
+  values[100] = 1e3;
+  std::vector<std::size_t> each(200);
+  std::iota(each.begin(), each.end(), std::size_t{0});
+  for (const auto to : {Jumps::To::the_other_level, Jumps::To::another_level}) {
+    const SlowLaw law{.white = 1.0, .walk = 0.0, .parts = {}, .jumps = Jumps{to, 1.0, 1e-4}};
+    const auto terms = slow_terms(law, each, values, Eigen::MatrixXd(200, 0), Eigen::VectorXd());
+    EXPECT_TRUE(std::isfinite(terms.log_likelihood));
+    EXPECT_LT(terms.log_likelihood, -1e5);
+  }
+}
+
 struct Reduced {
   Series series = recorded(still(), 3, false);
   Conditions conditions{series};
