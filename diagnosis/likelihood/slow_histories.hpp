@@ -42,7 +42,7 @@ class JumpHistories {
     for (int i = 0; i < states(); ++i)
       for (std::size_t h = 0; h < lanes; ++h) state_[i][h] *= left_[i];
     for (int i = 0; i < states(); ++i)
-      for (int j = 0; j < states(); ++j) {
+      for (int j = 0; j <= i; ++j) {
         const double left = left_[i] * left_[j], gained = i == j ? gained_[i] : 0.0;
         for (std::size_t h = 0; h < lanes; ++h) at(i, j)[h] = at(i, j)[h] * left + gained;
       }
@@ -54,16 +54,15 @@ class JumpHistories {
     find_expectations();
     Lanes innovation, exponent;
     for (std::size_t h = 0; h < lanes; ++h) innovation[h] = value - level_[h] - expected_[h];
-    std::array<Lanes, N> row{};
+    std::array<Lanes, N> gain;
     for (int i = 0; i < states(); ++i)
-      for (int j = 0; j < states(); ++j)
-        for (std::size_t h = 0; h < lanes; ++h) row[i][h] += at(i, j)[h];
+      for (std::size_t h = 0; h < lanes; ++h) {
+        gain[i][h] = row_[i][h] / variance_[h];
+        state_[i][h] += gain[i][h] * innovation[h];
+      }
     for (int i = 0; i < states(); ++i)
-      for (std::size_t h = 0; h < lanes; ++h)
-        state_[i][h] += row[i][h] / variance_[h] * innovation[h];
-    for (int i = 0; i < states(); ++i)
-      for (int j = 0; j < states(); ++j)
-        for (std::size_t h = 0; h < lanes; ++h) at(i, j)[h] -= row[i][h] / variance_[h] * row[j][h];
+      for (int j = 0; j <= i; ++j)
+        for (std::size_t h = 0; h < lanes; ++h) at(i, j)[h] -= gain[i][h] * row_[j][h];
     double most = -1e300;
     for (std::size_t h = 0; h < size_; ++h) {
       exponent[h] = -0.5 * (std::log(variance_[h]) + innovation[h] * innovation[h] / variance_[h]);
@@ -96,17 +95,28 @@ class JumpHistories {
  private:
   bool is_of_two() const { return jumps_.to == Jumps::To::the_other_level; }
   int states() const { return motion_.states(); }
-  Lanes& at(int i, int j) { return covariance_[static_cast<std::size_t>(i * N + j)]; }
+  /// Of states j <= i.
+  Lanes& at(int i, int j) { return covariance_[static_cast<std::size_t>(i * (i + 1) / 2 + j)]; }
 
-  /// What each expects of the next value but for its level, and how surely.
+  /// What each expects of the next value but for its level, how surely, and how it goes with the
+  /// states.
   void find_expectations() {
     expected_.fill(0.0);
     variance_.fill(motion_.white);
+    row_ = {};
     for (int i = 0; i < states(); ++i) {
-      for (std::size_t h = 0; h < lanes; ++h) expected_[h] += state_[i][h];
-      for (int j = 0; j < states(); ++j)
-        for (std::size_t h = 0; h < lanes; ++h) variance_[h] += at(i, j)[h];
+      for (int j = 0; j < i; ++j)
+        for (std::size_t h = 0; h < lanes; ++h) {
+          row_[i][h] += at(i, j)[h];
+          row_[j][h] += at(i, j)[h];
+        }
+      for (std::size_t h = 0; h < lanes; ++h) row_[i][h] += at(i, i)[h];
     }
+    for (int i = 0; i < states(); ++i)
+      for (std::size_t h = 0; h < lanes; ++h) {
+        expected_[h] += state_[i][h];
+        variance_[h] += row_[i][h];
+      }
   }
 
   /// What is lost where h and each other becomes one: their divergence (Jeffreys 1946) times what
@@ -132,23 +142,40 @@ class JumpHistories {
       bear(parents, 0.0);
     for (std::size_t h = 0; h < parents; ++h) weight_[h] *= 1.0 - jump_;
   }
-  /// The child of those of the parents that are on a level.
+  /// The child of those of the parents that are on a level, of their mean and covariance.
   void bear(std::size_t parents, double level) {
-    const std::size_t child = size_;
-    bool is_born = false;
-    for (std::size_t h = 0; h < parents; ++h) {
-      if (level_[h] != level) continue;
-      if (is_born)
-        join(h, child);
-      else
-        copy(h, child);
-      is_born = true;
+    Lanes share{};
+    for (std::size_t h = 0; h < parents; ++h) share[h] = level_[h] == level ? weight_[h] : 0.0;
+    const double total = sum(share);
+    if (!(total > 0.0)) return;
+    for (double& s : share) s /= total;
+    std::array<Lanes, N> apart, shared;
+    std::array<double, N> mean;
+    for (int i = 0; i < states(); ++i) {
+      for (std::size_t h = 0; h < lanes; ++h) shared[i][h] = share[h] * state_[i][h];
+      mean[i] = sum(shared[i]);
+      for (std::size_t h = 0; h < lanes; ++h) {
+        apart[i][h] = state_[i][h] - mean[i];
+        shared[i][h] = share[h] * apart[i][h];
+      }
     }
-    if (!is_born) return;
-    ++size_;
-    weight_[child] *= jump_;
+    const std::size_t child = size_++;
+    for (int i = 0; i < states(); ++i) {
+      state_[i][child] = mean[i];
+      for (int j = 0; j <= i; ++j) {
+        Lanes both;
+        for (std::size_t h = 0; h < lanes; ++h)
+          both[h] = share[h] * at(i, j)[h] + shared[i][h] * apart[j][h];
+        at(i, j)[child] = sum(both);
+      }
+    }
+    weight_[child] = total * jump_;
     level_[child] = -level;
     if (!is_of_two()) at(0, 0)[child] += jumps_.size_dps * jumps_.size_dps;
+  }
+  static double sum(const Lanes& of) {
+    static_assert(lanes == 8);
+    return ((of[0] + of[4]) + (of[2] + of[6])) + ((of[1] + of[5]) + (of[3] + of[7]));
   }
 
   /// `into` becomes both of them, of their mean and covariance.
@@ -162,7 +189,7 @@ class JumpHistories {
       state_[i][into] += share * apart[i];
     }
     for (int i = 0; i < states(); ++i)
-      for (int j = 0; j < states(); ++j)
+      for (int j = 0; j <= i; ++j)
         at(i, j)[into] +=
             share * (at(i, j)[from] - at(i, j)[into] + (1.0 - share) * apart[i] * apart[j]);
     expected_[into] += share * (expected_[from] - expected_[into]);
@@ -177,7 +204,7 @@ class JumpHistories {
     variance_[to] = variance_[from];
     for (int i = 0; i < states(); ++i) {
       state_[i][to] = state_[i][from];
-      for (int j = 0; j < states(); ++j) at(i, j)[to] = at(i, j)[from];
+      for (int j = 0; j <= i; ++j) at(i, j)[to] = at(i, j)[from];
     }
   }
 
@@ -187,8 +214,8 @@ class JumpHistories {
   std::size_t size_, steps_ = 0;
   std::array<double, N> left_{}, gained_{};
   alignas(64) Lanes weight_{}, level_{}, expected_{}, variance_{};
-  std::array<Lanes, N> state_{};
-  std::array<Lanes, N * N> covariance_{};
+  std::array<Lanes, N> state_{}, row_{};
+  std::array<Lanes, N*(N + 1) / 2> covariance_{};
 };
 
 }  // namespace gyrostat::gap
