@@ -56,6 +56,30 @@ std::vector<Effect> SetSearcher::read_off(const Marks& marks, FoundSet& found) {
   return effects;
 }
 
+void SetSearcher::give_grid_to_angle(const Marks& marks, FoundSet& found) const {
+  constexpr double most_apart = 0.2;
+  auto& effects = found.scenario.effects;
+  const auto angle = std::find_if(effects.begin(), effects.end(),
+                                  [](const auto& e) { return e.id() == "angle_quantization"; });
+  const auto grid = std::find_if(effects.begin(), effects.end(),
+                                 [](const auto& e) { return e.id() == "quantization"; });
+  if (grid == effects.end() || angle == effects.end()) return;
+  const double lsb_deg = marks.lsb_dps * conditions_.interval_s();
+  double& coefficient_deg = angle->value(field_of(*angle, "coefficient_deg"));
+  if (std::abs(std::sqrt(12.0) * coefficient_deg / lsb_deg - 1.0) > most_apart) return;
+  coefficient_deg = lsb_deg / std::sqrt(12.0);
+  angle->value(field_of(*angle, "on_grid")) = 1.0;
+  const auto place = static_cast<std::size_t>(grid - effects.begin());
+  effects.erase(grid);
+  std::erase_if(found.intervals, [&](const auto& i) { return i.effect == place; });
+  for (auto& interval : found.intervals)
+    if (interval.effect > place) --interval.effect;
+  std::erase_if(found.members, [](const auto& m) { return m.effect == "quantization"; });
+  // What was taken for the error of rounding rates.
+  double& white = found.scenario.random_error.measurement_noise_std_dps;
+  white = std::hypot(white, marks.lsb_dps / std::sqrt(12.0));
+}
+
 /// There noise decides whether a sample is written as 0.
 std::vector<char> SetSearcher::edges_of_the_dead_zone(const Scenario& scenario) const {
   constexpr double reach = 5.0;  // standard deviations

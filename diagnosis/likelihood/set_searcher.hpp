@@ -70,6 +70,9 @@ class SetSearcher {
   std::vector<char> near_the_limit(const Marks& marks) const;
   /// Effects that are read off the values.
   std::vector<Effect> read_off(const Marks& marks, FoundSet& found);
+  /// Where the noise shows an angle in steps as large as the grid of the rates, the grid is the
+  /// angle's: there is no other quantization.
+  void give_grid_to_angle(const Marks& marks, FoundSet& found) const;
   std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
   /// What the innovations say of outliers and of noise over temperature, beside the set.
   void judge_tails(const Standing& standing);

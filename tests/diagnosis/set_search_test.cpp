@@ -67,6 +67,15 @@ INSTANTIATE_TEST_SUITE_P(
                           true}),
     [](const auto& known) { return known.param.name; });
 
+/// Rates in steps of an angle's grid an interval lie on a grid themselves, and are not rounded.
+TEST(SetSearch, AnAngleOnAGridIsOneEffect) {
+  Scenario s = still();
+  s.effects = {effects::AngleQuantization{.coefficient_deg = 7e-4, .on_grid = 1.0}};
+  EXPECT_EQ(found_in(recorded(s, 79, false)), std::set<std::string>{"angle_quantization"});
+  s.effects = {effects::Quantization{0.05}};
+  EXPECT_EQ(found_in(recorded(s, 79, false)), std::set<std::string>{"quantization"});
+}
+
 /// The accelerometer tells the strength of the vibration to a few percent only; the bias follows
 /// the strength itself.
 TEST(SetSearch, ABiasThatFollowsAShakerIsNoStep) {

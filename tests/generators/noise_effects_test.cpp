@@ -277,6 +277,31 @@ TEST(AngleQuantization, IsCorrelatedWithItsNeighboursAlone) {
         << "lag " << lag;
 }
 
+/// Rates are whole numbers of steps an interval, and their errors those of an angle rounded where
+/// noise turns it by a step and more (within a part of exp(-2 pi^2), Widrow and Kollar,
+/// "Quantization Noise", 2008, 4.3).
+TEST(AngleQuantization, OnTheGridRoundsTheAngle) {
+  constexpr std::size_t n = 200000;
+  auto series = noisy(n, 100.0);
+  const NormalStream noise(3, 0, "rate");
+  for (std::size_t i = 0; i < n; ++i) series.gyro_dps[i] = 0.7 + 1.5 * noise.normal(i);
+  const auto before = series.gyro_dps;
+  const double coefficient_deg = 0.01 / std::sqrt(12.0);
+  effects::AngleQuantization{coefficient_deg, 1.0}.apply(series, {1, 0});
+  std::vector<double> error;
+  double angle_deg = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    ASSERT_NEAR(series.gyro_dps[i], std::round(series.gyro_dps[i]), 1e-9) << i;
+    error.push_back(series.gyro_dps[i] - before[i]);
+    angle_deg += error[i] * 0.01;
+    ASSERT_LE(std::abs(angle_deg), 0.01 + 1e-9) << i;
+  }
+  const double unit = std::pow(coefficient_deg / 0.01, 2);
+  EXPECT_NEAR(autocovariance(error, 0) / unit, 2.0, 5.0 * std::sqrt(7.2 / n));
+  EXPECT_NEAR(autocovariance(error, 1) / unit, -1.0, 5.0 * std::sqrt(5.8 / n));
+  EXPECT_NEAR(autocovariance(error, 2) / unit, 0.0, 5.0 * std::sqrt(6.0 / n));
+}
+
 TEST(NoiseTemperature, MultipliesTheWhiteNoiseAndNothingElse) {
   const auto before = noisy(3000, 100.0);
   auto after = before;
