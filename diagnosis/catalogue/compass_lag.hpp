@@ -7,18 +7,24 @@
 
 namespace gyrostat::gap {
 
-/// The heading follows turns late, through one pole or several, each a start of its own.
+/// The heading follows turns late, through a delay, one pole or several, each a start of its own.
+/// What a recorder delays beside the poles, if by part of a sample, is told from them by turns that
+/// begin at once.
 template <>
 struct Diagnosed<effects::CompassLag> {
   static constexpr auto signature = Signature::repeated;
-  static constexpr std::array free_parameters = {&effects::CompassLag::time_constant_s};
+  static constexpr std::array free_parameters = {&effects::CompassLag::time_constant_s,
+                                                 &effects::CompassLag::delay_s};
 
   static std::vector<effects::CompassLag> starts(const Evidence& e) {
+    const double least_s = 0.5 * e.conditions().interval_s();
+    constexpr double most_s = 30.0;
     std::vector<effects::CompassLag> all;
     for (const double poles : {1.0, 2.0, 4.0})
       all.push_back(shaped(e, Trace::heading, effects::CompassLag{.poles = poles},
-                           &effects::CompassLag::time_constant_s, 0.5 * e.conditions().interval_s(),
-                           30.0));
+                           &effects::CompassLag::time_constant_s, least_s, most_s));
+    all.push_back(shaped(e, Trace::heading, effects::CompassLag{.time_constant_s = 0.0},
+                         &effects::CompassLag::delay_s, least_s, most_s));
     return all;
   }
 
@@ -29,7 +35,7 @@ struct Diagnosed<effects::CompassLag> {
 
   /// A lag of less than a twentieth of a sample is none.
   static bool is_what_it_is_called(const effects::CompassLag& effect, const Conditions& c) {
-    return effect.time_constant_s > 0.05 * c.interval_s();
+    return effect.time_constant_s + effect.delay_s > 0.05 * c.interval_s();
   }
 };
 

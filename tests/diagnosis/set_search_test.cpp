@@ -192,6 +192,17 @@ TEST(SetSearch, AHeadingThatIsHalfASampleLateHasNoLag) {
   }
 }
 
+/// What a lag of one pole has beside it, and a delay without one, at turns that begin at once.
+TEST(SetSearch, ACompassThatDelaysHasALagAlone) {
+  Scenario s = moving();
+  s.motion = motion::RateTable{60.0, 20.0};
+  for (const auto& lag : {effects::CompassLag{.time_constant_s = 0.3, .delay_s = 0.025},
+                          effects::CompassLag{.time_constant_s = 0.0, .delay_s = 0.6}}) {
+    s.effects = {lag};
+    EXPECT_EQ(found_in(recorded(s, 22, true)), std::set<std::string>{"compass_lag"}) << lag.delay_s;
+  }
+}
+
 /// A scale that changes with temperature is right at 25 °C: not at the middle of what was recorded,
 /// and still no scale factor besides.
 TEST(SetSearch, AScaleThatIsRightAt25DegreesIsOneEffect) {

@@ -90,6 +90,20 @@ TEST(CompassLag, OfTwoPolesIsTwoLagsOfHalfItsTimeEach) {
     EXPECT_NEAR(behind[k], twice.heading_deg[k] - step[k], 1e-11);
 }
 
+/// An even turn is behind by rate times delay once it has begun, whatever part of a sample that is.
+TEST(CompassLag, IsBehindByItsDelay) {
+  std::vector<double> turning;
+  for (int i = 0; i < 300; ++i) turning.push_back(wrap_degrees(170.0 + 4.0 * i));  // 40 dps
+  for (const double delay_s : {0.05, 0.1, 0.73}) {
+    const auto behind =
+        error(effects::CompassLag{.time_constant_s = 0.0, .delay_s = delay_s}, turning);
+    for (std::size_t i = 0; i < behind.size(); ++i)
+      EXPECT_NEAR(wrap_degrees(behind[i]), -40.0 * std::min(delay_s, 0.1 * static_cast<double>(i)),
+                  1e-9)
+          << delay_s << " s, " << i;
+  }
+}
+
 TEST(CompassLag, TakesTheShorterWayRound) {
   std::vector<double> step(50, -170.0);
   step[0] = 170.0;
