@@ -20,6 +20,11 @@ constexpr double prior_odds = 3.0;
 /// A further effect gains this share of what the clearest does.
 constexpr double share_of_clearest = 0.003;
 
+/// On the diagonal of equations, of a value that is given: no other is as large.
+constexpr double fixed = 1e30;
+
+bool is_lag(const Effect& effect) { return effect.id() == "compass_lag"; }
+
 class CompassSearch {
  public:
   CompassSearch(const Simulator& simulator, const Series& recording, FoundSet& found)
@@ -47,6 +52,8 @@ class CompassSearch {
   std::vector<Effect> starts(const CauseType& cause, const std::vector<Effect>& beside) const;
   /// Whether clusters within bursts count.
   enum class Bursts { hidden, count };
+  /// Where iron and a lag are both there, what iron adds trails, too, or does not.
+  std::vector<Effect> in_likelier_form(std::vector<Effect> set) const;
   /// With one effect after another, as long as each pays.
   std::vector<Effect> grown(std::vector<Effect> set, Bursts bursts);
   /// Log-likelihood of all means, bursts or not, less what the set costs.
@@ -101,12 +108,25 @@ std::vector<Effect> CompassSearch::stepped(const std::vector<Effect>& set) const
     }
   normal.diagonal() *= 1.0 + 1e-9;
   normal.diagonal().array() += 1e-12;
-  const Eigen::VectorXd by = solve_symmetric(normal, right);
+  // A value that would leave its range stays at the end of it, and the others go without it.
   auto better = set;
-  for (std::size_t c = 0; c < places.size(); ++c) {
-    auto& value = better[places[c].effect].value(places[c].field);
-    const auto& range = better[places[c].effect].fields()[places[c].field].range;
-    value = std::clamp(value + by[static_cast<Eigen::Index>(c) + 1], range.from, range.to);
+  for (bool all_within = false; !all_within;) {
+    all_within = true;
+    const Eigen::VectorXd by = solve_symmetric(normal, right);
+    for (std::size_t c = 0; c < places.size(); ++c) {
+      const auto column = static_cast<Eigen::Index>(c) + 1;
+      const double from = set[places[c].effect].value(places[c].field);
+      const auto& range = set[places[c].effect].fields()[places[c].field].range;
+      const double to = std::clamp(from + by[column], range.from, range.to);
+      better[places[c].effect].value(places[c].field) = to;
+      if (to == from + by[column] || normal(column, column) == fixed) continue;
+      right -= (to - from) * normal.col(column);
+      right[column] = fixed * (to - from);
+      normal.col(column).setZero();
+      normal.row(column).setZero();
+      normal(column, column) = fixed;
+      all_within = false;
+    }
   }
   return better;
 }
@@ -179,6 +199,17 @@ std::vector<Effect> CompassSearch::polished(std::vector<Effect> set) const {
   return set;
 }
 
+std::vector<Effect> CompassSearch::in_likelier_form(std::vector<Effect> set) const {
+  const auto lag = std::find_if(set.begin(), set.end(), is_lag);
+  if (set.size() < 2 || lag == set.end()) return set;
+  auto other = set;
+  auto& form = other[static_cast<std::size_t>(lag - set.begin())];
+  const std::size_t field = field_of(form, "turns_alone");
+  form.value(field) = 1.0 - form.value(field);
+  other = polished(other);
+  return law_of(other).variance < law_of(set).variance ? other : set;
+}
+
 std::vector<Effect> CompassSearch::grown(std::vector<Effect> set, Bursts bursts) {
   double clearest = set.empty() ? 0.0 : law_of(set).gain_on(law_of({}));
   for (std::size_t step = set.size(); step <= candidates_.size(); ++step) {
@@ -195,7 +226,7 @@ std::vector<Effect> CompassSearch::grown(std::vector<Effect> set, Bursts bursts)
         for (std::size_t place = 0; place <= set.size(); ++place) {
           auto trial = set;
           trial.insert(trial.begin() + static_cast<std::ptrdiff_t>(place), start);
-          trial = polished(trial);
+          trial = in_likelier_form(polished(trial));
           if (!cause->is_what_it_is_called(trial[place], conditions_)) continue;
           const double gain = law_of(trial).gain_on(before) - cost(start);
           if (gain > most) {
@@ -255,7 +286,6 @@ void CompassSearch::run(const SetSearchOptions& options) {
         !is_left_out(cause.id) && cause.why_not_assessable(conditions_).empty())
       candidates_.push_back(&cause);
   auto set = searched();
-  const auto is_lag = [](const Effect& e) { return e.id() == "compass_lag"; };
   const bool lags = std::any_of(set.begin(), set.end(), is_lag);
   if (lags)
     errors_.unshift();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -13,11 +14,14 @@
 namespace gyrostat::effects {
 
 /// The compass trails the heading through a delay and equal poles, exactly so for a heading that is
-/// linear between samples and along the shorter arc; its noise is added afterwards.
+/// linear between samples and along the shorter arc; its noise is added afterwards. What iron adds
+/// trails with it, or not: a compass that filters readings delays both, one whose heading is
+/// smoothed by a gyro shows iron at once.
 struct CompassLag {
   double time_constant_s = 0.5;
   double poles = 1.0;
   double delay_s = 0.0;
+  double turns_alone = 0.0;
 
   static constexpr std::string_view title = "the compass trails the heading";
   static constexpr Stage stage = Stage::compass;
@@ -29,49 +33,65 @@ struct CompassLag {
         Field{"time_constant_s", &P::time_constant_s, "s", ranges::non_negative,
               "time constants of all poles, added"},
         Field{"poles", &P::poles, "1", Range{.from = 1, .to = 8, .whole = true}, "how many poles"},
-        Field{"delay_s", &P::delay_s, "s", ranges::non_negative,
-              "time that passes before; until then, the first heading"},
+        Field{"delay_s", &P::delay_s, "s", Range{.from = -0.1},
+              "time that passes before; until then, the first heading. Below 0 where the heading's "
+              "clock is early"},
+        Field{"turns_alone", &P::turns_alone, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: only the vehicle's turns trail, and what iron adds does not"},
     };
   }
 
   static constexpr CompassLag absent() { return {.time_constant_s = 0.0}; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
-    if (delay_s > 0.0) delay(series);
-    if (time_constant_s == 0.0) return;
-    for (long k = std::lround(poles); k > 0; --k) pass(series);
+    if (turns_alone < 0.5) {
+      trail(series.t_s, series.heading_deg);
+      return;
+    }
+    std::vector<double> turned(samples_with(series, std::array{&Series::rate_ref_dps}), 0.0);
+    for (std::size_t i = 1; i < turned.size(); ++i)
+      turned[i] = turned[i - 1] + series.rate_ref_dps[i] * (series.t_s[i] - series.t_s[i - 1]);
+    auto trailing = turned;
+    trail(series.t_s, trailing);
+    for (std::size_t i = 0, n = std::min(turned.size(), series.heading_deg.size()); i < n; ++i)
+      series.heading_deg[i] += trailing[i] - turned[i];
   }
 
  private:
-  void delay(Series& series) const {
-    const auto heading_deg = series.heading_deg;
-    for (std::size_t i = 0, from = 0, n = samples_with(series, needs); i < n; ++i) {
-      const double then_s = series.t_s[i] - delay_s;
-      while (from + 1 < i && series.t_s[from + 1] <= then_s) ++from;
-      if (i == 0 || then_s <= series.t_s[0]) {
-        series.heading_deg[i] = heading_deg[0];
-        continue;
-      }
-      const double share = (then_s - series.t_s[from]) / (series.t_s[from + 1] - series.t_s[from]);
-      series.heading_deg[i] =
-          heading_deg[from] + share * wrap_degrees(heading_deg[from + 1] - heading_deg[from]);
+  void trail(const std::vector<double>& t_s, std::vector<double>& heading_deg) const {
+    const std::size_t n = std::min(t_s.size(), heading_deg.size());
+    if (delay_s != 0.0) delay(t_s, heading_deg, n);
+    if (time_constant_s == 0.0) return;
+    for (long k = std::lround(poles); k > 0; --k) pass(t_s, heading_deg, n);
+  }
+
+  void delay(const std::vector<double>& t_s, std::vector<double>& heading_deg,
+             std::size_t n) const {
+    const auto before_deg = heading_deg;
+    for (std::size_t i = 0, from = 0; i < n; ++i) {
+      const double then_s = std::clamp(t_s[i] - delay_s, t_s[0], t_s[n - 1]);
+      while (from + 2 < n && t_s[from + 1] <= then_s) ++from;
+      if (from + 1 >= n) return;
+      const double share = (then_s - t_s[from]) / (t_s[from + 1] - t_s[from]);
+      heading_deg[i] =
+          before_deg[from] + share * wrap_degrees(before_deg[from + 1] - before_deg[from]);
     }
   }
 
   /// One pole.
-  void pass(Series& series) const {
+  void pass(const std::vector<double>& t_s, std::vector<double>& heading_deg, std::size_t n) const {
     const double tau_s = time_constant_s / std::round(poles);
     Decay decay(tau_s);
     double behind_deg = 0.0, before_deg = 0.0;
-    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
-      const double heading_deg = series.heading_deg[i];
+    for (std::size_t i = 0; i < n; ++i) {
+      const double now_deg = heading_deg[i];
       if (i > 0) {
-        const double interval_s = series.t_s[i] - series.t_s[i - 1];
-        const double rate_dps = wrap_degrees(heading_deg - before_deg) / interval_s;
+        const double interval_s = t_s[i] - t_s[i - 1];
+        const double rate_dps = wrap_degrees(now_deg - before_deg) / interval_s;
         behind_deg -= (1.0 - decay.over(interval_s)) * (behind_deg + rate_dps * tau_s);
       }
-      before_deg = heading_deg;
-      series.heading_deg[i] += behind_deg;
+      before_deg = now_deg;
+      heading_deg[i] += behind_deg;
     }
   }
 };
