@@ -29,15 +29,12 @@ FoundSet SetSearcher::run() {
   const auto begun = bench_.beside_noise(marked);
   // Rounding to more than the noise is no longer noise, unless a motion dithers it: what it does to
   // the fast part and to slow noise has no law here. Rounded to nearly as much, samples are no
-  // longer normal: their tails say nothing. In between, the size of rounded noise depends on where
-  // between two values the level is, which temperature moves: at the limit by a part in five
-  // hundred (from the first harmonic of the rounding error; Widrow and Kollar, "Quantization
-  // Noise", 2008, 4.3), which is what a long recording could show.
-  constexpr double coarsest = 2.2, coarsest_for_tails = 1.2, coarsest_for_size = 1.6;
+  // longer normal: their tails say nothing.
+  constexpr double coarsest = 2.2, coarsest_for_tails = 1.2;
   const double lsb_of_noise = marks.lsb_dps / white_with_rounding(begun.scenario);
   const bool coarse = lsb_of_noise > coarsest && !marks.turns_through_grid;
   is_normal_ = lsb_of_noise < coarsest_for_tails;
-  is_even_ = lsb_of_noise < coarsest_for_size || marks.turns_through_grid;
+  if (!marks.turns_through_grid) allowed_for_grid_ = uneven_by_rounding(lsb_of_noise);
   if (coarse)
     std::erase_if(candidates_, [](const auto* cause) {
       const auto band = band_of(cause->id);

@@ -74,6 +74,8 @@ class SetSearcher {
   /// angle's: there is no other quantization.
   void give_grid_to_angle(const Marks& marks, FoundSet& found) const;
   std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
+  /// What `allowed_for_grid_` is, of a grid in standard deviations of the rounded noise.
+  double uneven_by_rounding(double lsb_of_noise) const;
   /// What the innovations say of outliers and of noise over temperature, beside the set.
   void judge_tails(const Standing& standing);
   void add_tails(FoundSet& found) const;
@@ -90,7 +92,9 @@ class SetSearcher {
   std::vector<char> repeats_;  ///< samples that do not count, whatever the set
   Tails tails_;
   bool is_normal_ = true;  ///< rounded finely enough for tails
-  bool is_even_ = true;    ///< rounded finely enough for its size not to depend on the level
+  /// Log-likelihood that noise whose size changes gains at most where it is only the level that
+  /// moves between two values of the grid.
+  double allowed_for_grid_ = 0.0;
   bool has_outliers_ = false, has_warm_noise_ = false;
   std::vector<const CauseType*> candidates_;
   std::size_t rounds_ = 0;  ///< in which every candidate was tried

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gyrostat/diagnosis/likelihood/arima_law.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
@@ -24,6 +25,19 @@ bool is_of_one_size(const Scenario& scenario, const std::vector<Span>& blocks) {
 
 }  // namespace
 
+/// The variance of rounded noise goes with the cosine of the level, in grids, by the first harmonic
+/// of the rounding error (Widrow and Kollar, "Quantization Noise", 2008, 4.3); a law of the size
+/// that followed it all would gain n / 4 times its mean square.
+double SetSearcher::uneven_by_rounding(double lsb_of_noise) const {
+  const double lsb2 = lsb_of_noise * lsb_of_noise;
+  const double before_rounding = std::max(0.0, 1.0 - lsb2 / 12.0);
+  constexpr double pi2 = std::numbers::pi * std::numbers::pi;
+  const double share = lsb2 > 0.0 ? (lsb2 / pi2 + 4.0 * before_rounding) *
+                                        std::exp(-2.0 * pi2 * before_rounding / lsb2)
+                                  : 0.0;
+  return 0.125 * static_cast<double>(recording_.size()) * share * share;
+}
+
 void SetSearcher::judge_tails(const Standing& standing) {
   auto hidden = edges_of_the_dead_zone(standing.scenario);
   for (std::size_t i = 0; i < hidden.size(); ++i) hidden[i] |= repeats_[i];
@@ -45,8 +59,8 @@ void SetSearcher::judge_tails(const Standing& standing) {
   const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
   has_outliers_ = is_normal_ && bench_.is_allowed("outliers") &&
                   tails_.outlier_gain > prior_of_sizes + 2.0 * value + 4.0;
-  has_warm_noise_ = is_even_ && bench_.is_allowed("noise_temperature") &&
-                    tails_.temperature_gain > prior_of_sizes + value;
+  has_warm_noise_ = bench_.is_allowed("noise_temperature") &&
+                    tails_.temperature_gain > prior_of_sizes + value + allowed_for_grid_;
 }
 
 void SetSearcher::add_nameless_tails(FoundSet& found) const {
@@ -55,7 +69,8 @@ void SetSearcher::add_nameless_tails(FoundSet& found) const {
     found.unexplained.push_back({what, std::min(1.0, std::exp(values * value - gain))});
   };
   if (is_normal_ && !has_outliers_) add("tails of the noise", tails_.outlier_gain, 2.0);
-  if (is_even_ && !has_warm_noise_) add("noise over temperature", tails_.temperature_gain, 1.0);
+  if (!has_warm_noise_)
+    add("noise over temperature", tails_.temperature_gain - allowed_for_grid_, 1.0);
 }
 
 Standing SetSearcher::searched_beside_tails(Standing standing) {
@@ -88,16 +103,21 @@ Standing SetSearcher::searched_beside_tails(Standing standing) {
 
 void SetSearcher::add_tails(FoundSet& found) const {
   if (has_outliers_) {
-    found.scenario.effects.push_back(with_values(
-        "outliers",
-        {{"probability", tails_.outlier_probability}, {"std_dps", tails_.outlier_std_dps}}));
+    found.scenario.effects.push_back(
+        with_values("outliers", {{"probability", tails_.outlier_probability},
+                                 {"std_dps", tails_.outlier_std_dps},
+                                 {"mean_size_dps", tails_.outlier_size_dps}}));
     found.members.push_back({"outliers", tails_.outlier_gain - 10.0});
   }
   if (has_warm_noise_) {
+    // The error of rounding stays as it is.
+    const auto law = law_of(found.scenario, conditions_.interval_s());
+    const double of_what_warms = law.white > 0.0 ? 1.0 + law.rounding / law.white : 1.0;
     found.scenario.effects.push_back(
-        with_values("noise_temperature",
-                    {{"relative_per_C", tails_.noise_per_C}, {"reference_C", tails_.reference_C}}));
-    found.members.push_back({"noise_temperature", tails_.temperature_gain - 8.0});
+        with_values("noise_temperature", {{"relative_per_C", tails_.noise_per_C * of_what_warms},
+                                          {"reference_C", tails_.reference_C}}));
+    found.members.push_back(
+        {"noise_temperature", tails_.temperature_gain - allowed_for_grid_ - 8.0});
   }
 }
 

@@ -56,20 +56,40 @@ std::vector<double> covariances(const Conditions& conditions, const std::vector<
   return sums;
 }
 
-/// Squares of two normal components.
+/// Squares of two normal components, of which the wide one may be about a size, up or down.
 struct Mixture {
   double share, narrow, wide;
-  double gain;  ///< log-likelihood beyond a single one's
+  double size = 0.0;
+  double gain = 0.0;  ///< log-likelihood beyond a single one's
 
-  bool is_wide(double square) const {
-    return std::log(share / (1.0 - share)) + 0.5 * std::log(narrow / wide) +
-               0.5 * (1.0 / narrow - 1.0 / wide) * square >
-           0.0;
+  double log_odds(double square) const {
+    const double along = size * std::sqrt(square) / wide;
+    return std::log(share / (1.0 - share)) + 0.5 * std::log(narrow / wide) + 0.5 * square / narrow -
+           0.5 * (square + size * size) / wide + along + std::log1p(std::exp(-2.0 * along)) -
+           std::log(2.0);
+  }
+  bool is_wide(double square) const { return log_odds(square) > 0.0; }
+
+  /// With the likelihood gained by both components.
+  Mixture weighed(const std::vector<double>& squares) const {
+    const auto n = static_cast<double>(squares.size());
+    double mixed = 0.0;
+    for (const double s : squares) {
+      const double odds = log_odds(s);
+      mixed += std::max(odds, 0.0) + std::log1p(std::exp(-std::abs(odds))) - 0.5 * s / narrow;
+    }
+    mixed += n * (std::log(1.0 - share) - 0.5 * std::log(narrow));
+    const double all = std::accumulate(squares.begin(), squares.end(), 0.0) / n;
+    Mixture with = *this;
+    with.gain = mixed + 0.5 * n * (std::log(all) + 1.0);
+    return with;
   }
 };
 
+constexpr double settled = 1e-5;
+
 /// By expectation-maximisation (Dempster, Laird and Rubin 1977).
-Mixture mixture_of(const std::vector<double>& squares, double narrow) {
+Mixture about_zero(const std::vector<double>& squares, double narrow) {
   const auto n = static_cast<double>(squares.size());
   double wide = 25.0 * narrow, share = 0.003;
   for (int pass = 0; pass < 60; ++pass) {
@@ -86,17 +106,53 @@ Mixture mixture_of(const std::vector<double>& squares, double narrow) {
     const double wide_before = wide;
     narrow = of_narrow / std::max(1.0, n - weight);
     wide = std::max(of_wide / std::max(1e-9, weight), 2.0 * narrow);
-    constexpr double settled = 1e-5;
     if (std::abs(share - share_before) < settled * share &&
         std::abs(wide - wide_before) < settled * wide)
       break;
   }
-  double mixed = 0.0;
+  return {share, narrow, wide};
+}
+
+/// Likewise; of squares that no such error of the first guess's size would leave, nothing is one.
+Mixture about_a_size(const std::vector<double>& squares, const Mixture& about_zero) {
+  const auto n = static_cast<double>(squares.size());
+  Mixture m = about_zero;
+  const double total = std::accumulate(squares.begin(), squares.end(), 0.0);
+  std::vector<double> large;
   for (const double s : squares)
-    mixed += std::log((1.0 - share) * std::exp(-0.5 * s / narrow) / std::sqrt(narrow) +
-                      share * std::exp(-0.5 * s / wide) / std::sqrt(wide) + 1e-300);
-  const double all = std::accumulate(squares.begin(), squares.end(), 0.0) / n;
-  return {share, narrow, wide, mixed + 0.5 * n * (std::log(all) + 1.0)};
+    if (s > 4.0 * m.narrow) large.push_back(s);
+  m.size = std::sqrt(0.8 * about_zero.wide);
+  m.wide = std::max(0.2 * about_zero.wide, m.narrow);
+  for (int pass = 0; pass < 200; ++pass) {
+    double weight = 0.0, sizes = 0.0, hits = 0.0;
+    for (const double s : large) {
+      const double hit = 1.0 / (1.0 + std::exp(-m.log_odds(s)));
+      const double root = std::sqrt(s);
+      weight += hit;
+      sizes += hit * root * std::tanh(m.size * root / m.wide);
+      hits += hit * s;
+    }
+    if (weight < 1.0) return about_zero;
+    const Mixture before = m;
+    m.share = std::clamp(weight / n, 1e-6, 0.5);
+    m.narrow = (total - hits) / (n - weight);
+    m.size = sizes / weight;
+    m.wide = std::max(hits / weight - m.size * m.size, m.narrow);
+    if (std::abs(m.share - before.share) < settled * m.share &&
+        std::abs(m.size - before.size) < settled * m.size &&
+        std::abs(m.wide - before.wide) < settled * m.wide)
+      break;
+  }
+  return m;
+}
+
+Mixture mixture_of(const std::vector<double>& squares, double narrow) {
+  const Mixture plain = about_zero(squares, narrow).weighed(squares);
+  // Too few to have a size, or none.
+  const double value = 0.5 * std::log(static_cast<double>(squares.size()));
+  if (plain.share * static_cast<double>(squares.size()) < 10.0 || plain.gain < value) return plain;
+  const Mixture sized = about_a_size(squares, plain).weighed(squares);
+  return sized.gain > plain.gain + value ? sized : plain;
 }
 
 /// Probability of so many events or more of a Poisson law.
@@ -215,6 +271,7 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
   tails.outlier_gain = mixture.gain;
   tails.outlier_probability = mixture.share;
   tails.outlier_std_dps = std::sqrt(std::max(mixture.wide - narrow, 0.0));
+  tails.outlier_size_dps = mixture.size;
   tails.white_std_dps = std::sqrt(narrow);
   const double odd = 4.5 * std::sqrt(narrow);
   for (const Part part : both_parts)

@@ -8,7 +8,7 @@ namespace gyrostat::gap {
 
 /// What the sizes of innovations say; of outliers, only where they come one by one.
 struct Tails {
-  double outlier_probability = 0.0, outlier_std_dps = 0.0;
+  double outlier_probability = 0.0, outlier_std_dps = 0.0, outlier_size_dps = 0.0;
   double outlier_gain = 0.0;  ///< log-likelihood beyond normal innovations
   double noise_per_C = 0.0, reference_C = 0.0;
   double temperature_gain = 0.0;  ///< log-likelihood beyond even noise

@@ -8,6 +8,11 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <tbb/global_control.h>
@@ -259,24 +264,52 @@ TEST(Diagnosis, TheJsonKeepsTheContract) {
     EXPECT_TRUE(json["gap"].contains(key)) << key;
 }
 
-/// The practice recordings are named after their effect.
-void expect_named(const std::string& effect) {
+/// A practice recording; none where they are not there.
+std::optional<Series> practice(const std::string& name) {
   const char* given = std::getenv("GYROSTAT_RECORDINGS");
   const std::filesystem::path folder =
       given != nullptr ? std::filesystem::path(given)
                        : std::filesystem::path(GYROSTAT_SOURCE_DIR) / "../shared/recordings";
-  if (!std::filesystem::exists(folder / "practice"))
-    GTEST_SKIP() << folder / "practice"
-                 << " is not there";
-  const auto recording = read_recording(folder / "practice" / (effect + ".csv.gz"));
-  EXPECT_EQ(diagnose(recording.series, {}).verdict.text(), effect);
+  const auto path = folder / "practice" / (name + ".csv.gz");
+  if (!std::filesystem::exists(path)) return {};
+  return read_recording(path).series;
 }
+
+/// They are named after their effect.
+void expect_named(const std::string& effect) {
+  const auto series = practice(effect);
+  if (!series) GTEST_SKIP() << "the practice recordings are not there";
+  EXPECT_EQ(diagnose(*series, {}).verdict.text(), effect);
+}
+
+/// Sets are named after where they were recorded and their effects, with a + between.
+class PracticeSets : public testing::TestWithParam<std::string> {};
+
+TEST_P(PracticeSets, AreNamedWholeAndClosed) {
+  const auto series = practice("sets/" + GetParam());
+  if (!series) GTEST_SKIP() << "the practice recordings are not there";
+  std::set<std::string> expected, named;
+  std::istringstream effects(GetParam().substr(GetParam().find("__") + 2));
+  for (std::string effect; std::getline(effects, effect, '+');) expected.insert(effect);
+  const auto diagnosis = diagnose(*series, {});
+  for (const auto& effect : diagnosis.effects)
+    if (effect.inclusion > 0.5) named.insert(effect.effect);
+  EXPECT_EQ(named, expected);
+  EXPECT_GT(diagnosis.closed, 0.8);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, PracticeSets,
+    testing::Values("chamber__noise_temperature+quantization+thermal_curvature",
+                    "table__compass_lag+soft_iron"),
+    [](const auto& name) { return std::regex_replace(name.param, std::regex("[^a-z]+"), "_"); });
 
 // One recording a test, so that cores share the work.
 TEST(PracticeRecordings, NoneIsNamed) { expect_named("none"); }
 TEST(PracticeRecordings, GaussMarkovIsNamed) { expect_named("gauss_markov"); }
 TEST(PracticeRecordings, ThermalHysteresisIsNamed) { expect_named("thermal_hysteresis"); }
 TEST(PracticeRecordings, ScaleFactorIsNamed) { expect_named("scale_factor"); }
+
 TEST(Diagnosis, ToldSharesOnlyGrowAndEndAtOne) {
   Scenario s = still();
   s.sampling.duration_s = 300.0;

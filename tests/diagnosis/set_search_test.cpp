@@ -192,6 +192,51 @@ TEST(SetSearch, AHeadingThatIsHalfASampleLateHasNoLag) {
   }
 }
 
+/// Iron that trails with the heading, and iron that does not.
+TEST(SetSearch, IronBesideALagIsFoundInEitherForm) {
+  for (const double turns_alone : {0.0, 1.0}) {
+    Scenario s = moving();
+    s.effects = {effects::HardIron{5.0, 40.0},
+                 effects::CompassLag{.time_constant_s = 0.4, .turns_alone = turns_alone}};
+    const auto series = recorded(s, 23, true);
+    const Simulator simulator(series, 1);
+    const auto found = find_set(simulator, series, {});
+    std::set<std::string> names;
+    for (const auto& member : found.members) names.insert(member.effect);
+    EXPECT_EQ(names, (std::set<std::string>{"compass_lag", "hard_iron"}));
+    // Noise of 0.3 degrees and nothing else is left: its standard error is a part in 200.
+    EXPECT_NEAR(found.scenario.compass.noise_std_deg, 0.3, 5.0 * 0.3 / 200.0);
+  }
+}
+
+/// Gross errors of about one size; the size is known to 0.01 dps, and 5 of that are allowed.
+TEST(SetSearch, OutliersMayHaveASize) {
+  Scenario s = still();
+  s.effects = {effects::Outliers{.probability = 0.01, .std_dps = 0.06, .mean_size_dps = 0.4}};
+  const auto series = recorded(s, 80, false);
+  const Simulator simulator(series, 1);
+  const auto found = find_set(simulator, series, {});
+  ASSERT_EQ(found.scenario.effects.size(), 1);
+  ASSERT_EQ(found.scenario.effects[0].id(), "outliers");
+  const auto& outliers = *found.scenario.effects[0].as<effects::Outliers>();
+  EXPECT_NEAR(outliers.mean_size_dps, 0.4, 0.05);
+  EXPECT_NEAR(outliers.probability, 0.01, 5.0 * std::sqrt(0.01 / 24000.0));
+}
+
+/// Rounded to 1.7 of its standard deviations, noise goes with where the level is between two
+/// values, and temperature moves the level; that it grows with temperature shows all the same.
+TEST(SetSearch, NoiseThatWarmsIsSeenThroughACoarseGrid) {
+  Scenario s = still();
+  s.random_error = {
+      .phi = 0.0, .delta1_dps = 1e-5, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.05};
+  s.thermal_drift.a_dps_per_C = 0.01;
+  s.effects = {effects::Quantization{0.1}};
+  EXPECT_EQ(found_in(recorded(s, 81, false)), std::set<std::string>{"quantization"});
+  s.effects.emplace_back(effects::NoiseTemperature{.relative_per_C = 0.015, .reference_C = 40.0});
+  EXPECT_EQ(found_in(recorded(s, 81, false)),
+            (std::set<std::string>{"noise_temperature", "quantization"}));
+}
+
 /// What a lag of one pole has beside it, and a delay without one, at turns that begin at once.
 TEST(SetSearch, ACompassThatDelaysHasALagAlone) {
   Scenario s = moving();

@@ -104,6 +104,20 @@ TEST(CompassLag, IsBehindByItsDelay) {
   }
 }
 
+/// What iron adds is there at once, where turns alone trail.
+TEST(CompassLag, OfTurnsAloneLeavesIronAsItIs) {
+  auto series = silent(even_times(2000, 10.0));
+  series.rate_ref_dps.assign(series.size(), 40.0);
+  for (std::size_t i = 0; i < series.size(); ++i)
+    series.heading_deg[i] = 4.0 * static_cast<double>(i);
+  const auto turned = series.heading_deg;
+  effects::HardIron{.amplitude_deg = 5.0, .phase_deg = 20.0}.apply(series, {1, 0});
+  const auto with_iron = series.heading_deg;
+  effects::CompassLag{.time_constant_s = 0.5, .turns_alone = 1.0}.apply(series, {1, 0});
+  for (std::size_t i = 200; i < series.size(); ++i)
+    EXPECT_NEAR(series.heading_deg[i], with_iron[i] - 20.0, 1e-9) << i;
+}
+
 TEST(CompassLag, TakesTheShorterWayRound) {
   std::vector<double> step(50, -170.0);
   step[0] = 170.0;

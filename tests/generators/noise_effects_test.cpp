@@ -344,6 +344,28 @@ TEST(Outliers, OnWhiteNoiseHaveTheVarianceAndKurtosisOfTheMixture) {
   EXPECT_GT(m4 / (m2 * m2), 4.5);  // where a normal has 3
 }
 
+/// Of one size, up as often as down: means of what was added to the samples that were hit.
+TEST(Outliers, AboutASizeAreUpOrDownByIt) {
+  constexpr std::size_t n = 100000;
+  const auto hits = [&] {
+    auto all = added(effects::Outliers{.probability = 0.1, .std_dps = 0.2, .mean_size_dps = 3.0},
+                     even_times(n, 100.0));
+    std::erase(all, 0.0);
+    return all;
+  }();
+  const auto count = static_cast<double>(hits.size());
+  EXPECT_NEAR(count / n, 0.1, 5.0 * std::sqrt(0.09 / n));
+  double up = 0.0, size = 0.0, square = 0.0;
+  for (const double hit : hits) {
+    up += hit > 0.0 ? 1.0 : 0.0;
+    size += std::abs(hit) / count;
+    square += hit * hit / count;
+  }
+  EXPECT_NEAR(up / count, 0.5, 5.0 * 0.5 / std::sqrt(count));
+  EXPECT_NEAR(size, 3.0, 5.0 * 0.2 / std::sqrt(count));
+  EXPECT_NEAR(square - size * size, 0.04, 5.0 * 0.04 * std::sqrt(2.0 / count));
+}
+
 // Two-state chain with rates a = p and b = 1 / m: its share s = a / (a + b) has variance
 // s (1 - s) (2 / (a + b) - 1) / n; a mean of r geometric lengths has variance m (m - 1) / r.
 TEST(StaleSamples, RepeatTheirShareInRunsOfTheirMeanLength) {
