@@ -88,7 +88,7 @@ for i in $(seq 60); do [ "$(idle)" = 2 ] && break; sleep 0.5; done
 cd "$root"
 cat >s.json <<'STUDY'
 {"seed": 5, "cells": [
-  {"name": "a", "trials": 6000, "scenario": {"duration_s": 60, "rate_hz": 100},
+  {"name": "a", "trials": 9000, "scenario": {"duration_s": 60, "rate_hz": 100},
    "filters": ["none", "kf", "sr_rsukf", "oracle"]},
   {"name": "b", "trials": 400, "scenario": {"duration_s": 30, "rate_hz": 50}, "filters": ["none", "stf"]}]}
 STUDY
@@ -100,11 +100,13 @@ echo "job $job: $(squeue --noheader --format=%i --array | wc -l) tasks on two no
 
 # ---- a task is killed once it has something in its store
 finished_in() { "$program" export "$1" 2>/dev/null | wc -l; }
-for i in $(seq 100); do [ "$(finished_in runs/s/shard_1_of_4)" -gt 50 ] && break; sleep 0.1; done
+victim() { pgrep -f "^$program run .*/shard_1_of_4" | head -n 1; }
+for i in $(seq 200); do pid=$(victim) && [ -n "$pid" ] && break; sleep 0.05; done
+[ -n "$pid" ] || { echo "no task to kill"; exit 1; }
+# At once when there is something: it is fast.
+for i in $(seq 200); do [ "$(finished_in runs/s/shard_1_of_4)" -gt 50 ] && break; sleep 0.05; done
+kill -9 "$pid"
 before=$(finished_in runs/s/shard_1_of_4)
-victim=$(pgrep -f "^$program run .*/shard_1_of_4" | head -n 1)
-[ -n "$victim" ] || { echo "no task to kill"; exit 1; }
-kill -9 "$victim"
 echo "killed the program of task 1 when its store had $before lines"
 
 # ---- the controller is restarted in the midst of it
