@@ -28,13 +28,14 @@ FoundSet SetSearcher::run() {
 
   const auto begun = bench_.beside_noise(marked);
   // Rounding to more than the noise is no longer noise, unless a motion dithers it: what it does to
-  // the fast part and to slow noise has no law here. Rounded to nearly as much, samples are no
-  // longer normal: their tails say nothing.
-  constexpr double coarsest = 2.2, coarsest_for_tails = 1.2;
+  // the fast part and to slow noise has no law here.
+  constexpr double coarsest = 2.2;
   const double lsb_of_noise = marks.lsb_dps / white_with_rounding(begun.scenario);
   const bool coarse = lsb_of_noise > coarsest && !marks.turns_through_grid;
-  is_normal_ = lsb_of_noise < coarsest_for_tails;
-  if (!marks.turns_through_grid) allowed_for_grid_ = uneven_by_rounding(lsb_of_noise);
+  if (coarse)
+    feigned_ = {.warmth = 1e300, .tails = 1e300};
+  else if (!marks.turns_through_grid)
+    feigned_ = feigned_by_grid(lsb_of_noise);
   if (coarse)
     std::erase_if(candidates_, [](const auto* cause) {
       const auto band = band_of(cause->id);

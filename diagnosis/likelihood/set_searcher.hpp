@@ -74,8 +74,13 @@ class SetSearcher {
   /// angle's: there is no other quantization.
   void give_grid_to_angle(const Marks& marks, FoundSet& found) const;
   std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
-  /// What `allowed_for_grid_` is, of a grid in standard deviations of the rounded noise.
-  double uneven_by_rounding(double lsb_of_noise) const;
+  /// Log-likelihood that noise which warms, and noise with tails, gain at most where it is only the
+  /// grid that makes its size, or its distribution, another with the level.
+  struct OfGrid {
+    double warmth = 0.0, tails = 0.0;
+  };
+  /// Of a grid in standard deviations of the rounded noise.
+  OfGrid feigned_by_grid(double lsb_of_noise) const;
   /// What the innovations say of outliers and of noise over temperature, beside the set.
   void judge_tails(const Standing& standing);
   void add_tails(FoundSet& found) const;
@@ -91,10 +96,7 @@ class SetSearcher {
   SetBench bench_;
   std::vector<char> repeats_;  ///< samples that do not count, whatever the set
   Tails tails_;
-  bool is_normal_ = true;  ///< rounded finely enough for tails
-  /// Log-likelihood that noise whose size changes gains at most where it is only the level that
-  /// moves between two values of the grid.
-  double allowed_for_grid_ = 0.0;
+  OfGrid feigned_;
   bool has_outliers_ = false, has_warm_noise_ = false;
   std::vector<const CauseType*> candidates_;
   std::size_t rounds_ = 0;  ///< in which every candidate was tried

@@ -1,6 +1,7 @@
 #include <gyrostat/diagnosis/likelihood/set_searcher.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -27,15 +28,37 @@ bool is_of_one_size(const Scenario& scenario, const std::vector<Span>& blocks) {
 
 /// The variance of rounded noise goes with the cosine of the level, in grids, by the first harmonic
 /// of the rounding error (Widrow and Kollar, "Quantization Noise", 2008, 4.3); a law of the size
-/// that followed it all would gain n / 4 times its mean square.
-double SetSearcher::uneven_by_rounding(double lsb_of_noise) const {
+/// that followed it all would gain n / 4 times its mean square. A law with tails gains n / 48 times
+/// the square of the excess kurtosis from normal noise with as little of it (Edgeworth's series);
+/// twice that is allowed, at the worst of levels.
+SetSearcher::OfGrid SetSearcher::feigned_by_grid(double lsb_of_noise) const {
+  constexpr double fine = 0.5;  // where the harmonic is 1e-33
+  if (lsb_of_noise < fine) return {};
+  const auto n = static_cast<double>(recording_.size());
   const double lsb2 = lsb_of_noise * lsb_of_noise;
   const double before_rounding = std::max(0.0, 1.0 - lsb2 / 12.0);
   constexpr double pi2 = std::numbers::pi * std::numbers::pi;
-  const double share = lsb2 > 0.0 ? (lsb2 / pi2 + 4.0 * before_rounding) *
-                                        std::exp(-2.0 * pi2 * before_rounding / lsb2)
-                                  : 0.0;
-  return 0.125 * static_cast<double>(recording_.size()) * share * share;
+  const double share =
+      (lsb2 / pi2 + 4.0 * before_rounding) * std::exp(-2.0 * pi2 * before_rounding / lsb2);
+
+  const double deviation = std::sqrt(before_rounding) / lsb_of_noise;  // in grids
+  const auto below = [&](double value) {
+    return 0.5 * std::erfc(-value / (deviation * std::numbers::sqrt2));
+  };
+  double excess = 0.0;
+  for (const double level : {0.0, 0.125, 0.25, 0.375, 0.5}) {
+    std::array<double, 5> moments{};
+    for (int k = -12; k <= 12; ++k) {
+      const double chance = below(k + 0.5 - level) - below(k - 0.5 - level);
+      for (std::size_t power = 0; power < moments.size(); ++power)
+        moments[power] += chance * std::pow(k, static_cast<double>(power));
+    }
+    const double mean = moments[1], square = moments[2] - mean * mean;
+    const double fourth = moments[4] - 4.0 * mean * moments[3] + 6.0 * mean * mean * moments[2] -
+                          3.0 * std::pow(mean, 4);
+    excess = std::max(excess, fourth / (square * square) - 3.0);
+  }
+  return {.warmth = n / 8.0 * share * share, .tails = n / 24.0 * excess * excess};
 }
 
 void SetSearcher::judge_tails(const Standing& standing) {
@@ -57,10 +80,10 @@ void SetSearcher::judge_tails(const Standing& standing) {
   }
   tails_ = tails_of(conditions_, left, conditions_.has_temperature());
   const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
-  has_outliers_ = is_normal_ && bench_.is_allowed("outliers") &&
-                  tails_.outlier_gain > prior_of_sizes + 2.0 * value + 4.0;
+  has_outliers_ = bench_.is_allowed("outliers") &&
+                  tails_.outlier_gain > prior_of_sizes + 2.0 * value + 4.0 + feigned_.tails;
   has_warm_noise_ = bench_.is_allowed("noise_temperature") &&
-                    tails_.temperature_gain > prior_of_sizes + value + allowed_for_grid_;
+                    tails_.temperature_gain > prior_of_sizes + value + feigned_.warmth;
 }
 
 void SetSearcher::add_nameless_tails(FoundSet& found) const {
@@ -68,9 +91,9 @@ void SetSearcher::add_nameless_tails(FoundSet& found) const {
   const auto add = [&](const std::string& what, double gain, double values) {
     found.unexplained.push_back({what, std::min(1.0, std::exp(values * value - gain))});
   };
-  if (is_normal_ && !has_outliers_) add("tails of the noise", tails_.outlier_gain, 2.0);
+  if (!has_outliers_) add("tails of the noise", tails_.outlier_gain - feigned_.tails, 2.0);
   if (!has_warm_noise_)
-    add("noise over temperature", tails_.temperature_gain - allowed_for_grid_, 1.0);
+    add("noise over temperature", tails_.temperature_gain - feigned_.warmth, 1.0);
 }
 
 Standing SetSearcher::searched_beside_tails(Standing standing) {
@@ -107,7 +130,7 @@ void SetSearcher::add_tails(FoundSet& found) const {
         with_values("outliers", {{"probability", tails_.outlier_probability},
                                  {"std_dps", tails_.outlier_std_dps},
                                  {"mean_size_dps", tails_.outlier_size_dps}}));
-    found.members.push_back({"outliers", tails_.outlier_gain - 10.0});
+    found.members.push_back({"outliers", tails_.outlier_gain - feigned_.tails - 10.0});
   }
   if (has_warm_noise_) {
     // The error of rounding stays as it is.
@@ -116,8 +139,7 @@ void SetSearcher::add_tails(FoundSet& found) const {
     found.scenario.effects.push_back(
         with_values("noise_temperature", {{"relative_per_C", tails_.noise_per_C * of_what_warms},
                                           {"reference_C", tails_.reference_C}}));
-    found.members.push_back(
-        {"noise_temperature", tails_.temperature_gain - allowed_for_grid_ - 8.0});
+    found.members.push_back({"noise_temperature", tails_.temperature_gain - feigned_.warmth - 8.0});
   }
 }
 

@@ -225,7 +225,7 @@ TEST(SetSearch, OutliersMayHaveASize) {
 
 /// Rounded to 1.7 of its standard deviations, noise goes with where the level is between two
 /// values, and temperature moves the level; that it grows with temperature shows all the same.
-TEST(SetSearch, NoiseThatWarmsIsSeenThroughACoarseGrid) {
+TEST(SetSearch, NoiseThatWarmsAndOutliersAreSeenThroughACoarseGrid) {
   Scenario s = still();
   s.random_error = {
       .phi = 0.0, .delta1_dps = 1e-5, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.05};
@@ -235,6 +235,8 @@ TEST(SetSearch, NoiseThatWarmsIsSeenThroughACoarseGrid) {
   s.effects.emplace_back(effects::NoiseTemperature{.relative_per_C = 0.015, .reference_C = 40.0});
   EXPECT_EQ(found_in(recorded(s, 81, false)),
             (std::set<std::string>{"noise_temperature", "quantization"}));
+  s.effects.back() = effects::Outliers{.probability = 0.003, .std_dps = 0.5};
+  EXPECT_EQ(found_in(recorded(s, 81, false)), (std::set<std::string>{"outliers", "quantization"}));
 }
 
 /// What a lag of one pole has beside it, and a delay without one, at turns that begin at once.
