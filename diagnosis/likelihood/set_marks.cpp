@@ -5,6 +5,7 @@
 
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/thresholds.hpp>
 
 namespace gyrostat::gap {
 
@@ -63,7 +64,11 @@ void SetSearcher::give_grid_to_angle(const Marks& marks, FoundSet& found) const 
                                   [](const auto& e) { return e.id() == "angle_quantization"; });
   const auto grid = std::find_if(effects.begin(), effects.end(),
                                  [](const auto& e) { return e.id() == "quantization"; });
-  if (grid == effects.end() || angle == effects.end()) return;
+  const auto member = std::find_if(found.members.begin(), found.members.end(),
+                                   [](const auto& m) { return m.effect == "angle_quantization"; });
+  if (grid == effects.end() || angle == effects.end() || member == found.members.end() ||
+      member->log_odds < thresholds::clear_odds)
+    return;
   const double lsb_deg = marks.lsb_dps * conditions_.interval_s();
   double& coefficient_deg = angle->value(field_of(*angle, "coefficient_deg"));
   if (std::abs(std::sqrt(12.0) * coefficient_deg / lsb_deg - 1.0) > most_apart) return;

@@ -70,8 +70,8 @@ class SetSearcher {
   std::vector<char> near_the_limit(const Marks& marks) const;
   /// Effects that are read off the values.
   std::vector<Effect> read_off(const Marks& marks, FoundSet& found);
-  /// Where the noise shows an angle in steps as large as the grid of the rates, the grid is the
-  /// angle's: there is no other quantization.
+  /// Where the noise shows clearly an angle in steps as large as the grid of the rates, the grid is
+  /// the angle's: there is no other quantization.
   void give_grid_to_angle(const Marks& marks, FoundSet& found) const;
   std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
   /// Log-likelihood that noise which warms, and noise with tails, gain at most where it is only the
