@@ -85,6 +85,20 @@ void SetSearcher::give_grid_to_angle(const Marks& marks, FoundSet& found) const 
   white = std::hypot(white, marks.lsb_dps / std::sqrt(12.0));
 }
 
+void SetSearcher::put_angle_before_limit(FoundSet& found) {
+  auto& effects = found.scenario.effects;
+  const auto angle = std::find_if(effects.begin(), effects.end(),
+                                  [](const auto& e) { return e.id() == "angle_quantization"; });
+  if (angle == effects.end()) return;
+  const auto place = static_cast<std::size_t>(angle - effects.begin());
+  std::rotate(effects.begin(), angle, angle + 1);
+  for (auto& interval : found.intervals)
+    if (interval.effect == place)
+      interval.effect = 0;
+    else if (interval.effect < place)
+      ++interval.effect;
+}
+
 /// There noise decides whether a sample is written as 0.
 std::vector<char> SetSearcher::edges_of_the_dead_zone(const Scenario& scenario) const {
   constexpr double reach = 5.0;  // standard deviations

@@ -73,6 +73,8 @@ class SetSearcher {
   /// Where the noise shows clearly an angle in steps as large as the grid of the rates, the grid is
   /// the angle's: there is no other quantization.
   void give_grid_to_angle(const Marks& marks, FoundSet& found) const;
+  /// Both act at the converter, and what is clipped is clipped.
+  static void put_angle_before_limit(FoundSet& found);
   std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
   /// Log-likelihood that noise which warms, and noise with tails, gain at most where it is only the
   /// grid that makes its size, or its distribution, another with the level.
