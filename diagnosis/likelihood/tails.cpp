@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/autoregression.hpp>
+#include <gyrostat/diagnosis/likelihood/outlier_mixture.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
@@ -56,105 +56,6 @@ std::vector<double> covariances(const Conditions& conditions, const std::vector<
   return sums;
 }
 
-/// Squares of two normal components, of which the wide one may be about a size, up or down.
-struct Mixture {
-  double share, narrow, wide;
-  double size = 0.0;
-  double gain = 0.0;  ///< log-likelihood beyond a single one's
-
-  double log_odds(double square) const {
-    const double along = size * std::sqrt(square) / wide;
-    return std::log(share / (1.0 - share)) + 0.5 * std::log(narrow / wide) + 0.5 * square / narrow -
-           0.5 * (square + size * size) / wide + along + std::log1p(std::exp(-2.0 * along)) -
-           std::log(2.0);
-  }
-  bool is_wide(double square) const { return log_odds(square) > 0.0; }
-
-  /// With the likelihood gained by both components.
-  Mixture weighed(const std::vector<double>& squares) const {
-    const auto n = static_cast<double>(squares.size());
-    double mixed = 0.0;
-    for (const double s : squares) {
-      const double odds = log_odds(s);
-      mixed += std::max(odds, 0.0) + std::log1p(std::exp(-std::abs(odds))) - 0.5 * s / narrow;
-    }
-    mixed += n * (std::log(1.0 - share) - 0.5 * std::log(narrow));
-    const double all = std::accumulate(squares.begin(), squares.end(), 0.0) / n;
-    Mixture with = *this;
-    with.gain = mixed + 0.5 * n * (std::log(all) + 1.0);
-    return with;
-  }
-};
-
-constexpr double settled = 1e-5;
-
-/// By expectation-maximisation (Dempster, Laird and Rubin 1977).
-Mixture about_zero(const std::vector<double>& squares, double narrow) {
-  const auto n = static_cast<double>(squares.size());
-  double wide = 25.0 * narrow, share = 0.003;
-  for (int pass = 0; pass < 60; ++pass) {
-    const double log_odds = std::log(share / (1.0 - share)) + 0.5 * std::log(narrow / wide);
-    const double curve = 0.5 * (1.0 / narrow - 1.0 / wide);
-    double weight = 0.0, of_wide = 0.0, of_narrow = 0.0;
-    for (const double s : squares) {
-      const double hit = 1.0 / (1.0 + std::exp(-(log_odds + curve * s)));
-      weight += hit;
-      of_wide += hit * s;
-      of_narrow += (1.0 - hit) * s;
-    }
-    const double share_before = std::exchange(share, std::clamp(weight / n, 1e-6, 0.5));
-    const double wide_before = wide;
-    narrow = of_narrow / std::max(1.0, n - weight);
-    wide = std::max(of_wide / std::max(1e-9, weight), 2.0 * narrow);
-    if (std::abs(share - share_before) < settled * share &&
-        std::abs(wide - wide_before) < settled * wide)
-      break;
-  }
-  return {share, narrow, wide};
-}
-
-/// Likewise; of squares that no such error of the first guess's size would leave, nothing is one.
-Mixture about_a_size(const std::vector<double>& squares, const Mixture& about_zero) {
-  const auto n = static_cast<double>(squares.size());
-  Mixture m = about_zero;
-  const double total = std::accumulate(squares.begin(), squares.end(), 0.0);
-  std::vector<double> large;
-  for (const double s : squares)
-    if (s > 4.0 * m.narrow) large.push_back(s);
-  m.size = std::sqrt(0.8 * about_zero.wide);
-  m.wide = std::max(0.2 * about_zero.wide, m.narrow);
-  for (int pass = 0; pass < 200; ++pass) {
-    double weight = 0.0, sizes = 0.0, hits = 0.0;
-    for (const double s : large) {
-      const double hit = 1.0 / (1.0 + std::exp(-m.log_odds(s)));
-      const double root = std::sqrt(s);
-      weight += hit;
-      sizes += hit * root * std::tanh(m.size * root / m.wide);
-      hits += hit * s;
-    }
-    if (weight < 1.0) return about_zero;
-    const Mixture before = m;
-    m.share = std::clamp(weight / n, 1e-6, 0.5);
-    m.narrow = (total - hits) / (n - weight);
-    m.size = sizes / weight;
-    m.wide = std::max(hits / weight - m.size * m.size, m.narrow);
-    if (std::abs(m.share - before.share) < settled * m.share &&
-        std::abs(m.size - before.size) < settled * m.size &&
-        std::abs(m.wide - before.wide) < settled * m.wide)
-      break;
-  }
-  return m;
-}
-
-Mixture mixture_of(const std::vector<double>& squares, double narrow) {
-  const Mixture plain = about_zero(squares, narrow).weighed(squares);
-  // Too few to have a size, or none.
-  const double value = 0.5 * std::log(static_cast<double>(squares.size()));
-  if (plain.share * static_cast<double>(squares.size()) < 10.0 || plain.gain < value) return plain;
-  const Mixture sized = about_a_size(squares, plain).weighed(squares);
-  return sized.gain > plain.gain + value ? sized : plain;
-}
-
 /// Probability of so many events or more of a Poisson law.
 double poisson_upper_tail(double events, double mean) {
   double below = 0.0, term = std::exp(-mean);
@@ -164,11 +65,11 @@ double poisson_upper_tail(double events, double mean) {
 
 /// Outliers come one by one: where wide values crowd more than chance would have it, they are a
 /// burst, or what is left of a motion, and do not count.
-Mixture of_the_scattered(const std::vector<std::size_t>& samples,
-                         const std::vector<double>& squares, double narrow) {
+OutlierMixture of_the_scattered(const std::vector<std::size_t>& samples,
+                                const std::vector<double>& squares, double narrow) {
   constexpr double rare = 1e-4;
   constexpr int most_rounds = 4;
-  Mixture mixture = mixture_of(squares, narrow);
+  OutlierMixture mixture = outlier_mixture(squares, narrow);
   std::vector<char> crowded(squares.size(), 0);
   std::size_t kept = squares.size();
   for (int round = 0; round < most_rounds; ++round) {
@@ -188,7 +89,7 @@ Mixture of_the_scattered(const std::vector<std::size_t>& samples,
       if (crowded[k] == 0) scattered.push_back(squares[k]);
     if (scattered.size() == kept || 2 * scattered.size() < squares.size()) break;
     kept = scattered.size();
-    mixture = mixture_of(scattered, mixture.narrow);
+    mixture = outlier_mixture(scattered, mixture.narrow);
   }
   return mixture;
 }
