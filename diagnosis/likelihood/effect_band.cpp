@@ -1,6 +1,7 @@
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/likelihood/noise_law.hpp>
 
 namespace gyrostat::gap {
 
@@ -8,11 +9,10 @@ EffectBand band_of(std::string_view id) {
   const auto& cause = cause_types().named(id, "effects");
   if (cause.signature == Signature::repeated && id != "sinusoidal") return EffectBand::motion;
   if (cause.signature == Signature::slow) return EffectBand::thermal;
-  const auto stage = cause.effect().stage();
-  return stage == Stage::noise || id == "vibration" || id == "vibration_bursts" ||
-                 id == "wandering_line" || id == "sinusoidal"
-             ? EffectBand::fast
-             : EffectBand::slow;
+  if (cause.enter == nullptr) return EffectBand::fast;
+  NoiseLaw law{.interval_s = 0.01, .duration_s = 3600.0};  // any that is long beside it
+  cause.enter(cause.effect(), law);
+  return law.walk > 0.0 || law.jumps || !law.decaying.empty() ? EffectBand::slow : EffectBand::fast;
 }
 
 bool is_slow(std::string_view id) {

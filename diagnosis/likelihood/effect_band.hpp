@@ -4,7 +4,7 @@
 
 namespace gyrostat::gap {
 
-/// Where in the rate error an effect shows.
+/// Where in the rate error an effect shows; of noise, slow is what the law remembers beyond lines.
 enum class EffectBand { fast, slow, thermal, motion };
 EffectBand band_of(std::string_view effect);
 /// Of what warming does, too.

@@ -97,9 +97,14 @@ double equal_by_chance(const std::vector<double>& differences, double step) {
 }
 
 /// Pairs of samples between which the reference moves by more than rounding and noise could undo,
-/// and how many of them are equal.
+/// how many of them do not move as far, and how many are equal.
 struct Apart {
-  double pairs = 0.0, equal = 0.0;
+  double pairs = 0.0, still = 0.0, equal = 0.0;
+  /// Where the gyro only lags, they stand still without being equal.
+  bool shows_repeats() const {
+    constexpr double fewest = 2.0, most_of_them = 0.8;
+    return equal >= fewest && equal >= most_of_them * still;
+  }
 };
 Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<double>& z,
                            const Marks& marks) {
@@ -124,6 +129,7 @@ Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<doubl
     // About zero, a dead zone may hold them together.
     if (std::abs(turned) <= far || std::abs(value) <= far) return;
     apart.pairs += 1.0;
+    apart.still += std::abs(step) <= far ? 1.0 : 0.0;
     apart.equal += step == 0.0 ? 1.0 : 0.0;
   });
   return apart;
@@ -180,9 +186,10 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
   if (by_chance < 0.0)
     by_chance = simulator.resolution_dps() > 0.0 && marks.lsb_dps == 0.0 ? 0.0 : equal;
   double beyond = equal - by_chance;
+  // So many pairs say that there are none, too.
   constexpr double enough_pairs = 1000.0;
   if (const auto apart = kept_apart_by_motion(simulator.conditions(), z, marks);
-      apart.pairs >= enough_pairs) {
+      apart.pairs >= enough_pairs || apart.shows_repeats()) {
     marks.turns_through_grid = apart.pairs > 0.5 * count;
     beyond = apart.equal / apart.pairs * count;
     by_chance = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <tbb/parallel_invoke.h>
 
@@ -20,8 +21,8 @@ constexpr double of_a_parameter = 1.5;
 /// So far behind, polishing may still bring a candidate in front.
 constexpr double within_reach_of_polish = 30.0;
 constexpr int screening_iterations = 3;
-/// Of an effect's guesses, so many are fitted to the end.
-constexpr std::size_t guesses_fitted = 2;
+/// Of an effect's guesses, so many are fitted a little, and so many to the end.
+constexpr std::size_t guesses_screened = 8, guesses_fitted = 2;
 
 /// White noise belongs in R: where the memory beside the walk were the larger, the noise would have
 /// passed a filter, and that is an effect.
@@ -189,18 +190,41 @@ Standing SetBench::with(const Standing& standing, const CauseType& cause,
     // effect they are followed; of a fast one, what was screened without them is not taken over.
     const bool jumps = law_of(standing.scenario, conditions_.interval_s()).jumps.has_value();
     const bool slow = is_slow(cause.id);
-    std::vector<Standing> screened;
-    for (const auto& guess : cause.guesses(beside)) {
-      screened.emplace_back();
-      for (const double walk : {1.0, 0.1}) {
-        if (jumps && slow && walk < 1.0) continue;  // beside them it is small, and they take long
-        Scenario scenario = with_walk_times(standing.scenario, walk);
-        scenario.effects.push_back(guess);
-        scenario = standing.fitter->with_white_noise_scaled(std::move(scenario));
-        auto tried = fitted(scenario, standing.fitter, screening_iterations,
-                            jumps && slow ? Jumping::yes : Jumping::no);
-        if (tried.score > screened.back().score) screened.back() = std::move(tried);
+    // What the others took up of an effect that went, they give back: begun as they were beside it,
+    // too, or with a smaller walk.
+    std::vector<Scenario> starts = {standing.scenario};
+    if (!slow && standing.beside_the_last)
+      starts.push_back(*standing.beside_the_last);
+    else if (!(jumps && slow))  // beside them it is small, and they take long
+      starts.push_back(with_walk_times(standing.scenario, 0.1));
+    auto guesses = cause.guesses(beside);
+    const auto begun = [&](const Scenario& start, const Effect& guess, int iterations) {
+      Scenario scenario = start;
+      scenario.effects.push_back(guess);
+      return fitted(standing.fitter->with_white_noise_scaled(std::move(scenario)), standing.fitter,
+                    iterations, jumps && slow ? Jumping::yes : Jumping::no);
+    };
+    if (guesses.size() > guesses_screened) {
+      std::vector<std::pair<double, std::size_t>> ranks;
+      for (std::size_t k = 0; k < guesses.size(); ++k) {
+        ranks.emplace_back(-1e300, k);
+        for (const auto& start : starts)
+          ranks.back().first =
+              std::max(ranks.back().first, begun(start, guesses[k], 0).fit.log_likelihood);
       }
+      std::sort(ranks.rbegin(), ranks.rend());
+      std::vector<Effect> likeliest;
+      for (std::size_t k = 0; k < guesses_screened; ++k)
+        likeliest.push_back(guesses[ranks[k].second]);
+      guesses = std::move(likeliest);
+    }
+    std::vector<Standing> screened;
+    for (const auto& guess : guesses) {
+      screened.emplace_back();
+      for (const auto& start : starts)
+        if (auto tried = begun(start, guess, screening_iterations);
+            tried.score > screened.back().score)
+          screened.back() = std::move(tried);
     }
     std::stable_sort(screened.begin(), screened.end(),
                      [](const auto& a, const auto& b) { return a.score > b.score; });
@@ -208,8 +232,8 @@ Standing SetBench::with(const Standing& standing, const CauseType& cause,
       if (screened[k].score < -1e299) continue;
       Scenario start = screened[k].scenario;
       if (jumps && !slow) {
-        std::copy(standing.scenario.effects.begin(), standing.scenario.effects.end(),
-                  start.effects.begin());
+        for (std::size_t e = 0; e < standing.scenario.effects.size(); ++e)
+          if (is_slow(start.effects[e].id())) start.effects[e] = standing.scenario.effects[e];
         const double white = start.random_error.measurement_noise_std_dps;
         start.random_error = standing.scenario.random_error;
         start.random_error.measurement_noise_std_dps = white;
@@ -236,6 +260,9 @@ Standing SetBench::with(const Standing& standing, const CauseType& cause,
 }
 
 Standing SetBench::polished(Standing standing) const {
+  if (std::none_of(standing.scenario.effects.begin(), standing.scenario.effects.end(),
+                   is_taken_out))
+    return standing;
   const auto likelihood = [&](const Scenario& scenario) {
     return fitter_of(scenario)->terms(scenario).log_likelihood;
   };
@@ -274,13 +301,15 @@ Standing SetBench::polished(Standing standing) const {
 Standing SetBench::without(const Standing& standing, std::size_t effect) const {
   Scenario rest = standing.scenario;
   rest.effects.erase(rest.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  const Scenario as_it_was = rest;
+  const auto band = band_of(standing.scenario.effects[effect].id());
+  if (band == EffectBand::fast) rest = standing.fitter->with_white_noise_scaled(std::move(rest));
   // What the walk must stand in for has to begin where it can be seen.
   const Beside beside{conditions_, *standing.fitter, standing.fit};
   const double small =
       0.1 * beside.slow_std_dps() / std::sqrt(static_cast<double>(conditions_.cluster()));
   Standing best = refitted(rest);
   // What is told otherwise may do without it.
-  const auto band = band_of(standing.scenario.effects[effect].id());
   for (std::size_t k = 0; k < rest.effects.size(); ++k) {
     const auto& cause = cause_types().named(rest.effects[k].id(), "effects");
     if (cause.told_otherwise == nullptr || band_of(cause.id) != band) continue;
@@ -293,6 +322,7 @@ Standing SetBench::without(const Standing& standing, std::size_t effect) const {
   if (ArimaLaw::of(rest.random_error).walk_dps < small)
     if (auto other = refitted(with_walk_of_at_least(rest, small)); other.score > best.score)
       best = std::move(other);
+  best.beside_the_last = as_it_was;
   return best;
 }
 
@@ -301,12 +331,28 @@ std::vector<double> SetBench::rate_left_by(const Scenario& scenario,
   auto left = rate_error_beside(scenario);
   for (std::size_t i = 0; i < left.size(); ++i)
     if (hidden[i] != 0) left[i] = no_value;
-  for (const auto& [first, last] : level_blocks()) {
+  const auto blocks = level_blocks();
+  std::vector<double> means;
+  for (const auto& [first, last] : blocks) {
     double sum = 0.0, count = 0.0;
     for (std::size_t i = first; i < last; ++i)
       if (!is_missing(left[i])) sum += left[i], count += 1.0;
-    for (std::size_t i = first; i < last; ++i) left[i] -= count > 0.0 ? sum / count : 0.0;
+    means.push_back(count > 0.0 ? sum / count : no_value);
   }
+  const auto middle = [&](std::size_t block) {
+    return 0.5 * static_cast<double>(blocks[block].first + blocks[block].last - 1);
+  };
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (std::size_t i = blocks[b].first; i < blocks[b].last; ++i) {
+      const double from_middle = static_cast<double>(i) - middle(b);
+      const std::size_t other = from_middle < 0.0 ? b - 1 : b + 1;
+      double level = means[b];
+      const bool is_beside = other < blocks.size() && !is_missing(means[other]) &&
+                             (other > b ? blocks[b].last == blocks[other].first
+                                        : blocks[other].last == blocks[b].first);
+      if (is_beside) level += (means[other] - means[b]) * from_middle / (middle(other) - middle(b));
+      left[i] -= level;
+    }
   return left;
 }
 

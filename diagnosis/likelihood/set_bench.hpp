@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ struct Standing {
   std::shared_ptr<const SetFitter> fitter;
   SetFit fit;
   double score = -1e300;  ///< log-likelihood less what its parameters cost
+  /// The same effects as they were beside one that has just gone.
+  std::optional<Scenario> beside_the_last{};
 };
 
 bool has(const Scenario& scenario, std::string_view effect);
@@ -56,14 +59,19 @@ class SetBench {
   /// With one more effect; a score of -1e300 where it cannot be had. `left` is what the set leaves.
   Standing with(const Standing& standing, const CauseType& cause, const Evidence* left) const;
   Standing without(const Standing& standing, std::size_t effect) const;
+  /// The parameters of what is taken out, each by parabolas through the likelihood, the noise as it
+  /// is.
+  Standing polished(Standing standing) const;
   /// Of the parameters of a fitted set; those of what is taken out from the curvature of the
   /// likelihood, the other effects as they are.
   std::vector<ParameterInterval> intervals_of(const Standing& standing) const;
   /// What starts of a further effect are made from.
   Evidence evidence_of(const Standing& standing) const;
-  /// The rate error less its level and what is taken out; NaN where `hidden` (a flag a sample).
+  /// The rate error less what is taken out and its level, from the middle of a block to that of the
+  /// next a straight line: a step between them would be an innovation of its own. NaN where
+  /// `hidden` (a flag a sample).
   std::vector<double> rate_left_by(const Scenario& scenario, const std::vector<char>& hidden) const;
-  /// The stretches over which that level is taken, within one part each.
+  /// The blocks, over which that level is taken, within one part each.
   std::vector<Span> level_blocks() const;
 
  private:
@@ -76,9 +84,6 @@ class SetBench {
   double cost(const Scenario& scenario) const;
   void add_intervals_of_taken_out(const Scenario& scenario, std::size_t effect,
                                   std::vector<ParameterInterval>& to) const;
-  /// The parameters of what is taken out, each by parabolas through the likelihood, the noise as it
-  /// is.
-  Standing polished(Standing standing) const;
 
   const Simulator& simulator_;
   const Conditions& conditions_;

@@ -220,6 +220,8 @@ Eigen::VectorXd SetFitter::further_sizes(const Scenario& scenario) const {
 Scenario SetFitter::with_white_noise_scaled(Scenario scenario) const {
   auto& white = scenario.random_error.measurement_noise_std_dps;
   constexpr int passes = 3;  // more than one where white noise is not all that there is
+  // Where a walk has stood in for it, there is none to scale.
+  white = std::max(white, 0.1 * reduced_->white_std_dps());
   for (int pass = 0; pass < passes; ++pass) {
     const double ratio = fast_ratio(*reduced_, law_of(scenario, conditions_.interval_s()));
     white *= std::sqrt(std::clamp(ratio, 0.01, 1e4));

@@ -62,6 +62,9 @@ class SetSearcher {
   double least_gain(const Standing& standing, EffectBand band) const;
   /// Every member against all that might stand in its place.
   Standing exchanged(Standing standing, FoundSet& found);
+  /// Where several effects colour the noise, these found anew beside its lines, a filter first:
+  /// what stands in for that and an angle's errors holds its place against every single exchange.
+  Standing coloured_anew(const Standing& standing);
   /// With an ARIMA(1,1,1) that remembers, beside what is there or in place of what colours the
   /// noise.
   Standing beside_memory(const Standing& standing) const;

@@ -120,8 +120,10 @@ waiting=$(squeue --noheader --array | wc -l)
 [ "$waiting" -gt 0 ] || { echo "nothing was left for the new controller"; exit 1; }
 echo "the controller is up again, $waiting tasks to go"
 
+# A task that ends while the controller is down can be taken for running until the nodes are asked again.
 wait_for_jobs() {
-  for i in $(seq 240); do
+  for i in $(seq 480); do
+    [ "$i" -ne 80 ] || scontrol reconfigure 2>/dev/null || true
     left=$(squeue --noheader 2>/dev/null | wc -l) && [ "$left" -eq 0 ] && squeue --noheader >/dev/null 2>&1 && return
     sleep 0.5
   done

@@ -1,0 +1,52 @@
+// What the values of a recording show before anything is fitted.
+
+#include <gyrostat/diagnosis/likelihood/marks.hpp>
+
+#include <gtest/gtest.h>
+
+#include <gyrostat/generators/effects/list.hpp>
+#include <gyrostat/tests/diagnosis/known_recordings.hpp>
+
+namespace gyrostat::gap::marks_test {
+namespace {
+
+/// A hundred turns of a table in 20 minutes, rounded to about the noise.
+Scenario turning_on_a_grid() {
+  Scenario s = still();
+  s.motion = motion::RateTable{60.0, 24.0};
+  s.effects = {effects::Quantization{0.04}};
+  return s;
+}
+
+Marks marks_in(const Series& series) { return marks_of(Simulator(series, 1), series); }
+
+/// At rest every fifth sample equals the one before by chance; across a turn none does. The half
+/// that is read has fifty turns: fewer than two of them are repeated once in 30 recordings, at one
+/// in ten.
+TEST(Marks, RepeatsBesideAGridShowWhereTheMotionTurns) {
+  Scenario s = turning_on_a_grid();
+  int seen = 0;
+  constexpr int recordings = 12;
+  for (std::uint64_t seed = 40; seed < 40 + recordings; ++seed) {
+    EXPECT_EQ(marks_in(recorded(s, seed, true)).stale_probability, 0.0);
+    Scenario stale = s;
+    stale.effects.emplace_back(effects::StaleSamples{0.1, 1.0});
+    const auto marks = marks_in(recorded(stale, seed, true));
+    EXPECT_NEAR(marks.lsb_dps, 0.04, 1e-9);
+    seen += marks.stale_probability > 0.0 ? 1 : 0;
+  }
+  // Three are missed in one of 120 families.
+  EXPECT_GE(seen, recordings - 2);
+}
+
+/// A gyro that lags its reference by a sample stands still where the reference turns, and equals by
+/// chance.
+TEST(Marks, AGyroThatLagsRepeatsNothing) {
+  Series series = recorded(turning_on_a_grid(), 41, true);
+  series.gyro_dps.insert(series.gyro_dps.begin(), series.gyro_dps.front());
+  series.gyro_dps.pop_back();
+  EXPECT_EQ(marks_in(series).stale_probability, 0.0);
+}
+
+}  // namespace
+}  // namespace gyrostat::gap::marks_test
