@@ -77,6 +77,10 @@ class SetBench {
  private:
   static constexpr int fitting_iterations = 15;
 
+  /// From guesses beside the set; from starts on what it leaves.
+  Standing with_guessed(const Standing& standing, const CauseType& cause) const;
+  Standing with_started(const Standing& standing, const CauseType& cause,
+                        const Evidence& left) const;
   /// The recording's gyro without what is the same in every replica of the scenario.
   std::vector<double> gyro_beside(const Scenario& scenario) const;
   std::vector<double> rate_error_beside(const Scenario& scenario) const;

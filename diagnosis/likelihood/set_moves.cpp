@@ -222,7 +222,7 @@ Standing SetSearcher::coloured_anew(const Standing& standing) {
   // Not fitted: what is slow would take up what filters explain.
   const auto rest =
       bench_.fitted(standing.fitter->with_white_noise_scaled(std::move(plain)), standing.fitter, 0);
-  const auto angle = cause_types().named("angle_quantization", "effects");
+  const auto& angle = cause_types().named("angle_quantization", "effects");
   Scenario with_angle = rest.scenario;
   with_angle.effects.push_back(angle.guesses(Beside{conditions_, *rest.fitter, rest.fit}).front());
   const auto beside_angle = bench_.fitted(with_angle, rest.fitter, 0);

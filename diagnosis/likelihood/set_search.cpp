@@ -43,7 +43,7 @@ FoundSet SetSearcher::run() {
     });
 
   tell("the first effect", 3);
-  auto standing = coloured_anew(searched_beside_tails(begun));
+  auto standing = searched_beside_tails(begun);
   standing = exchanged(std::move(standing), found);
   if (auto other = beside_memory(standing);
       other.score > standing.score + least_gain(other, EffectBand::fast)) {

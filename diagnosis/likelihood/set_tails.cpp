@@ -97,8 +97,8 @@ void SetSearcher::add_nameless_tails(FoundSet& found) const {
 }
 
 Standing SetSearcher::searched_beside_tails(Standing standing) {
-  constexpr int rounds = 2;
-  for (int round = 0; round < rounds; ++round) {
+  constexpr int most_rounds = 3;
+  for (int round = 0; round < most_rounds; ++round) {
     const auto hidden = bench_.masked();
     judge_tails(standing);
     if (round == 0 && has_outliers_) {
@@ -119,7 +119,7 @@ Standing SetSearcher::searched_beside_tails(Standing standing) {
     bench_.mask_too(edges_of_the_dead_zone(standing.scenario));
     if (has_outliers_) bench_.mask_too(tails_.outliers);
     if (round > 0 && bench_.masked() == hidden) break;
-    standing = searched(bench_.refitted(standing.scenario));
+    standing = coloured_anew(searched(bench_.refitted(standing.scenario)));
   }
   return standing;
 }

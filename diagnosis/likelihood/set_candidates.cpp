@@ -1,0 +1,157 @@
+#include <gyrostat/diagnosis/likelihood/set_bench.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <tbb/parallel_invoke.h>
+
+#include <gyrostat/diagnosis/likelihood/beside.hpp>
+#include <gyrostat/diagnosis/likelihood/dials.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_band.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+/// So far behind, polishing may still bring a candidate in front.
+constexpr double within_reach_of_polish = 30.0;
+constexpr int screening_iterations = 3;
+/// Of an effect's guesses, so many are fitted a little, and so many to the end.
+constexpr std::size_t guesses_screened = 8, guesses_fitted = 2;
+
+/// The first `count` of `guesses`, by what `score` says of each.
+template <typename Score>
+std::vector<Effect> likeliest(const std::vector<Effect>& guesses, std::size_t count,
+                              const Score& score) {
+  if (guesses.size() <= count) return guesses;
+  std::vector<std::pair<double, std::size_t>> ranks;
+  for (std::size_t k = 0; k < guesses.size(); ++k) ranks.emplace_back(score(guesses[k]), k);
+  std::sort(ranks.rbegin(), ranks.rend());
+  std::vector<Effect> first;
+  for (std::size_t k = 0; k < count; ++k) first.push_back(guesses[ranks[k].second]);
+  return first;
+}
+
+}  // namespace
+
+Standing SetBench::with(const Standing& standing, const CauseType& cause,
+                        const Evidence* left) const {
+  if (cause.guesses != nullptr) return with_guessed(standing, cause);
+  if (left == nullptr || !is_taken_out(cause.effect())) return {};
+  return with_started(standing, cause, *left);
+}
+
+Standing SetBench::with_guessed(const Standing& standing, const CauseType& cause) const {
+  const Beside beside{conditions_, *standing.fitter, standing.fit};
+  // The walk that stands in for jumps of the set takes up whatever is slow, so beside a slow
+  // effect they are followed; of a fast one, what was screened without them is not taken over.
+  const bool jumps = law_of(standing.scenario, conditions_.interval_s()).jumps.has_value();
+  const bool slow = is_slow(cause.id);
+  // What the others took up of an effect that went, they give back: begun as they were beside it,
+  // too, or with a smaller walk.
+  std::vector<Scenario> starts = {standing.scenario};
+  if (!slow && standing.beside_the_last)
+    starts.push_back(*standing.beside_the_last);
+  else if (!(jumps && slow))  // beside them it is small, and they take long
+    starts.push_back(with_walk_times(standing.scenario, 0.1));
+  const auto begun = [&](Scenario start, const Effect& guess, int iterations) {
+    start.effects.push_back(guess);
+    return fitted(standing.fitter->with_white_noise_scaled(std::move(start)), standing.fitter,
+                  iterations, jumps && slow ? Jumping::yes : Jumping::no);
+  };
+  const auto log_likelihood = [&](const Effect& guess) {
+    double most = -1e300;
+    for (const auto& start : starts)
+      most = std::max(most, begun(start, guess, 0).fit.log_likelihood);
+    return most;
+  };
+  std::vector<Standing> screened;
+  for (const auto& guess : likeliest(cause.guesses(beside), guesses_screened, log_likelihood)) {
+    screened.emplace_back();
+    for (const auto& start : starts)
+      if (auto tried = begun(start, guess, screening_iterations);
+          tried.score > screened.back().score)
+        screened.back() = std::move(tried);
+  }
+  std::stable_sort(screened.begin(), screened.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
+  Standing best;
+  for (std::size_t k = 0; k < std::min(guesses_fitted, screened.size()); ++k) {
+    if (screened[k].score < -1e299) continue;
+    Scenario start = screened[k].scenario;
+    if (jumps && !slow) {
+      for (std::size_t e = 0; e < standing.scenario.effects.size(); ++e)
+        if (is_slow(start.effects[e].id())) start.effects[e] = standing.scenario.effects[e];
+      const double white = start.random_error.measurement_noise_std_dps;
+      start.random_error = standing.scenario.random_error;
+      start.random_error.measurement_noise_std_dps = white;
+    }
+    if (auto tried = fitted(start, standing.fitter, fitting_iterations); tried.score > best.score)
+      best = std::move(tried);
+  }
+  return best;
+}
+
+Standing SetBench::with_started(const Standing& standing, const CauseType& cause,
+                                const Evidence& left) const {
+  Standing best;
+  const auto keep = [&](Standing candidate) {
+    if (candidate.score > best.score) best = std::move(candidate);
+  };
+  const auto is_within_reach = [&](const Standing& tried) {
+    return tried.score > standing.score - within_reach_of_polish;
+  };
+  // Starts of a motion's effect are forms of it: which is the likelier is seen when each fits.
+  const bool are_forms = band_of(cause.id) == EffectBand::motion;
+  for (const auto& start : cause.starts(left)) {
+    Scenario scenario = standing.scenario;
+    scenario.effects.push_back(start);
+    auto tried = refitted(scenario, 6);
+    if (are_forms && is_within_reach(tried)) keep(polished(tried));
+    keep(std::move(tried));
+  }
+  if (!are_forms && is_within_reach(best)) keep(polished(best));
+  return best;
+}
+
+Standing SetBench::polished(Standing standing) const {
+  if (std::none_of(standing.scenario.effects.begin(), standing.scenario.effects.end(),
+                   is_taken_out))
+    return standing;
+  const auto likelihood = [&](const Scenario& scenario) {
+    return fitter_of(scenario)->terms(scenario).log_likelihood;
+  };
+  Scenario scenario = standing.scenario;
+  double here = likelihood(scenario);
+  for (int pass = 0; pass < 2; ++pass)
+    for (std::size_t at = 0; at < scenario.effects.size(); ++at) {
+      auto& effect = scenario.effects[at];
+      if (!is_taken_out(effect)) continue;
+      const auto& cause = cause_types().named(effect.id(), "effects");
+      for (const auto name : cause.free_parameters) {
+        const auto f = field_of(effect, name);
+        const double middle = effect.value(f);
+        const double step = (pass == 0 ? 0.02 : 0.004) * std::max(std::abs(middle), 1e-9);
+        Scenario more = scenario, less = scenario;
+        more.effects[at].value(f) = middle + step;
+        less.effects[at].value(f) = middle - step;
+        double above = 0.0, below = 0.0;
+        tbb::parallel_invoke([&] { above = likelihood(more); }, [&] { below = likelihood(less); });
+        const double curve = above + below - 2.0 * here;
+        double by =
+            curve < 0.0 ? 0.5 * step * (below - above) / curve : (above > below ? step : -step);
+        by = std::clamp(by, -5.0 * step, 5.0 * step);
+        const auto& range = effect.fields()[f].range;
+        effect.value(f) = std::clamp(middle + by, range.from, range.to);
+        const double there = likelihood(scenario);
+        if (there > here)
+          here = there;
+        else
+          effect.value(f) = middle;
+      }
+    }
+  return refitted(scenario, 8);
+}
+
+}  // namespace gyrostat::gap
