@@ -123,9 +123,15 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
   });
   const auto parts = parts_of_wandering_lines(bench, left, found.scenario, shapes);
   bool wanders = false;
-  for (std::size_t k = 0; k < effects.size(); ++k) {
+  // The strongest first: what it takes of the others' bands they are fitted without.
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < effects.size(); ++k)
+    if (effects[k].id() == "vibration") order.push_back(k);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return line_of(effects[a]).variance > line_of(effects[b]).variance;
+  });
+  for (const std::size_t k : order) {
     auto& effect = effects[k];
-    if (effect.id() != "vibration") continue;
     const auto line = line_of(effect);
     const auto& shape = shapes[k];
     const bool bursts = is_bursts(shape) && parts[k] == 0.0;
