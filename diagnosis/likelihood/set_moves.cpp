@@ -8,8 +8,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
-#include <gyrostat/diagnosis/likelihood/beside.hpp>
-#include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/motion_left.hpp>
 
 namespace gyrostat::gap {
@@ -30,15 +28,6 @@ bool may_repeat(const Scenario& scenario, std::string_view effect) {
   return effect == "vibration" &&
          std::count_if(scenario.effects.begin(), scenario.effects.end(),
                        [&](const auto& e) { return e.id() == effect; }) < most_lines;
-}
-
-/// Too narrow to stand in for a filter.
-bool is_a_line(const Effect& effect) {
-  constexpr double narrow = 0.25;
-  if (effect.id() == "vibration")
-    return effect.value(field_of(effect, "bandwidth_hz")) <
-           narrow * effect.value(field_of(effect, "centre_hz"));
-  return effect.id() == "sinusoidal" || effect.id() == "wandering_line";
 }
 
 }  // namespace
@@ -204,71 +193,6 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
           found.members.end());
   }
   return standing;
-}
-
-Standing SetSearcher::coloured_anew(const Standing& standing) {
-  const auto colours = [&](std::string_view effect) {
-    return !bench_.is_marked(effect) && band_of(effect) == EffectBand::fast;
-  };
-  const auto& effects = standing.scenario.effects;
-  if (std::count_if(effects.begin(), effects.end(),
-                    [&](const auto& effect) { return colours(effect.id()); }) < 2)
-    return standing;
-  Scenario plain = standing.scenario;
-  std::erase_if(plain.effects,
-                [&](const auto& effect) { return colours(effect.id()) && !is_a_line(effect); });
-  const auto all = candidates_;
-  std::erase_if(candidates_, [&](const auto* cause) { return !colours(cause->id); });
-  // Not fitted: what is slow would take up what filters explain.
-  const auto rest =
-      bench_.fitted(standing.fitter->with_white_noise_scaled(std::move(plain)), standing.fitter, 0);
-  const auto& angle = cause_types().named("angle_quantization", "effects");
-  Scenario with_angle = rest.scenario;
-  with_angle.effects.push_back(angle.guesses(Beside{conditions_, *rest.fitter, rest.fit}).front());
-  const auto beside_angle = bench_.fitted(with_angle, rest.fitter, 0);
-  std::vector<Standing> firsts;
-  for (const auto* id : {"noise_averaging", "noise_bandwidth"}) {
-    if (!bench_.is_allowed(id)) continue;
-    const auto& filter = cause_types().named(id, "effects");
-    firsts.push_back(bench_.with(rest, filter, nullptr));
-    if (!bench_.is_allowed(angle.id)) continue;
-    // Beside a filter that stands in for both an angle's errors gain nothing.
-    if (auto both = bench_.with(beside_angle, filter, nullptr); both.score > firsts.back().score)
-      firsts.push_back(std::move(both));
-  }
-  const auto gains = gains_;
-  auto gains_of_best = gains_;
-  const double least = least_gain(standing, EffectBand::fast);
-  Standing best = standing;
-  double most = standing.score;
-  for (const auto& first : firsts) {
-    if (first.score < -1e299) continue;
-    gains_ = gains;
-    auto other = searched(first);
-    double worth = other.score;
-    for (const auto& effect : other.scenario.effects)
-      if (!has(standing.scenario, effect.id())) worth -= least;
-    if (worth <= most) continue;
-    most = worth;
-    best = std::move(other);
-    gains_of_best = gains_;
-  }
-  gains_ = std::move(gains_of_best);
-  candidates_ = all;
-  return best;
-}
-
-Standing SetSearcher::beside_memory(const Standing& standing) const {
-  if (standing.scenario.random_error.phi != 0.0) return {};
-  Standing best = bench_.beside_memory(standing);
-  Scenario plain = standing.scenario;
-  std::erase_if(plain.effects, [&](const auto& effect) {
-    return !bench_.is_marked(effect.id()) && band_of(effect.id()) == EffectBand::fast;
-  });
-  if (plain.effects.size() < standing.scenario.effects.size())
-    if (auto other = bench_.beside_memory(bench_.refitted(plain)); other.score > best.score)
-      best = std::move(other);
-  return best;
 }
 
 }  // namespace gyrostat::gap

@@ -21,8 +21,9 @@ void add_mark(std::string_view effect, FoundSet& found);
 /// Standard deviation of white noise with what rounding adds.
 double white_with_rounding(const Scenario& scenario);
 
-/// find_set() and what may be asked of it afterwards: its moves are in set_moves.cpp, what is read
-/// off values in set_marks.cpp, what only sizes of innovations say in set_tails.cpp.
+/// find_set() and what may be asked of it afterwards: its moves are in set_moves.cpp, beginnings
+/// from elsewhere in set_beginnings.cpp, what is read off values in set_marks.cpp, what only sizes
+/// of innovations say in set_tails.cpp.
 class SetSearcher {
  public:
   SetSearcher(const Simulator& simulator, const Series& recording, const SetSearchOptions& options,
