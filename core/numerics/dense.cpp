@@ -9,6 +9,17 @@ namespace gyrostat {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+/// Products of matrices are summed in blocks as long as a cache holds: of this processor's, they
+/// would have other last bits on another.
+[[maybe_unused]] const bool same_blocks_everywhere = [] {
+  Eigen::setCpuCacheSizes(32 * 1024, 1024 * 1024, 8 * 1024 * 1024);
+  return true;
+}();
+
+}  // namespace
+
 MatrixXd cholesky_root(const MatrixXd& A) { return A.llt().matrixL(); }
 
 MatrixXd whitener_of(const MatrixXd& A) {

@@ -50,16 +50,17 @@ class Sought {
   Sought(const SetBench& bench, const Standing& standing, const Effect& effect, std::size_t field)
       : bench_(bench), standing_(standing), with_(standing.scenario), field_(field) {
     with_.effects.push_back(effect);
+    if (is_slow_curve())
+      amplitude_ = standing.fitter->amplitude_of(with_, with_.effects.size() - 1);
   }
 
   const Effect& effect() const { return with_.effects.back(); }
   void scale(double factor) { with_.effects.back().value(field_) *= factor; }
   /// Of what the search must gain, beside a least gain.
   double price() const {
-    const auto cost = [](const Standing& s) { return s.fit.log_likelihood - s.score; };
-    double sum = cost(bench_.fitted(with_, standing_.fitter, 0)) - cost(standing_);
+    double sum = bench_.price_of(with_) - bench_.price_of(standing_.scenario);
     if (is_slow_curve()) {
-      const auto [error, prior] = standing_.fitter->amplitude_of(with_, effect_at());
+      const auto [error, prior] = amplitude_;
       sum += 0.5 * std::log1p(prior * prior / (error * error));
     }
     return sum;
@@ -68,8 +69,7 @@ class Sought {
   /// recordings.
   double deviate() const {
     const double size = effect().value(field_);
-    if (is_slow_curve())
-      return std::abs(size) / standing_.fitter->amplitude_of(with_, effect_at()).error;
+    if (is_slow_curve()) return std::abs(size) / amplitude_.error;
     if (is_taken_out(effect())) {
       // The curvature of the likelihood, by as much of the effect added as taken away.
       Scenario less = with_;
@@ -85,7 +85,8 @@ class Sought {
                            static_cast<double>(conditions.cluster());
     const double lost = 0.5 * static_cast<double>(conditions.drift_regressors().cols());
     const auto [mean, deviation] =
-        gain_over(law_of(with_, interval_s), law_of(standing_.scenario, interval_s), samples, lost);
+        gain_over(law_of(with_, interval_s), law_of(standing_.scenario, interval_s),
+                  standing_.fitter->reduced().grid(), samples, lost);
     return deviate_of_power + std::sqrt(2.0 * std::max(0.0, mean - deviate_of_power * deviation));
   }
   /// The deviate grows with the size, of what is random with its square.
@@ -95,12 +96,12 @@ class Sought {
   bool is_slow_curve() const {
     return cause_types().named(effect().id(), "effects").signature == Signature::slow;
   }
-  std::size_t effect_at() const { return with_.effects.size() - 1; }
 
   const SetBench& bench_;
   const Standing& standing_;
   Scenario with_;
   std::size_t field_;
+  SetFitter::Amplitude amplitude_{};  ///< of a slow curve, whatever its size
 };
 
 std::optional<Detectable> detectable(const SetBench& bench, const Standing& standing,

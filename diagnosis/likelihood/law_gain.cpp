@@ -7,43 +7,71 @@
 namespace gyrostat::gap {
 namespace {
 
-/// Frequencies whose number grows in proportion, and how many ordinates each stands for.
-struct Ordinates {
-  Angles angles{2};
-  std::vector<double> counts;
-
-  Ordinates(double samples, double lost) {
+/// Where laws are held against each other, and how many ordinates each frequency stands for: below
+/// the fast bins of a grid in numbers that grow in proportion, from there on at its bins.
+class Ordinates {
+ public:
+  Ordinates(const RateGrid& grid, double samples, double lost) : grid_(grid) {
     constexpr double finest = 0.03;  // of a frequency
-    angles.values.clear();
-    for (double first = std::floor(lost) + 1.0; first < 0.5 * samples;) {
-      const double last = std::max(first + 1.0, std::floor(first * (1.0 + finest)));
-      angles.values.push_back(2.0 * std::numbers::pi * 0.5 * (first + last - 1.0) / samples);
-      counts.push_back(std::min(last, 0.5 * samples) - first);
+    const double a_bin = samples / static_cast<double>(grid.segment());
+    const double fast = (static_cast<double>(grid.first_fast_bin()) - 0.5) * a_bin;
+    slow_.values.clear();
+    for (double first = std::floor(lost) + 1.0; first < fast;) {
+      const double last = std::min(fast, std::max(first + 1.0, std::floor(first * (1.0 + finest))));
+      slow_.values.push_back(2.0 * std::numbers::pi * 0.5 * (first + last - 1.0) / samples);
+      counts_.push_back(last - first);
       first = last;
     }
-    angles.cosines.resize(angles.values.size());
-    angles.sines.resize(angles.values.size());
-    for (std::size_t k = 0; k < angles.values.size(); ++k) {
-      angles.cosines[k] = std::cos(angles.values[k]);
-      angles.sines[k] = std::sin(angles.values[k]);
+    if (slow_.values.size() < 2) {
+      slow_.values.clear();
+      counts_.clear();
     }
+    slow_.cosines.resize(slow_.values.size());
+    slow_.sines.resize(slow_.values.size());
+    for (std::size_t k = 0; k < slow_.values.size(); ++k) {
+      slow_.cosines[k] = std::cos(slow_.values[k]);
+      slow_.sines[k] = std::sin(slow_.values[k]);
+    }
+    counts_.resize(counts_.size() + grid.angles().values.size() - 1 - grid.first_fast_bin(), a_bin);
   }
+
+  const std::vector<double>& counts() const { return counts_; }
+  std::vector<double> of(const NoiseLaw& law) const {
+    std::vector<double> density;
+    if (!slow_.values.empty()) {
+      NoiseLaw below = law;
+      below.wandering.clear();  // about a fast frequency, as a rule
+      density = density_of(below, slow_);
+    }
+    const auto fast = density_of(law, grid_.angles());
+    density.insert(density.end(),
+                   fast.begin() + static_cast<std::ptrdiff_t>(grid_.first_fast_bin()),
+                   fast.end() - 1);
+    return density;
+  }
+
+ private:
+  const RateGrid& grid_;
+  Angles slow_{2};
+  std::vector<double> counts_;
 };
 
 }  // namespace
 
-Gain gain_over(const NoiseLaw& truth, const NoiseLaw& rival, double samples, double lost) {
-  const Ordinates at(samples, lost);
-  const std::size_t n = at.counts.size();
+Gain gain_over(const NoiseLaw& truth, const NoiseLaw& rival, const RateGrid& grid, double samples,
+               double lost) {
+  const Ordinates at(grid, samples, lost);
+  const auto& counts = at.counts();
+  const std::size_t n = counts.size();
   if (n < 2) return {0.0, 0.0};
   NoiseLaw other = rival;
   other.white = other.walk = 0.0;
-  const auto seen = density_of(truth, at.angles), fixed = density_of(other, at.angles);
+  const auto seen = at.of(truth), fixed = at.of(other);
   other.white = 1.0;
-  auto white = density_of(other, at.angles);
+  auto white = at.of(other);
   other.white = 0.0;
   other.walk = 1.0;
-  auto walk = density_of(other, at.angles);
+  auto walk = at.of(other);
   for (std::size_t k = 0; k < n; ++k) {
     white[k] -= fixed[k];
     walk[k] -= fixed[k];
@@ -56,7 +84,7 @@ Gain gain_over(const NoiseLaw& truth, const NoiseLaw& rival, double samples, dou
     double ww = 0.0, wk = 0.0, kk = 0.0, yw = 0.0, yk = 0.0;
     for (std::size_t k = 0; k < n; ++k) {
       density[k] = fixed[k] + a * white[k] + b * walk[k];
-      const double weight = at.counts[k] / (density[k] * density[k]);
+      const double weight = counts[k] / (density[k] * density[k]);
       const double left = seen[k] - fixed[k];
       ww += weight * white[k] * white[k];
       wk += weight * white[k] * walk[k];
@@ -71,15 +99,17 @@ Gain gain_over(const NoiseLaw& truth, const NoiseLaw& rival, double samples, dou
       to_b = 0.0;
       to_a = yw / ww;
     }
-    constexpr double damped = 0.5;
+    constexpr double damped = 0.5, settled = 1e-7;
+    const bool ends = std::abs(to_a - a) <= settled * a && std::abs(to_b - b) <= settled * b;
     a = std::max(1e-6 * a, a + damped * (to_a - a));
     b = b + damped * (to_b - b);
+    if (ends) break;
   }
   Gain gain{0.0, 0.0};
   for (std::size_t k = 0; k < n; ++k) {
     const double excess = seen[k] / (fixed[k] + a * white[k] + b * walk[k]) - 1.0;
-    gain.mean += at.counts[k] * (excess - std::log1p(excess));
-    gain.deviation += at.counts[k] * excess * excess;
+    gain.mean += counts[k] * (excess - std::log1p(excess));
+    gain.deviation += counts[k] * excess * excess;
   }
   gain.deviation = std::sqrt(gain.deviation);
   return gain;

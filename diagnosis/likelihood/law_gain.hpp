@@ -11,7 +11,9 @@ struct Gain {
 
 /// What `samples` values of the law `truth` say for it against `rival` with the white noise and the
 /// walk under which they are likeliest: Whittle's likelihood, in which ordinates of a periodogram
-/// are independent and exponential. The lowest `lost` frequencies do not count.
-Gain gain_over(const NoiseLaw& truth, const NoiseLaw& rival, double samples, double lost);
+/// are independent and exponential. They are looked at as on `grid`, and below its fast frequencies
+/// at their own; the lowest `lost` do not count.
+Gain gain_over(const NoiseLaw& truth, const NoiseLaw& rival, const RateGrid& grid, double samples,
+               double lost);
 
 }  // namespace gyrostat::gap

@@ -26,6 +26,7 @@ struct Jumps {
   enum class To { another_level, the_other_level } to;
   double size_dps;  ///< standard deviation of a jump, or half the distance of the two levels
   double per_s;     ///< rate of the jumps
+  bool operator==(const Jumps&) const = default;
 };
 
 /// What is random in the rate error of a scenario, in closed form: a sum of independent parts, of

@@ -92,37 +92,35 @@ double fast_ratio(const ReducedRate& reduced, const NoiseLaw& law) {
   return sum / bins;
 }
 
-RateTerms rate_terms(const ReducedRate& reduced, const NoiseLaw& law,
-                     const Eigen::MatrixXd& regressors, const Eigen::VectorXd& prior_std) {
-  RateTerms terms;
+RateBands rate_bands(const ReducedRate& reduced, const NoiseLaw& law) {
   const double interval_s = law.interval_s * std::round(reduced.cluster_s() / law.interval_s);
   const auto bands = bands_of(law, interval_s);
   auto density = density_of(bands.fast, reduced.grid().angles());
-  const auto& slow = reduced.slow(Part::train);
-  if (slow.points.size() > 1) {
-    const Eigen::VectorXd& values = slow.means;
-    Eigen::MatrixXd chosen(values.size(), regressors.cols());
-    for (Eigen::Index k = 0; k < values.size(); ++k) {
-      const auto at = slow.points[static_cast<std::size_t>(k)];
-      if (regressors.cols() > 0) chosen.row(k) = regressors.row(static_cast<Eigen::Index>(at));
-    }
-    terms.slow = slow_terms(slow_law_of(reduced, bands.slow, density, interval_s), slow.points,
-                            values, chosen, prior_std);
-    terms.log_likelihood = terms.slow.log_likelihood;
-  }
+  RateBands found{.slow = slow_law_of(reduced, bands.slow, density, interval_s), .fast = {}};
   const auto& seen = reduced.periodogram();
-  if (seen.empty()) return terms;
+  if (seen.empty()) return found;
   const auto slow_density = density_of(bands.slow, reduced.grid().angles());
   for (std::size_t k = 0; k < density.size(); ++k) density[k] += slow_density[k];
   density = reduced.grid().shown(density);
   double sum = 0.0;
   for (std::size_t k = reduced.grid().first_fast_bin(); k + 1 < density.size(); ++k) {
     const double log_density = std::log(density[k]);
-    terms.log_density.push_back(log_density);
+    found.fast.log_density.push_back(log_density);
     sum += log_density + seen[k] / density[k];
   }
-  terms.log_likelihood -= reduced.degrees() * sum;
-  return terms;
+  found.fast.log_likelihood = -reduced.degrees() * sum;
+  return found;
+}
+
+SlowTerms slow_terms(const ReducedRate& reduced, const SlowLaw& law,
+                     const Eigen::MatrixXd& regressors, const Eigen::VectorXd& prior_std) {
+  const auto& slow = reduced.slow(Part::train);
+  if (slow.points.size() < 2) return {};
+  Eigen::MatrixXd chosen(slow.means.size(), regressors.cols());
+  for (Eigen::Index k = 0; k < chosen.rows() && chosen.cols() > 0; ++k)
+    chosen.row(k) =
+        regressors.row(static_cast<Eigen::Index>(slow.points[static_cast<std::size_t>(k)]));
+  return slow_terms(law, slow.points, slow.means, chosen, prior_std);
 }
 
 }  // namespace gyrostat::gap

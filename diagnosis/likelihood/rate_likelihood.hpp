@@ -6,17 +6,30 @@
 
 namespace gyrostat::gap {
 
-/// A log-likelihood with the terms that a Fisher score needs.
-struct RateTerms {
+/// What a law says of frequencies above those that cluster means show, and how likely it makes them
+/// by Whittle's likelihood (Whittle, Ark. Mat. 2, 1953).
+struct FastTerms {
   double log_likelihood = 0.0;
-  SlowTerms slow;
   std::vector<double> log_density;  ///< at the fast bins
 };
 
-/// How likely a part of a recording is under a law of the noise: cluster means by an exact
-/// likelihood, frequencies above those that cluster means show by Whittle's (Whittle, Ark. Mat. 2,
-/// 1953). `regressors` (cluster x any) are of unknown size, but for their priors (SlowTerms).
-RateTerms rate_terms(const ReducedRate& reduced, const NoiseLaw& law,
+/// A law in both bands of a recording.
+struct RateBands {
+  SlowLaw slow;  ///< of cluster means
+  FastTerms fast;
+};
+RateBands rate_bands(const ReducedRate& reduced, const NoiseLaw& law);
+
+/// How likely the train part of a recording is under a law of the noise, with the terms that a
+/// Fisher score needs: cluster means by an exact likelihood, faster frequencies by Whittle's.
+struct RateTerms {
+  double log_likelihood = 0.0;
+  RateBands bands;
+  SlowTerms slow;
+};
+
+/// `regressors` (cluster x any) are of unknown size, but for their priors (SlowTerms).
+SlowTerms slow_terms(const ReducedRate& reduced, const SlowLaw& law,
                      const Eigen::MatrixXd& regressors, const Eigen::VectorXd& prior_std);
 
 /// Mean ratio of the train part's periodogram to the law at fast frequencies; 1 where there are

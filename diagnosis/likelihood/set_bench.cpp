@@ -122,13 +122,16 @@ std::shared_ptr<const SetFitter> SetBench::fitter_of(const Scenario& scenario) c
       simulator_.interrupt());
 }
 
-/// So much for each parameter that is fitted, and the logarithm of the places looked at for lines.
-double SetBench::cost(const Scenario& scenario) const {
+double SetBench::price_of(const Scenario& scenario) const {
+  constexpr double beyond_any = 1e300;
+  if (!has_white_noise(scenario)) return beyond_any;
   const double values = static_cast<double>(conditions_.train_points().size());
   double sum = scenario.random_error.phi != 0.0 ? prior + 2.0 * of_a_parameter : 0.0;
   for (const auto& effect : scenario.effects) {
     const auto* cause = cause_types().find(effect.id());
-    if (cause == nullptr || is_marked(effect.id())) continue;
+    if (cause == nullptr) continue;
+    if (!cause->is_what_it_is_called(effect, conditions_)) return beyond_any;
+    if (is_marked(effect.id())) continue;
     sum += prior +
            of_a_parameter * static_cast<double>(cause->free_parameters.size() - cause->amplitudes +
                                                 (cause->comes_in_forms ? 1 : 0));
@@ -147,12 +150,7 @@ Standing SetBench::fitted(const Scenario& scenario, std::shared_ptr<const SetFit
   s.fit = fitter->maximise(scenario, iterations, jumping);
   s.fitter = std::move(fitter);
   s.scenario = s.fit.scenario;
-  s.score = s.fit.log_likelihood - cost(s.scenario);
-  if (!has_white_noise(s.scenario)) s.score = -1e300;
-  for (const auto& effect : s.scenario.effects)
-    if (const auto* cause = cause_types().find(effect.id());
-        cause != nullptr && !cause->is_what_it_is_called(effect, conditions_))
-      s.score = -1e300;
+  s.score = s.fit.log_likelihood - price_of(s.scenario);
   return s;
 }
 

@@ -51,6 +51,10 @@ class SetBench {
   Standing beside_noise(std::vector<Effect> effects) const;
   /// With an ARIMA(1,1,1) that remembers, in place of the walk.
   Standing beside_memory(const Standing& standing) const;
+  /// What the parameters of a set cost, by which a score is less than a log-likelihood: so much for
+  /// each that is fitted, and the logarithm of the places looked at for lines. Beyond any where an
+  /// effect is not what it is called, or the white noise has passed for memory.
+  double price_of(const Scenario& scenario) const;
   Standing fitted(const Scenario& scenario, std::shared_ptr<const SetFitter> fitter, int iterations,
                   Jumping jumping = Jumping::yes) const;
   Standing refitted(const Scenario& scenario, int iterations = fitting_iterations) const {
@@ -85,7 +89,6 @@ class SetBench {
   std::vector<double> gyro_beside(const Scenario& scenario) const;
   std::vector<double> rate_error_beside(const Scenario& scenario) const;
   std::shared_ptr<const SetFitter> fitter_of(const Scenario& scenario) const;
-  double cost(const Scenario& scenario) const;
   void add_intervals_of_taken_out(const Scenario& scenario, std::size_t effect,
                                   std::vector<ParameterInterval>& to) const;
 

@@ -99,19 +99,16 @@ Standing SetBench::with_started(const Standing& standing, const CauseType& cause
   const auto keep = [&](Standing candidate) {
     if (candidate.score > best.score) best = std::move(candidate);
   };
-  const auto is_within_reach = [&](const Standing& tried) {
-    return tried.score > standing.score - within_reach_of_polish;
-  };
-  // Starts of a motion's effect are forms of it: which is the likelier is seen when each fits.
+  // Starts of a motion's effect are forms of it: which is the likelier is seen when each fits. A
+  // line's are its maxima already.
   const bool are_forms = band_of(cause.id) == EffectBand::motion;
   for (const auto& start : cause.starts(left)) {
     Scenario scenario = standing.scenario;
     scenario.effects.push_back(start);
     auto tried = refitted(scenario, 6);
-    if (are_forms && is_within_reach(tried)) keep(polished(tried));
+    if (are_forms && tried.score > standing.score - within_reach_of_polish) keep(polished(tried));
     keep(std::move(tried));
   }
-  if (!are_forms && is_within_reach(best)) keep(polished(best));
   return best;
 }
 

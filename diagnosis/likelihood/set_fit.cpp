@@ -3,83 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
-
-#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/likelihood/arima_law.hpp>
-#include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 
 namespace gyrostat::gap {
-namespace {
-
-/// The innovation of the decaying error beside the walk, as a share of the white noise.
-Dial size_of_memory(double white) {
-  return {[=](const Scenario& s) { return ArimaLaw::of(s.random_error).memory / (white * white); },
-          [=](Scenario& s, double x) {
-            auto law = ArimaLaw::of(s.random_error);
-            const double from_walk = law.walk_dps * (1.0 + law.phi);
-            law.memory = std::max(x * white * white, -0.25 * from_walk * from_walk);
-            law.put(s.random_error);
-          },
-          0.5};
-}
-
-Dial length_of_memory() {
-  return {[](const Scenario& s) { return std::atanh(s.random_error.phi); },
-          [](Scenario& s, double x) {
-            auto law = ArimaLaw::of(s.random_error);
-            constexpr double longest = 0.967;  // beyond, it is a slow error
-            law.phi = std::clamp(std::tanh(x), 0.05, longest);
-            law.put(s.random_error);
-          },
-          0.5};
-}
-
-std::vector<Dial> dials_of(const Scenario& scenario) {
-  std::vector<Dial> dials;
-  const double white = scenario.random_error.measurement_noise_std_dps;
-  dials.push_back(
-      logarithmic([](Scenario& s) -> double& { return s.random_error.measurement_noise_std_dps; },
-                  1e-6 * white, 1e6 * white));
-  dials.back().of = white_noise;
-  dials.push_back(size_of_walk(1e-9 * white, 1e3 * white));
-  dials.back().of = random_walk;
-  if (scenario.random_error.phi != 0.0) {
-    dials.push_back(size_of_memory(white));
-    dials.push_back(length_of_memory());
-  }
-  for (std::size_t k = 0; k < scenario.effects.size(); ++k) {
-    const auto& effect = scenario.effects[k];
-    const auto& cause = cause_types().named(effect.id(), "effects");
-    if (cause.enter == nullptr && cause.signature != Signature::slow) continue;
-    const auto amplitudes = cause.signature == Signature::slow ? cause.amplitudes : 0;
-    for (std::size_t f = 0; f < effect.fields().size(); ++f) {
-      const auto& field = effect.fields()[f];
-      if (std::find(cause.free_parameters.begin() + static_cast<std::ptrdiff_t>(amplitudes),
-                    cause.free_parameters.end(), field.name) == cause.free_parameters.end())
-        continue;
-      const auto value = [k, f](Scenario& s) -> double& { return s.effects[k].value(f); };
-      const double start = effect.value(f);
-      double largest = 1e-12;
-      for (std::size_t g = 0; g < effect.fields().size(); ++g)
-        if (effect.fields()[g].unit == field.unit)
-          largest = std::max(largest, std::abs(effect.value(g)));
-      if (field.range.from >= 0.0 && start > 0.0)
-        dials.push_back(logarithmic(value, std::max(field.range.from, 1e-3 * start),
-                                    std::min(field.range.to, 1e3 * start)));
-      else
-        dials.push_back(linear(value, largest));
-      dials.back().place = Dial::Place{k, f};
-      dials.back().of = cause.id;
-    }
-  }
-  return dials;
-}
-
-}  // namespace
 
 NoiseLaw law_of(const Scenario& scenario, double interval_s) {
   const auto& e = scenario.random_error;
@@ -196,19 +125,24 @@ SetFitter::Regressors SetFitter::regressors_of(const Scenario& scenario) const {
   return found;
 }
 
-RateTerms SetFitter::terms_with(const Scenario& scenario, const Regressors& regressors,
-                                Jumping jumping) const {
-  const auto law = law_of(scenario, conditions_.interval_s());
+NoiseLaw SetFitter::law_for(const Scenario& scenario, Jumping jumping) const {
+  auto law = law_of(scenario, conditions_.interval_s());
+  return jumping == Jumping::yes ? law : law.without_jumps();
+}
+
+SlowTerms SetFitter::slow_terms_of(const SlowLaw& law, const Regressors& regressors) const {
   constexpr double drift_prior = 3.0;  // drifts are larger than what is found beside them
   Eigen::VectorXd prior_std = Eigen::VectorXd::Constant(regressors.columns.cols(), amplitude_dps_);
   prior_std.head(drift_.cols()) *= drift_prior;
-  return rate_terms(*reduced_, jumping == Jumping::yes ? law : law.without_jumps(),
-                    regressors.columns, prior_std);
+  return slow_terms(*reduced_, law, regressors.columns, prior_std);
 }
 
 RateTerms SetFitter::terms(const Scenario& scenario, Jumping jumping) const {
   interrupt_.check();
-  return terms_with(scenario, regressors_of(scenario), jumping);
+  RateTerms terms{.bands = rate_bands(*reduced_, law_for(scenario, jumping)), .slow = {}};
+  terms.slow = slow_terms_of(terms.bands.slow, regressors_of(scenario));
+  terms.log_likelihood = terms.slow.log_likelihood + terms.bands.fast.log_likelihood;
+  return terms;
 }
 
 Eigen::VectorXd SetFitter::further_sizes(const Scenario& scenario) const {
@@ -243,154 +177,6 @@ void SetFitter::take_coefficients(const RateTerms& terms, SetFit& fit) const {
       effect.value(field_of(effect, cause->free_parameters[a])) =
           found[static_cast<Eigen::Index>(at)] / spreads[at];
   }
-}
-
-Eigen::MatrixXd SetFitter::slopes_of(const Scenario& scenario, const std::vector<Dial>& dials,
-                                     const RateTerms& here, Jumping jumping,
-                                     Eigen::VectorXd* gradient) const {
-  constexpr double step = 1e-3;
-  const auto count = static_cast<Eigen::Index>(dials.size());
-  const auto rows = static_cast<Eigen::Index>(here.slow.innovations.size());
-  const auto bins = static_cast<Eigen::Index>(here.log_density.size());
-  Eigen::MatrixXd slopes(2 * rows + bins, count);
-  const double root = std::sqrt(reduced_->degrees());
-  tbb::parallel_for(Eigen::Index{0}, count, [&](Eigen::Index d) {
-    const auto there =
-        terms(moved(scenario, dials, step * Eigen::VectorXd::Unit(count, d)), jumping);
-    if (gradient != nullptr) (*gradient)[d] = (there.log_likelihood - here.log_likelihood) / step;
-    for (Eigen::Index k = 0; k < rows; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      slopes(k, d) =
-          std::sqrt(0.5) * (there.slow.log_variances[i] - here.slow.log_variances[i]) / step;
-      slopes(rows + k, d) = (there.slow.innovations[i] - here.slow.innovations[i]) / step;
-    }
-    for (Eigen::Index k = 0; k < bins; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      slopes(2 * rows + k, d) = root * (there.log_density[i] - here.log_density[i]) / step;
-    }
-  });
-  return slopes;
-}
-
-std::pair<Eigen::VectorXd, Eigen::VectorXd> SetFitter::coefficients_over_walks(
-    const Scenario& scenario) const {
-  const double white = scenario.random_error.measurement_noise_std_dps;
-  const double least = 0.01 * white / std::sqrt(reduced_->cluster_s() / conditions_.interval_s());
-  std::vector<double> weights;
-  std::vector<SlowTerms> each;
-  double best = -1e300;
-  for (double factor = 1.0; factor < 300.0; factor *= 1.6) {
-    const auto there = with_walk_of_at_least(with_walk_times(scenario, 1e-6), factor * least);
-    auto tried = terms(there, Jumping::no);
-    weights.push_back(tried.log_likelihood + std::log(factor));
-    best = std::max(best, weights.back());
-    each.push_back(std::move(tried.slow));
-  }
-  double sum = 0.0;
-  for (double& w : weights) sum += w = std::exp(w - best);
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(each.front().coefficients.size());
-  Eigen::VectorXd square = mean;
-  for (std::size_t k = 0; k < each.size(); ++k) {
-    const double share = weights[k] / sum;
-    mean += share * each[k].coefficients;
-    square += share * (each[k].coefficients.cwiseAbs2() + each[k].coefficients_std.cwiseAbs2());
-  }
-  return {mean, (square - mean.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt()};
-}
-
-SetFitter::Amplitude SetFitter::amplitude_of(const Scenario& scenario, std::size_t effect) const {
-  auto at = static_cast<std::size_t>(drift_.cols());
-  for (std::size_t k = 0; k < effect; ++k)
-    if (const auto* cause = cause_types().find(scenario.effects[k].id());
-        cause != nullptr && cause->signature == Signature::slow)
-      at += cause->amplitudes;
-  const double spread = regressors_of(scenario).spreads[at];
-  const auto errors = coefficients_over_walks(scenario).second;
-  return {errors[static_cast<Eigen::Index>(at)] / spread, amplitude_dps_ / spread};
-}
-
-std::vector<ParameterInterval> SetFitter::intervals(const SetFit& fit) const {
-  constexpr double two_sided_95 = 1.959964;
-  std::vector<ParameterInterval> found;
-  const auto dials = dials_of(fit.scenario);
-  const auto here = terms(fit.scenario, Jumping::no);
-  const auto slopes = slopes_of(fit.scenario, dials, here, Jumping::no, nullptr);
-  Eigen::MatrixXd information = slopes.transpose() * slopes;
-  information.diagonal().array() += 1e-6;  // what nothing is known of has an interval, too
-  const Eigen::MatrixXd covariance = invert_symmetric(information).inverse;
-  for (std::size_t d = 0; d < dials.size(); ++d) {
-    if (!dials[d].place) continue;
-    const auto [effect, field] = *dials[d].place;
-    const auto at = static_cast<Eigen::Index>(d);
-    const double reach = two_sided_95 * std::sqrt(std::max(0.0, covariance(at, at)));
-    const auto end = [&](double by) {
-      Scenario there = fit.scenario;
-      dials[d].set(there, dials[d].get(there) + by);
-      return there.effects[effect].value(field);
-    };
-    const double low = end(-reach), high = end(reach);
-    found.push_back({effect, field, low, high});
-  }
-  if (here.slow.coefficients.size() == 0) return found;
-  const auto [coefficients, coefficients_std] = coefficients_over_walks(fit.scenario);
-  const auto spreads = regressors_of(fit.scenario).spreads;
-  auto at = static_cast<std::size_t>(drift_.cols());
-  for (std::size_t k = 0; k < fit.scenario.effects.size(); ++k) {
-    const auto& effect = fit.scenario.effects[k];
-    const auto* cause = cause_types().find(effect.id());
-    if (cause == nullptr || cause->signature != Signature::slow) continue;
-    for (std::size_t a = 0; a < cause->amplitudes; ++a, ++at) {
-      const auto c = static_cast<Eigen::Index>(at);
-      const double value = coefficients[c] / spreads[at];
-      const double reach = two_sided_95 * coefficients_std[c] / spreads[at];
-      found.push_back(
-          {k, field_of(effect, cause->free_parameters[a]), value - reach, value + reach});
-    }
-  }
-  return found;
-}
-
-SetFit SetFitter::maximise(const Scenario& start, int iterations, Jumping jumping,
-                           std::string_view held) const {
-  SetFit fit{.scenario = start, .drift = {}};
-  auto dials = dials_of(start);
-  std::erase_if(dials, [&](const Dial& dial) { return !held.empty() && dial.of == held; });
-  const auto count = static_cast<Eigen::Index>(dials.size());
-  fit.parameters = dials.size();
-  RateTerms here = terms(fit.scenario, jumping);
-  double damping = 1e-2;
-  for (int iteration = 0; iteration < iterations; ++iteration) {
-    Eigen::VectorXd gradient(count);
-    const auto slopes = slopes_of(fit.scenario, dials, here, jumping, &gradient);
-    const Eigen::MatrixXd information = slopes.transpose() * slopes;
-    bool better = false;
-    for (int attempt = 0; attempt < 4 && !better; ++attempt) {
-      Eigen::MatrixXd damped = information;
-      damped.diagonal() +=
-          damping * information.diagonal() + Eigen::VectorXd::Constant(count, 1e-3);
-      Eigen::VectorXd by = solve_symmetric(damped, gradient);
-      for (Eigen::Index d = 0; d < count; ++d) {
-        const double furthest = dials[static_cast<std::size_t>(d)].furthest;
-        by[d] = std::clamp(by[d], -furthest, furthest);
-      }
-      const Scenario trial = moved(fit.scenario, dials, by);
-      auto there = terms(trial, jumping);
-      if (there.log_likelihood > here.log_likelihood) {
-        const bool settled = there.log_likelihood - here.log_likelihood < 0.02;
-        fit.scenario = trial;
-        here = std::move(there);
-        better = true;
-        damping *= 0.2;
-        if (settled) iteration = iterations;
-      } else {
-        damping = std::max(10.0 * damping, 0.1);
-      }
-    }
-    if (!better) break;
-  }
-  fit.log_likelihood = here.log_likelihood;
-  take_coefficients(here, fit);
-  return fit;
 }
 
 }  // namespace gyrostat::gap

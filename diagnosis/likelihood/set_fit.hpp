@@ -92,8 +92,8 @@ class SetFitter {
   std::pair<Eigen::VectorXd, Eigen::VectorXd> coefficients_over_walks(
       const Scenario& scenario) const;
   Regressors regressors_of(const Scenario& scenario) const;
-  RateTerms terms_with(const Scenario& scenario, const Regressors& regressors,
-                       Jumping jumping) const;
+  NoiseLaw law_for(const Scenario& scenario, Jumping jumping) const;
+  SlowTerms slow_terms_of(const SlowLaw& law, const Regressors& regressors) const;
   Eigen::VectorXd fixed_signature(const Scenario& alone) const;
   void take_coefficients(const RateTerms& terms, SetFit& fit) const;
 

@@ -16,10 +16,16 @@ struct SlowLaw {
   double walk;   ///< variance of the level's step from one mean to the next
   struct Part {
     double variance, decay;  ///< decay from one mean to the next
+    bool operator==(const Part&) const = default;
   };
   std::vector<Part> parts;
   std::optional<Jumps> jumps;
   double interval_s = 1.0;
+
+  /// The same, but for the white noise.
+  bool remembers_as(const SlowLaw& other) const {
+    return walk == other.walk && parts == other.parts && jumps == other.jumps;
+  }
 };
 
 /// What a filter makes of values: the log-likelihood, and what a Fisher score needs.

@@ -111,7 +111,7 @@ std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
                                                        const gap::DiagnosisOptions& options,
                                                        Parts allowed, Console& console) {
   const auto& file = one.recording.file;
-  const Interrupt interrupt(console.stop.orderly());
+  const Interrupt interrupt(console.stop.orderly(StopSignal::Done::is_discarded));
   Series series = at_rest(one.recording.read(console.log, span), file, console.log);
   require_rate_of(options.claim, series, file);
   auto views = gap::views_of(series);

@@ -70,7 +70,7 @@ int diagnose_simulated(const SimulatedArguments& arguments, const RecordingOptio
   const auto simulated = read_traces(arguments.simulated, recording, {}, console);
   std::optional<gap::Comparison> comparison;
   {
-    const Interrupt interrupt(console.stop.orderly());
+    const Interrupt interrupt(console.stop.orderly(StopSignal::Done::is_discarded));
     PhaseProgress progress(console.log, console.log_is_terminal, "diagnose");
     try {
       comparison = gap::compare(
@@ -78,7 +78,7 @@ int diagnose_simulated(const SimulatedArguments& arguments, const RecordingOptio
           [&](const auto& now) { progress.set(now.phase, now.detail, now.share); }, interrupt);
     } catch (const Interrupted&) {
       console.log << "stopped early: nothing was written\n";
-      return console.stop.exit_code();
+      return stopped;
     }
   }
   const auto of_recordings = first_and_more(files), of_traces = first_and_more(arguments.simulated);

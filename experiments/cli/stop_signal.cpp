@@ -17,8 +17,8 @@ namespace {
 
 sem_t arrived;  // the one thing that a handler may do and a thread can wait for
 std::atomic<int> first_signal{0};
-std::atomic<bool> is_orderly{false}, stop_requested{false};
-std::atomic<int> orderly_exit_code{0};
+std::atomic<bool> stop_requested{false};
+std::atomic<const char*> last_words{nullptr};  ///< of a verb that ends in good order
 
 void on_signal(int signal) {
   const int before = errno;
@@ -52,16 +52,15 @@ void say(std::string_view text) {
 [[noreturn]] void end_program() {
   remove_temporary_paths();
   if (::isatty(STDERR_FILENO) != 0) say("\r\x1b[K");
-  const int code = orderly_exit_code;
-  if (code == stopped)
-    say("gyrostat: stopped early: what is finished is kept, and the same command goes on from "
-        "it\n");
-  _exit(code != 0 ? code : 128 + first_signal);
+  const char* words = last_words;
+  if (words == nullptr) _exit(128 + first_signal);
+  say(words);
+  _exit(stopped);
 }
 
 void serve() {
   wait_for_signal();
-  if (is_orderly) {
+  if (last_words != nullptr) {
     stop_requested = true;
     give_grace();
   }
@@ -80,12 +79,12 @@ StopSignal::StopSignal() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-const std::atomic<bool>& StopSignal::orderly(int exit_code) {
-  orderly_exit_code = exit_code;
-  is_orderly = true;
+const std::atomic<bool>& StopSignal::orderly(Done done) {
+  last_words = done == Done::is_kept
+                   ? "gyrostat: stopped early: what is finished is kept, and the same command goes "
+                     "on from it\n"
+                   : "gyrostat: stopped early: nothing was written\n";
   return stop_requested;
 }
-
-int StopSignal::exit_code() const { return 128 + first_signal; }
 
 }  // namespace gyrostat::cli

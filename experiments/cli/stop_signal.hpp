@@ -19,11 +19,11 @@ class StopSignal {
   StopSignal(const StopSignal&) = delete;
   StopSignal& operator=(const StopSignal&) = delete;
 
-  /// The flag that the first signal sets from now on. A verb that has not ended in time is ended
-  /// with `exit_code`, by default 128 + the signal's number.
-  const std::atomic<bool>& orderly(int exit_code = 0);
-  /// 128 + the number of the signal that came.
-  int exit_code() const;
+  /// What becomes of what a verb has done when it is ended.
+  enum class Done { is_kept, is_discarded };
+  /// The flag that the first signal sets from now on: the verb then ends with the exit code
+  /// `stopped`, and is ended with it where it has not in time.
+  const std::atomic<bool>& orderly(Done done);
 };
 
 }  // namespace gyrostat::cli

@@ -16,13 +16,13 @@ struct Console {
   StopSignal& stop;  ///< Ctrl-C and SIGTERM
 };
 
-/// Beside these, 128 + its number where a signal ended what cannot be resumed.
+/// Beside these, 128 + its number where a signal ended a verb at once.
 enum ExitCode {
   complete = 0,
   error = 1,
   usage = 2,
   over_failure_budget = 3,
-  stopped = 4,
+  stopped = 4,  ///< in good order: the same command goes on, or begins anew
   unhealthy = 5  ///< a recording fails by a rule
 };
 

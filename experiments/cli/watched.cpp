@@ -65,7 +65,7 @@ int diagnose_in_lines(const std::vector<ToDiagnose>& all, const SpanOption& span
       const auto members = diagnosed(one, span, options, Parts::allowed, console);
       if (!members) {
         console.log << "stopped early\n";
-        return console.stop.exit_code();
+        return stopped;
       }
       for (const auto& member : *members) {
         auto told = line;

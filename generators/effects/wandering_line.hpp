@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include <gyrostat/core/fields.hpp>
+#include <gyrostat/core/numerics/sine_of_turns.hpp>
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/core/series.hpp>
 #include <gyrostat/generators/sampled.hpp>
@@ -53,30 +54,35 @@ struct WanderingLine {
   static constexpr WanderingLine absent() { return {.amplitude_dps = 0.0}; }
 
   void apply(Series& series, const Noise& noise) const {
-    constexpr double turn = 2.0 * std::numbers::pi;
     Deviates at_sample(noise.stream("wandering_line/frequency"));
     Deviates between(noise.stream("wandering_line/between"));
     Decay decay(correlation_time_s);
     double turns = noise.stream("wandering_line/phase").uniform(0), state = 0.0;
-    double a = 0.0, drive = 1.0, half = 1.0;  // tanh(interval / (2 T))
-    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
-      const double before = state;
-      if (const double next = decay(series.t_s, i); next != a) {
-        a = next;
-        drive = std::sqrt((1.0 - a) * (1.0 + a));
-        half = (1.0 - a) / (1.0 + a);
+    double a = 0.0, drive = 1.0, half = 1.0, spread = 0.0;  // half: tanh(interval / (2 T))
+    std::array<double, 256> phases;
+    const std::size_t n = samples_with(series, needs);
+    for (std::size_t first = 0; first < n; first += phases.size()) {
+      const std::size_t count = std::min(phases.size(), n - first);
+      for (std::size_t k = 0, i = first; k < count; ++k, ++i) {
+        const double before = state;
+        if (const double next = decay(series.t_s, i); next != a || i == 1) {
+          a = next;
+          drive = std::sqrt((1.0 - a) * (1.0 + a));
+          half = (1.0 - a) / (1.0 + a);
+          const double memories = (series.t_s[i] - series.t_s[i - 1]) / correlation_time_s;
+          spread = std::sqrt(std::max(0.0, 2.0 * memories - 4.0 * half));
+        }
+        state = a * state + drive * at_sample.next();
+        if (i > 0) {
+          const double interval_s = series.t_s[i] - series.t_s[i - 1];
+          const double integral_s =
+              correlation_time_s * (half * (before + state) + spread * between.next());
+          turns = within_a_turn(turns + frequency_hz * interval_s + wander_hz * integral_s);
+        }
+        phases[k] = turns;
       }
-      state = a * state + drive * at_sample.next();
-      if (i > 0) {
-        const double interval_s = series.t_s[i] - series.t_s[i - 1];
-        const double spread =
-            std::sqrt(std::max(0.0, 2.0 * interval_s / correlation_time_s - 4.0 * half));
-        const double integral_s =
-            correlation_time_s * (half * (before + state) + spread * between.next());
-        turns += frequency_hz * interval_s + wander_hz * integral_s;
-        turns -= std::floor(turns);
-      }
-      series.gyro_dps[i] += amplitude_dps * std::sin(turn * turns);
+      for (std::size_t k = 0; k < count; ++k)
+        series.gyro_dps[first + k] += amplitude_dps * sine_of_turns(phases[k]);
     }
   }
 };

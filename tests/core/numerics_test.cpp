@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -7,8 +8,10 @@
 #include <gtest/gtest.h>
 
 #include <gyrostat/core/numerics/cholesky.hpp>
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/numerics/kalman.hpp>
 #include <gyrostat/core/numerics/linear.hpp>
+#include <gyrostat/core/numerics/sine_of_turns.hpp>
 #include <gyrostat/core/numerics/unscented.hpp>
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/tests/core/reference/dense_unscented.hpp>
@@ -387,6 +390,33 @@ TEST_F(Numerics, TheQuadraticTransformIsTheSumOverAllSigmaPoints) {
         EXPECT_NEAR((UnscentedQuadratic<double>(n, alpha, beta, kappa).variance<n>(q)), variance,
                     1e-12 * (1.0 + size));
       }
+}
+
+/// Products are summed in blocks that fit a cache: of this processor's, a fit would end elsewhere
+/// in the last digits than on another.
+TEST(Dense, BlocksOfProductsDoNotDependOnTheProcessor) {
+  std::ptrdiff_t first = 0, second = 0, third = 0;
+  Eigen::internal::manage_caching_sizes(Eigen::GetAction, &first, &second, &third);
+  EXPECT_EQ(first, 32 * 1024);
+  EXPECT_EQ(second, 1024 * 1024);
+  EXPECT_EQ(third, 8 * 1024 * 1024);
+  EXPECT_NEAR(solve_symmetric(Dense(2.0 * Dense::Identity(2, 2)), Dense(Dense::Ones(2, 1)))(0), 0.5,
+              1e-15);
+}
+
+TEST(SineOfTurns, IsThatOfLongDoubles) {
+  NormalStream stream(1, 0, "sine_of_turns");
+  for (const double size : {0.1, 1.0, 30.0, 1e5})
+    for (std::uint64_t k = 0; k < 1000; ++k) {
+      const double turns = size * stream.normal(k);
+      const long double exact = std::sin(2.0L * std::numbers::pi_v<long double> *
+                                         (static_cast<long double>(turns) - std::nearbyint(turns)));
+      ASSERT_NEAR(sine_of_turns(turns), static_cast<double>(exact), 4e-16) << turns;
+      ASSERT_EQ(within_a_turn(turns), turns - std::nearbyint(turns));
+    }
+  for (const double quarter : {0.0, 0.25, 0.5, 0.75, -0.25, 12.25})
+    ASSERT_NEAR(sine_of_turns(quarter), std::sin(2.0 * std::numbers::pi * std::fmod(quarter, 1.0)),
+                4e-16);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ enum class Reached { recordings, some_diagnoses, all };
 Reached check_blindly(const gap::BlindCheck& check, const std::filesystem::path& folder,
                       Console& console) {
   using Clock = std::chrono::steady_clock;
-  const auto& stop = console.stop.orderly(stopped);
+  const auto& stop = console.stop.orderly(StopSignal::Done::is_kept);
   try {
     gap::make_recordings(check, folder, Interrupt(stop));
   } catch (const Interrupted&) {

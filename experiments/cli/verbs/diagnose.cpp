@@ -174,7 +174,7 @@ int run(DiagnoseArguments& arguments, Console& console) {
       std::error_code not_empty;
       if (!arguments.figures_out.empty()) fs::remove(arguments.figures_out, not_empty);
       console.log << "stopped early: nothing was written\n";
-      return console.stop.exit_code();
+      return stopped;
     }
     std::move(some->begin(), some->end(), std::back_inserter(members));
   }

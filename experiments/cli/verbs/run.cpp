@@ -27,7 +27,7 @@ constexpr const char* run_examples = R"(Examples:
   gyrostat run STUDY.json --shard 2/8       one of eight parts; gyrostat merge puts them together
   gyrostat run STUDY.json --stop '{"half_width_below": 0.001}'     until every mean is known so well
   gyrostat run STUDY.json --stop '{"separate": ["kf", "stf"]}'     until these two are told apart
-Exit codes: 0 complete, 1 error, 2 usage, 3 failures over the budget, 4 stopped, to be resumed)";
+Exit codes: 0 complete, 1 error, 2 usage, 3 failures over the budget, 4 stopped early: the same command goes on)";
 
 struct RunArguments {
   std::string study, out, shard, until, stop;
@@ -100,7 +100,7 @@ int run(const RunArguments& arguments, Console& console) {
   std::optional<std::time_t> until;
   if (!arguments.until.empty()) until = next_time_of_day(arguments.until, std::time(nullptr));
   make_result_folder(folder);
-  Stopper stopper(console.stop.orderly(stopped), until);
+  Stopper stopper(console.stop.orderly(StopSignal::Done::is_kept), until);
   std::optional<Progress> bar;
   const StudyRunOptions options{.shard = shard,
                                 .threads = arguments.threads,

@@ -76,7 +76,7 @@ Study tuned_study(const TuneArguments& arguments, Console& console) {
 
 int run(const TuneArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
-  const auto& stop = console.stop.orderly();
+  const auto& stop = console.stop.orderly(StopSignal::Done::is_discarded);
   for (const auto& path : {arguments.out, arguments.json})
     if (!path.empty()) require_writable(path, arguments.input.file);
   const Study study = tuned_study(arguments, console);
@@ -98,8 +98,8 @@ int run(const TuneArguments& arguments, Console& console) {
     console.out << render(tuning_tables(tunings, goal), format);
     return complete;
   } catch (const Interrupted&) {
-    console.log << "stopped: nothing was written\n";
-    return console.stop.exit_code();
+    console.log << "stopped early: nothing was written\n";
+    return stopped;
   }
 }
 
