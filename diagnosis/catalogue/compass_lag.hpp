@@ -23,6 +23,8 @@ struct Diagnosed<effects::CompassLag> {
     for (const double poles : {1.0, 2.0, 4.0})
       all.push_back(shaped(e, Trace::heading, effects::CompassLag{.poles = poles},
                            &effects::CompassLag::time_constant_s, least_s, most_s));
+    all.push_back(shaped(e, Trace::heading, effects::CompassLag{.of_field = 1.0},
+                         &effects::CompassLag::time_constant_s, least_s, most_s));
     all.push_back(shaped(e, Trace::heading, effects::CompassLag{.time_constant_s = 0.0},
                          &effects::CompassLag::delay_s, least_s, most_s));
     return all;

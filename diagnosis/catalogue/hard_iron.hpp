@@ -15,7 +15,7 @@ struct Diagnosed<effects::HardIron> {
                                                  &effects::HardIron::phase_deg};
 
   static std::vector<effects::HardIron> starts(const Evidence& e) {
-    return {iron<effects::HardIron>(e)};
+    return irons<effects::HardIron>(e);
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::turns(c); }

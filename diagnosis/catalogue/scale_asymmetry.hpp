@@ -7,15 +7,19 @@
 
 namespace gyrostat::gap {
 
-/// A share of the size of the rate.
+/// A share of the size of the rate, in both directions or in one.
 template <>
 struct Diagnosed<effects::ScaleAsymmetry> {
   static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::ScaleAsymmetry::error};
+  static constexpr bool comes_in_forms = true;
 
   static std::vector<effects::ScaleAsymmetry> starts(const Evidence& e) {
-    return {
-        scaled(e, Trace::rate, effects::ScaleAsymmetry{}, [](auto& p, double a) { p.error = a; })};
+    std::vector<effects::ScaleAsymmetry> all;
+    for (const double one_side : {0.0, 1.0, -1.0})
+      all.push_back(scaled(e, Trace::rate, effects::ScaleAsymmetry{.one_side = one_side},
+                           [](auto& p, double a) { p.error = a; }));
+    return all;
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

@@ -15,7 +15,7 @@ struct Diagnosed<effects::SoftIron> {
                                                  &effects::SoftIron::phase_deg};
 
   static std::vector<effects::SoftIron> starts(const Evidence& e) {
-    return {iron<effects::SoftIron>(e)};
+    return irons<effects::SoftIron>(e);
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::turns(c); }

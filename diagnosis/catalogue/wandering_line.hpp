@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/gap/spectral_bands.hpp>
@@ -17,6 +19,20 @@ struct Diagnosed<effects::WanderingLine> {
   static constexpr std::array free_parameters = {
       &effects::WanderingLine::amplitude_dps, &effects::WanderingLine::frequency_hz,
       &effects::WanderingLine::wander_hz, &effects::WanderingLine::correlation_time_s};
+
+  /// Bands wider than a line that stands still, which it fills while it hardly turns or many times.
+  static std::vector<effects::WanderingLine> guesses(const Beside& beside) {
+    const double resolution_hz = beside.fitter.reduced().grid().resolution_hz();
+    std::vector<effects::WanderingLine> all;
+    for (const auto& line : beside.lines()) {
+      const double wander_hz = 0.5 * line.bandwidth_hz;
+      constexpr double radians = 3.0;  // of its phase, within a correlation time
+      if (wander_hz > 0.5 * resolution_hz)
+        all.push_back({std::sqrt(2.0 * line.variance), line.centre_hz, wander_hz,
+                       radians / (2.0 * std::numbers::pi * wander_hz)});
+    }
+    return all;
+  }
 
   static void enter(const effects::WanderingLine& effect, NoiseLaw& law) {
     law.wandering.push_back(effect);

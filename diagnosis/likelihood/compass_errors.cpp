@@ -5,6 +5,7 @@
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/core/values.hpp>
+#include <gyrostat/diagnosis/likelihood/walking_level.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
@@ -21,7 +22,7 @@ CompassErrors::CompassErrors(const Conditions& conditions, const Series& recordi
         cosine += std::cos(error[i] * std::numbers::pi / 180.0);
       }
   centre_deg_ = std::atan2(sine, cosine) * 180.0 / std::numbers::pi;
-  shift_ = shift_of(of({}));
+  shift_ = shift_of(of({}), {}, 0.0);
 }
 
 std::vector<double> CompassErrors::of(const std::vector<Effect>& effects) const {
@@ -59,7 +60,8 @@ std::vector<double> CompassErrors::means_of(const std::vector<Effect>& effects) 
   return slow;
 }
 
-double CompassErrors::shift_of(const std::vector<double>& error) const {
+double CompassErrors::shift_of(const std::vector<double>& error, const std::vector<char>& hidden,
+                               double level_gain) const {
   const auto& rate = conditions_.series().rate_ref_dps;
   if (rate.empty()) return 0.0;
   std::vector<double> sizes;
@@ -68,54 +70,61 @@ double CompassErrors::shift_of(const std::vector<double>& error) const {
   if (sizes.empty()) return 0.0;
   // Bursts say nothing of it.
   const double largest = std::max(3.0 * quantile(sizes, 0.75), 1e-12);
-  double count = 0.0, errors = 0.0, rates = 0.0, product = 0.0, square = 0.0;
+  WalkingLevel of_error(level_gain), of_rate(level_gain);
+  double product = 0.0, square = 0.0;
   for (const auto& span : conditions_.spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i)
-      if (!is_missing(error[i]) && std::abs(error[i]) < largest) {
-        count += 1.0;
-        errors += error[i];
-        rates += rate[i];
-        product -= error[i] * rate[i];
-        square += rate[i] * rate[i];
+      if (!is_missing(error[i]) && std::abs(error[i]) < largest && !is_hidden(hidden, i)) {
+        const double turned = of_rate.innovation(rate[i]);
+        product -= of_error.innovation(error[i]) * turned;
+        square += turned * turned;
       }
-  if (count == 0.0) return 0.0;
-  product += errors * rates / count;
-  square -= rates * rates / count;
   return square > 0.0 ? std::clamp(product / (square * conditions_.interval_s()), -1.0, 1.0) : 0.0;
 }
 
-void CompassErrors::shift_beside(const std::vector<Effect>& effects) {
-  shift_ = std::clamp(shift_ + shift_of(of(effects)), -1.0, 1.0);
+bool CompassErrors::is_hidden(const std::vector<char>& hidden, std::size_t sample) const {
+  return !hidden.empty() &&
+         hidden[std::min(sample / conditions_.cluster(), hidden.size() - 1)] != 0;
+}
+
+void CompassErrors::shift_beside(const std::vector<Effect>& effects,
+                                 const std::vector<char>& hidden) {
+  const double gain = law_of(effects, hidden).level_gain;
+  shift_ = std::clamp(shift_ + shift_of(of(effects), hidden, gain), -1.0, 1.0);
 }
 
 CompassErrors::Law CompassErrors::law_of(const std::vector<Effect>& effects,
                                          const std::vector<char>& hidden) const {
   const auto error = of(effects);
-  double count = 0.0, sum = 0.0, square = 0.0, lagged = 0.0;
-  for (int pass = 0; pass < 2; ++pass) {
-    const double mean = pass == 0 ? 0.0 : sum / count;
-    double before = no_value;
-    for (const auto& span : conditions_.spans(Part::train))
-      for (std::size_t i = span.first; i < span.last; ++i) {
-        const double e = error[i] - mean;
-        const std::size_t k = std::min(i / conditions_.cluster(), hidden.size() - 1);
-        if (is_missing(e) || hidden[k] != 0) continue;
-        if (pass == 0) {
-          count += 1.0;
-          sum += e;
-        } else {
-          square += e * e;
-          if (!is_missing(before)) lagged += e * before;
-          before = e;
-        }
-      }
+  std::vector<double> seen;
+  for (const auto& span : conditions_.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (!is_missing(error[i]) && !is_hidden(hidden, i)) seen.push_back(error[i]);
+  const auto count = static_cast<double>(seen.size());
+  if (count < 10.0) return {0.0, 1.0, 0.0};
+  const auto law_at = [&](double gain) -> Law {
+    WalkingLevel level(gain);
+    double square = 0.0, lagged = 0.0, before = 0.0;
+    for (const double e : seen) {
+      const double innovation = level.innovation(e);
+      square += innovation * innovation;
+      lagged += innovation * before;
+      before = innovation;
+    }
+    // Neighbours that are alike count as fewer.
+    const double alike = std::clamp(lagged / std::max(square, 1e-300), 0.0, 0.99);
+    const double effective = count * (1.0 - alike) / (1.0 + alike);
+    return {std::max(effective, 10.0), std::max(square / count, 1e-18), gain,
+            level.log_known() / count};
+  };
+  constexpr double clear = 5.0;
+  Law best = law_at(0.0);
+  const Law still = best;
+  for (const double gain : {1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1}) {
+    const Law law = law_at(gain);
+    if (law.gain_on(still) > clear && law.gain_on(best) > 0.0) best = law;
   }
-  if (count < 10.0) return {0.0, 1.0};
-  const double variance = std::max(square / count, 1e-18);
-  // Neighbours that are alike count as fewer.
-  const double alike = std::clamp(lagged / std::max(square, 1e-300), 0.0, 0.99);
-  const double effective = count * (1.0 - alike) / (1.0 + alike);
-  return {std::max(effective, 10.0), variance};
+  return best;
 }
 
 }  // namespace gyrostat::gap

@@ -14,12 +14,15 @@ class CompassErrors {
   CompassErrors(const Conditions& conditions, const Series& recording, const Scenario& baseline);
 
   struct Law {
-    double count, variance;  ///< effective number of values
+    double count;          ///< effective number of values
+    double variance;       ///< of the white noise
+    double level_gain;     ///< of the level that walks beside it (WalkingLevel)
+    double log_known = 0;  ///< of a value, on average
 
     double std_deg() const { return std::sqrt(variance); }
     /// Log-likelihood beyond another law's.
     double gain_on(const Law& other) const {
-      return 0.5 * count * std::log(other.variance / variance);
+      return 0.5 * count * (std::log(other.variance / variance) + log_known - other.log_known);
     }
   };
 
@@ -28,19 +31,24 @@ class CompassErrors {
   /// Means of the clusters of which half the samples are there at least; of a few, noise would pass
   /// for a burst.
   std::vector<double> means_of(const std::vector<Effect>& effects) const;
-  /// Of white noise about a level; clusters that are `hidden` (a flag each) do not count.
+  /// Of white noise about a level that walks where that is clearly likelier, as it does where the
+  /// rates of the reference do not add up to its heading; clusters that are `hidden` (a flag each)
+  /// do not count.
   Law law_of(const std::vector<Effect>& effects, const std::vector<char>& hidden) const;
   double centre_deg() const { return centre_deg_; }
   /// Errors are no longer taken beside a shift of time.
   void unshift() { shift_ = 0.0; }
   /// They are taken beside the shift of time that is left beside the effects: iron turns with the
   /// heading, and a shift shows as it does.
-  void shift_beside(const std::vector<Effect>& effects);
+  void shift_beside(const std::vector<Effect>& effects, const std::vector<char>& hidden);
+  /// Whether a sample is in a cluster that is; in none where no flags are given.
+  bool is_hidden(const std::vector<char>& hidden, std::size_t sample) const;
 
  private:
   /// By how much the heading is late, in samples, at most one: recorders differ in whether a sample
   /// has turned by its own rate, by half of it or not yet.
-  double shift_of(const std::vector<double>& error) const;
+  double shift_of(const std::vector<double>& error, const std::vector<char>& hidden,
+                  double level_gain) const;
 
   const Conditions& conditions_;
   const Series& recording_;

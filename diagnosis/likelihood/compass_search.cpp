@@ -47,6 +47,8 @@ class CompassSearch {
   std::vector<Effect> starts(const CauseType& cause, const std::vector<Effect>& beside) const;
   /// Whether clusters within bursts count.
   enum class Bursts { hidden, count };
+  /// The set itself where that is no likelier.
+  std::vector<Effect> in_other_form(std::vector<Effect> set, std::size_t at) const;
   /// Where iron and a lag are both there, what iron adds trails, too, or does not.
   std::vector<Effect> in_likelier_form(std::vector<Effect> set) const;
   /// With one effect after another, as long as each pays.
@@ -128,21 +130,25 @@ std::vector<Effect> CompassSearch::starts(const CauseType& cause,
 std::vector<Effect> CompassSearch::polished(std::vector<Effect> set) const {
   for (int pass = 0; pass < 4; ++pass) {
     auto better = compass_step(errors_, conditions_, hidden_, set);
-    if (law_of(better).variance >= law_of(set).variance) break;
+    if (law_of(better).gain_on(law_of(set)) <= 0.0) break;
     set = std::move(better);
   }
   return set;
 }
 
+std::vector<Effect> CompassSearch::in_other_form(std::vector<Effect> set, std::size_t at) const {
+  auto& effect = set[at];
+  const std::size_t field = field_of(effect, is_lag(effect) ? "turns_alone" : "exact");
+  auto other = set;
+  other[at].value(field) = 1.0 - effect.value(field);
+  other = polished(other);
+  return law_of(other).gain_on(law_of(set)) > 0.0 ? other : set;
+}
+
 std::vector<Effect> CompassSearch::in_likelier_form(std::vector<Effect> set) const {
   const auto lag = std::find_if(set.begin(), set.end(), is_lag);
   if (set.size() < 2 || lag == set.end()) return set;
-  auto other = set;
-  auto& form = other[static_cast<std::size_t>(lag - set.begin())];
-  const std::size_t field = field_of(form, "turns_alone");
-  form.value(field) = 1.0 - form.value(field);
-  other = polished(other);
-  return law_of(other).variance < law_of(set).variance ? other : set;
+  return in_other_form(std::move(set), static_cast<std::size_t>(lag - set.begin()));
 }
 
 std::vector<Effect> CompassSearch::grown(std::vector<Effect> set, Bursts bursts) {
@@ -225,19 +231,27 @@ void CompassSearch::run(const SetSearchOptions& options) {
   if (lags)
     errors_.unshift();
   else
-    errors_.shift_beside(set);
+    errors_.shift_beside(set, hidden_);
   if (!set.empty()) {
     set = polished(set);
+    for (std::size_t k = 0; k < set.size(); ++k)
+      if (!is_lag(set[k])) set = in_other_form(std::move(set), k);
     find_bursts(set);
     set = polished(set);
-    if (!lags) errors_.shift_beside(set);
+    if (!lags) errors_.shift_beside(set, hidden_);
   }
   std::vector<Member> members;
   for (std::size_t k = 0; k < set.size();) {
     auto rest = set;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+    // A shift of time may stand for the lag.
+    const bool without_lag = is_lag(set[k]);
+    const auto with = law_of(set);
+    if (without_lag) errors_.shift_beside(rest, hidden_);
     rest = polished(rest);
-    const double odds = law_of(set).gain_on(law_of(rest)) - cost(set[k]);
+    if (without_lag) errors_.shift_beside(rest, hidden_);
+    const double odds = with.gain_on(law_of(rest)) - cost(set[k]);
+    if (without_lag && odds > 0.0) errors_.unshift();
     if (odds <= 0.0) {
       set = rest;
       members.clear();

@@ -6,6 +6,7 @@
 #include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/values.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/likelihood/walking_level.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -37,19 +38,21 @@ std::vector<Effect> compass_step(const CompassErrors& errors, const Conditions& 
     other[place.effect].value(place.field) += place.step;
     moved.push_back(errors.of(other));
   }
-  const auto columns = static_cast<Eigen::Index>(places.size()) + 1;
+  const auto columns = static_cast<Eigen::Index>(places.size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns, columns);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(columns), row(columns);
+  // Least squares about the level that walks, or about the mean.
+  const WalkingLevel level(errors.law_of(set, hidden).level_gain);
+  WalkingLevel of_error = level;
+  std::vector<WalkingLevel> of_columns(places.size(), level);
   for (const auto& span : conditions.spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i) {
-      const std::size_t k = std::min(i / conditions.cluster(), hidden.size() - 1);
-      if (is_missing(here[i]) || hidden[k] != 0) continue;
-      row[0] = 1.0;
+      if (is_missing(here[i]) || errors.is_hidden(hidden, i)) continue;
       for (std::size_t c = 0; c < places.size(); ++c)
-        row[static_cast<Eigen::Index>(c) + 1] =
-            wrap_degrees(here[i] - moved[c][i]) / places[c].step;
+        row[static_cast<Eigen::Index>(c)] =
+            of_columns[c].innovation(wrap_degrees(here[i] - moved[c][i]) / places[c].step);
       normal += row * row.transpose();
-      right += here[i] * row;
+      right += of_error.innovation(here[i]) * row;
     }
   normal.diagonal() *= 1.0 + 1e-9;
   normal.diagonal().array() += 1e-12;
@@ -59,7 +62,7 @@ std::vector<Effect> compass_step(const CompassErrors& errors, const Conditions& 
     all_within = true;
     const Eigen::VectorXd by = solve_symmetric(normal, right);
     for (std::size_t c = 0; c < places.size(); ++c) {
-      const auto column = static_cast<Eigen::Index>(c) + 1;
+      const auto column = static_cast<Eigen::Index>(c);
       const double from = set[places[c].effect].value(places[c].field);
       const auto& range = set[places[c].effect].fields()[places[c].field].range;
       const double to = std::clamp(from + by[column], range.from, range.to);

@@ -15,6 +15,8 @@ EffectBand band_of(std::string_view id) {
   return law.walk > 0.0 || law.jumps || !law.decaying.empty() ? EffectBand::slow : EffectBand::fast;
 }
 
+bool is_line(std::string_view id) { return id == "vibration" || id == "wandering_line"; }
+
 bool is_slow(std::string_view id) {
   const auto band = band_of(id);
   return band == EffectBand::slow || band == EffectBand::thermal;

@@ -6,6 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/line_shape.hpp>
 
@@ -15,15 +16,22 @@ namespace {
 /// An envelope that is so many times likelier than that of normal noise, as a logarithm.
 constexpr double clear_shape = 4.0;
 
-Resonance line_of(const Effect& vibration) {
-  const auto value = [&](std::string_view name) {
-    return vibration.value(field_of(vibration, name));
-  };
+/// The band that a line fills.
+Resonance line_of(const Effect& line) {
+  const auto value = [&](std::string_view name) { return line.value(field_of(line, name)); };
+  if (line.id() == "wandering_line")
+    return {0.5 * value("amplitude_dps") * value("amplitude_dps"), value("frequency_hz"),
+            2.0 * value("wander_hz")};
   return {value("std_dps") * value("std_dps"), value("centre_hz"), value("bandwidth_hz")};
 }
 
 bool is_bursts(const LineShape& shape) {
   return shape.bursts > std::max(shape.wandering, clear_shape);
+}
+
+bool are_neighbours(const Resonance& one, const Resonance& other) {
+  const double reach_hz = 2.0 * (one.bandwidth_hz + other.bandwidth_hz);
+  return std::abs(one.centre_hz - other.centre_hz) <= reach_hz;
 }
 
 /// What two neighbouring bands are together.
@@ -47,10 +55,9 @@ std::vector<double> parts_of_wandering_lines(const SetBench& bench, const std::v
   std::vector<double> gains(effects.size(), 0.0);
   for (std::size_t a = 0; a < effects.size(); ++a)
     for (std::size_t b = a + 1; b < effects.size(); ++b) {
-      if (effects[a].id() != "vibration" || effects[b].id() != "vibration") continue;
+      if (!is_line(effects[a].id()) || !is_line(effects[b].id())) continue;
       const auto one = line_of(effects[a]), other = line_of(effects[b]);
-      const double reach_hz = 2.0 * (one.bandwidth_hz + other.bandwidth_hz);
-      if (std::abs(one.centre_hz - other.centre_hz) > reach_hz) continue;
+      if (!are_neighbours(one, other)) continue;
       const double together = line_shape(bench.conditions(), left, joined(one, other)).wandering;
       if (together < clear_shape || together <= std::max(shapes[a].wandering, shapes[b].wandering))
         continue;
@@ -87,7 +94,20 @@ Standing with_wandering_line(const SetBench& bench, const Standing& standing, st
   return best;
 }
 
-/// The noise and the other effects as they were fitted beside wandering lines.
+/// In the place of a line that wanders, fitted.
+Standing with_resonance(const SetBench& bench, const Standing& standing, std::size_t at) {
+  const auto band = line_of(standing.scenario.effects[at]);
+  Standing best = standing;
+  best.scenario.effects[at] = with_values("vibration", {{"std_dps", std::sqrt(band.variance)},
+                                                        {"centre_hz", band.centre_hz},
+                                                        {"bandwidth_hz", band.bandwidth_hz}});
+  constexpr int iterations = 15;
+  if (auto fit = bench.fitted(best.scenario, standing.fitter, iterations); fit.score > -1e299)
+    best = std::move(fit);
+  return best;
+}
+
+/// The noise and the other effects as they were fitted beside lines of other names.
 void take_over(const Standing& standing, Scenario& scenario) {
   scenario.random_error = standing.scenario.random_error;
   for (std::size_t k = 0; k < standing.scenario.effects.size(); ++k)
@@ -101,7 +121,7 @@ std::vector<char> samples_in_bursts(const SetBench& bench, const Scenario& scena
                                     const std::vector<double>& left_dps) {
   std::vector<char> inside(left_dps.size(), 0);
   for (const auto& effect : scenario.effects) {
-    if (effect.id() != "vibration") continue;
+    if (!is_line(effect.id())) continue;
     const auto line = line_of(effect);
     const auto shape = line_shape(bench.conditions(), left_dps, line);
     if (!is_bursts(shape)) continue;
@@ -118,15 +138,16 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
   auto& effects = found.scenario.effects;
   std::vector<LineShape> shapes(effects.size());
   tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t k) {
-    if (effects[k].id() == "vibration")
+    if (is_line(effects[k].id()))
       shapes[k] = line_shape(bench.conditions(), left, line_of(effects[k]));
   });
   const auto parts = parts_of_wandering_lines(bench, left, found.scenario, shapes);
-  bool wanders = false;
+  bool refitted = false;
   // The strongest first: what it takes of the others' bands they are fitted without.
+  std::vector<Resonance> wandering;
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < effects.size(); ++k)
-    if (effects[k].id() == "vibration") order.push_back(k);
+    if (is_line(effects[k].id())) order.push_back(k);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return line_of(effects[a]).variance > line_of(effects[b]).variance;
   });
@@ -134,36 +155,50 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
     auto& effect = effects[k];
     const auto line = line_of(effect);
     const auto& shape = shapes[k];
-    const bool bursts = is_bursts(shape) && parts[k] == 0.0;
+    // Where a line seldom wanders to it comes and goes.
+    const bool is_edge = std::any_of(wandering.begin(), wandering.end(),
+                                     [&](const auto& w) { return are_neighbours(w, line); });
+    const bool bursts = is_bursts(shape) && parts[k] == 0.0 && !is_edge;
     const double gain = std::max({shape.bursts, shape.wandering, parts[k]});
     const std::string_view name = bursts ? "vibration_bursts" : "wandering_line";
-    if (gain < clear_shape) continue;
     const auto known = std::find_if(found.members.begin(), found.members.end(),
-                                    [](const auto& m) { return m.effect == "vibration"; });
+                                    [id = effect.id()](const auto& m) { return m.effect == id; });
+    if (gain < clear_shape) {
+      if (effect.id() == "vibration" || !bench.is_allowed("vibration")) continue;
+      // Its spectrum alone does not tell it from noise in that band.
+      standing = with_resonance(bench, standing, k);
+      effect = standing.scenario.effects[k];
+      std::erase_if(found.intervals, [&](const auto& interval) { return interval.effect == k; });
+      refitted = true;
+      if (known != found.members.end()) known->effect = "vibration";
+      continue;
+    }
     if (!bench.is_allowed(name)) {
       found.nameless_log_odds = std::max(found.nameless_log_odds, gain);
       if (known != found.members.end()) found.members.erase(known);
       continue;
     }
-    // Those of the resonance are not those of what it is called.
-    std::erase_if(found.intervals, [&](const auto& interval) { return interval.effect == k; });
+    // Those of the band are not those of what it is called.
+    if (effect.id() != name)
+      std::erase_if(found.intervals, [&](const auto& interval) { return interval.effect == k; });
     if (bursts) {
       effect = with_values("vibration_bursts", {{"std_dps", shape.on_std_dps},
                                                 {"centre_hz", line.centre_hz},
                                                 {"bandwidth_hz", line.bandwidth_hz},
                                                 {"mean_duration_s", shape.on_s},
                                                 {"mean_interval_s", shape.off_s}});
-    } else {
+    } else if (effect.id() != name) {
       standing = with_wandering_line(bench, standing, k);
       effect = standing.scenario.effects[k];
-      wanders = true;
+      refitted = true;
     }
+    if (!bursts) wandering.push_back(line);
     if (known != found.members.end()) {
       known->effect = name;
       known->log_odds = std::min(known->log_odds, gain);
     }
   }
-  if (wanders) take_over(standing, found.scenario);
+  if (refitted) take_over(standing, found.scenario);
   // One name each, however many lines it has.
   auto& members = found.members;
   for (std::size_t k = 1; k < members.size();)
@@ -173,7 +208,7 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
     else
       ++k;
   for (const auto& effect : effects)
-    if ((effect.id() != "vibration" || found.nameless_log_odds == 0.0) &&
+    if ((!is_line(effect.id()) || found.nameless_log_odds == 0.0) &&
         std::none_of(members.begin(), members.end(),
                      [&](const auto& m) { return m.effect == effect.id(); }))
       members.push_back({std::string(effect.id()), clear_shape});

@@ -155,6 +155,10 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
   Marks marks;
   const auto& z = recording.gyro_dps;
   marks.lsb_dps = grid_step(simulator, z);
+  marks.silent = silent_zone(simulator.conditions(), z, marks.lsb_dps);
+  const auto is_silent = [&](std::size_t i) {
+    return !marks.silent.samples.empty() && z[i] == 0.0;
+  };
   double equal = 0.0, twice = 0.0, count = 0.0;
   double low = 1e300, high = -1e300;
   for (const auto& span : simulator.conditions().spans(Part::train))
@@ -172,7 +176,8 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
     for (std::size_t i = span.first + 2; i < span.last; ++i) {
       count += 1.0;
       differences.push_back(z[i] - z[i - 1]);
-      if (z[i] != z[i - 1] || z[i] == low || z[i] == high) continue;  // clipped is not repeated
+      // What is clipped is not repeated.
+      if (z[i] != z[i - 1] || z[i] == low || z[i] == high || is_silent(i)) continue;
       equal += 1.0;
       if (z[i - 1] == z[i - 2]) twice += 1.0;
     }
@@ -203,7 +208,7 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
   marks.stale_probability = std::clamp(beyond / marks.stale_run / count, 1e-6, 1.0);
   marks.repeats.assign(z.size(), 0);
   for (std::size_t i = 1; i < z.size(); ++i)
-    marks.repeats[i] = z[i] == z[i - 1] && z[i] != low && z[i] != high ? 1 : 0;
+    marks.repeats[i] = z[i] == z[i - 1] && z[i] != low && z[i] != high && !is_silent(i) ? 1 : 0;
   return marks;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include <gyrostat/diagnosis/likelihood/silent_zone.hpp>
 #include <gyrostat/diagnosis/simulator.hpp>
 
 namespace gyrostat::gap {
@@ -16,6 +17,7 @@ struct Marks {
   double stale_run = 1.0;             ///< mean length of a repeat
   double limit_dps = 0.0;             ///< beyond which the output is clipped; 0: none is
   std::vector<char> clipped;          ///< a flag a sample, where there is a limit
+  SilentZone silent;                  ///< where the output is written as 0
   std::vector<char> repeats;  ///< a flag a sample: repeats the one before, where there are such
 };
 

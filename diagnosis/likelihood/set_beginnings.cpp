@@ -14,6 +14,9 @@ bool is_a_line(const Effect& effect) {
   if (effect.id() == "vibration")
     return effect.value(field_of(effect, "bandwidth_hz")) <
            narrow * effect.value(field_of(effect, "centre_hz"));
+  if (effect.id() == "wandering_line")
+    return 2.0 * effect.value(field_of(effect, "wander_hz")) <
+           narrow * effect.value(field_of(effect, "frequency_hz"));
   return effect.id() == "sinusoidal";
 }
 

@@ -68,7 +68,8 @@ bool SetBench::is_allowed(std::string_view effect) const {
 }
 
 bool SetBench::is_marked(std::string_view effect) const {
-  return (marked_saturation_ && effect == "saturation") || effect == "quantization" ||
+  return (marked_saturation_ && effect == "saturation") ||
+         (marked_dead_zone_ && effect == "dead_zone") || effect == "quantization" ||
          effect == "stale_samples" || effect == "outliers" || effect == "noise_temperature";
 }
 

@@ -40,6 +40,7 @@ class SetBench {
   /// Found from the values or the sizes of innovations, and not by the likelihood of the rate.
   bool is_marked(std::string_view effect) const;
   void mark_saturation() { marked_saturation_ = true; }
+  void mark_dead_zone() { marked_dead_zone_ = true; }
 
   const std::vector<char>& masked() const { return grid_->masked(); }
   void mask_only(std::vector<char> samples);
@@ -98,7 +99,7 @@ class SetBench {
   std::vector<std::string> without_;
   std::vector<double> plain_gyro_dps_;  ///< of plain()
   std::shared_ptr<const RateGrid> grid_;
-  bool marked_saturation_ = false;
+  bool marked_saturation_ = false, marked_dead_zone_ = false;
 };
 
 }  // namespace gyrostat::gap

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
@@ -53,6 +54,14 @@ std::vector<Effect> SetSearcher::read_off(const Marks& marks, FoundSet& found) {
     bench_.mark_saturation();
     bench_.mask_too(near_the_limit(marks));
   }
+  if (const auto& zone = marks.silent;
+      zone.half_width_dps > 0.0 && bench_.is_allowed("dead_zone")) {
+    add(with_values("dead_zone", {{"half_width_dps", zone.half_width_dps},
+                                  {"lost_beyond", zone.lost_beyond},
+                                  {"of_output", 1.0}}));
+    bench_.mark_dead_zone();
+    bench_.mask_too(zone.samples);
+  }
   repeats_ = bench_.masked();
   return effects;
 }
@@ -85,18 +94,26 @@ void SetSearcher::give_grid_to_angle(const Marks& marks, FoundSet& found) const 
   white = std::hypot(white, marks.lsb_dps / std::sqrt(12.0));
 }
 
-void SetSearcher::put_angle_before_limit(FoundSet& found) {
+void SetSearcher::put_in_order(FoundSet& found) {
   auto& effects = found.scenario.effects;
-  const auto angle = std::find_if(effects.begin(), effects.end(),
-                                  [](const auto& e) { return e.id() == "angle_quantization"; });
-  if (angle == effects.end()) return;
-  const auto place = static_cast<std::size_t>(angle - effects.begin());
-  std::rotate(effects.begin(), angle, angle + 1);
-  for (auto& interval : found.intervals)
-    if (interval.effect == place)
-      interval.effect = 0;
-    else if (interval.effect < place)
-      ++interval.effect;
+  std::vector<std::size_t> order(effects.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  // An angle's errors come before the limit that clips them, a zone of the output after all that is
+  // analogue.
+  const auto rank = [&](std::size_t k) {
+    if (effects[k].id() == "angle_quantization") return 0;
+    return effects[k].id() == "dead_zone" ? 2 : 1;
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  std::vector<Effect> sorted;
+  std::vector<std::size_t> place(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    sorted.push_back(effects[order[k]]);
+    place[order[k]] = k;
+  }
+  effects = std::move(sorted);
+  for (auto& interval : found.intervals) interval.effect = place[interval.effect];
 }
 
 /// There noise decides whether a sample is written as 0.

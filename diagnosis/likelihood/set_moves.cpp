@@ -149,13 +149,18 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
       if (bench_.is_marked(effect.id())) continue;
       tell(fmt::format("rivals of {}", effect.id()), standing.scenario.effects.size() - k);
       const auto rest = bench_.without(standing, k);
-      // The same effect from other parameters may stand there, too, but is no rival.
+      // The same effect from other parameters may stand there, too, but is no rival; nor are names
+      // of a line.
+      const auto is_the_same = [&](const Standing& other) {
+        const auto id = other.scenario.effects.back().id();
+        return id == effect.id() || (is_line(id) && is_line(effect.id()));
+      };
       const auto others = each_added(rest);
       double second = rest.score;
       const Standing* best = &rest;
       for (const auto& other : others) {
         if (other.score > best->score) best = &other;
-        if (other.score < -1e299 || other.scenario.effects.back().id() == effect.id()) continue;
+        if (other.score < -1e299 || is_the_same(other)) continue;
         second = std::max(second, other.score);
         if (other.score > standing.score - 3.0)
           found.rivals.push_back({other.scenario.effects.back(),
@@ -164,8 +169,8 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
       }
       // From other parameters, what the others are worth beside it is as before.
       constexpr double little = 3.0;
-      if (best != &rest && best->scenario.effects.back().id() == effect.id() &&
-          best->score > standing.score && best->score < standing.score + little) {
+      if (best != &rest && is_the_same(*best) && best->score > standing.score &&
+          best->score < standing.score + little) {
         standing = *best;
         auto& effects = standing.scenario.effects;
         std::rotate(effects.begin() + static_cast<std::ptrdiff_t>(k), effects.end() - 1,
@@ -178,11 +183,12 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
         swapped = ++exchanges < 2 * options_.most_effects;
         break;
       }
+      const std::string name(standing.scenario.effects[k].id());
       const auto known = std::find_if(found.members.begin(), found.members.end(),
-                                      [&](const auto& m) { return m.effect == effect.id(); });
+                                      [&](const auto& m) { return m.effect == name; });
       const double odds = std::min(standing.score - second, most_odds);
       if (known == found.members.end())
-        found.members.push_back({std::string(effect.id()), odds});
+        found.members.push_back({name, odds});
       else
         known->log_odds = std::max(known->log_odds, odds);
     }

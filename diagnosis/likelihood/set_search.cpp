@@ -80,7 +80,7 @@ FoundSet SetSearcher::run() {
            .b_dps_s_per_C = coefficients.size() > 1 ? coefficients[1] : 0.0,
            .c_dps = 0.0};
   give_grid_to_angle(marks, found);
-  put_angle_before_limit(found);
+  put_in_order(found);
   if (conditions_.has_heading()) search_compass(simulator_, recording_, options_, found);
   return found;
 }
@@ -89,7 +89,8 @@ Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::st
   const auto is_in = [&](std::string_view id) {
     return std::find(names.begin(), names.end(), id) != names.end();
   };
-  const bool repeats = is_in("stale_samples") || is_in("saturation");
+  const bool repeats =
+      is_in("stale_samples") || is_in("saturation") || bench_.is_marked("dead_zone");
   bench_.mask_only(repeats ? repeats_ : std::vector<char>(recording_.size(), 0));
   if (is_in("outliers")) bench_.mask_too(tails_.outliers);
   Scenario some = whole;

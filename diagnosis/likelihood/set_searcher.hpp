@@ -78,7 +78,7 @@ class SetSearcher {
   /// the angle's: there is no other quantization.
   void give_grid_to_angle(const Marks& marks, FoundSet& found) const;
   /// Both act at the converter, and what is clipped is clipped.
-  static void put_angle_before_limit(FoundSet& found);
+  static void put_in_order(FoundSet& found);
   std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
   /// Log-likelihood that noise which warms, and noise with tails, gain at most where it is only the
   /// grid that makes its size, or its distribution, another with the level.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
@@ -16,12 +17,14 @@ namespace gyrostat::effects {
 /// The compass trails the heading through a delay and equal poles, exactly so for a heading that is
 /// linear between samples and along the shorter arc; its noise is added afterwards. What iron adds
 /// trails with it, or not: a compass that filters readings delays both, one whose heading is
-/// smoothed by a gyro shows iron at once.
+/// smoothed by a gyro shows iron at once. A magnetometer's filter passes the field's components, of
+/// which a fast turn leaves less.
 struct CompassLag {
   double time_constant_s = 0.5;
   double poles = 1.0;
   double delay_s = 0.0;
   double turns_alone = 0.0;
+  double of_field = 0.0;
 
   static constexpr std::string_view title = "the compass trails the heading";
   static constexpr Stage stage = Stage::compass;
@@ -38,6 +41,8 @@ struct CompassLag {
               "clock is early"},
         Field{"turns_alone", &P::turns_alone, "1", Range{.from = 0, .to = 1, .whole = true},
               "1: only the vehicle's turns trail, and what iron adds does not"},
+        Field{"of_field", &P::of_field, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: the field's components pass the poles; 0: its direction"},
     };
   }
 
@@ -62,7 +67,22 @@ struct CompassLag {
     const std::size_t n = std::min(t_s.size(), heading_deg.size());
     if (delay_s != 0.0) delay(t_s, heading_deg, n);
     if (time_constant_s == 0.0) return;
-    for (long k = std::lround(poles); k > 0; --k) pass(t_s, heading_deg, n);
+    if (of_field < 0.5) {
+      pass(t_s, heading_deg, n);
+      return;
+    }
+    constexpr double rad = std::numbers::pi / 180.0;
+    std::vector<double> north(n), east(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      north[i] = std::cos(heading_deg[i] * rad);
+      east[i] = std::sin(heading_deg[i] * rad);
+    }
+    pass(t_s, north, n);
+    pass(t_s, east, n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double direction_deg = std::atan2(east[i], north[i]) / rad;
+      heading_deg[i] += wrap_degrees(direction_deg - heading_deg[i]);
+    }
   }
 
   void delay(const std::vector<double>& t_s, std::vector<double>& heading_deg,
@@ -78,20 +98,23 @@ struct CompassLag {
     }
   }
 
-  /// One pole.
-  void pass(const std::vector<double>& t_s, std::vector<double>& heading_deg, std::size_t n) const {
+  void pass(const std::vector<double>& t_s, std::vector<double>& values, std::size_t n) const {
+    for (long k = std::lround(poles); k > 0; --k) pass_once(t_s, values, n);
+  }
+
+  void pass_once(const std::vector<double>& t_s, std::vector<double>& values, std::size_t n) const {
     const double tau_s = time_constant_s / std::round(poles);
     Decay decay(tau_s);
-    double behind_deg = 0.0, before_deg = 0.0;
+    double behind = 0.0, before = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-      const double now_deg = heading_deg[i];
+      const double now = values[i];
       if (i > 0) {
         const double interval_s = t_s[i] - t_s[i - 1];
-        const double rate_dps = wrap_degrees(now_deg - before_deg) / interval_s;
-        behind_deg -= (1.0 - decay.over(interval_s)) * (behind_deg + rate_dps * tau_s);
+        const double a_second = wrap_degrees(now - before) / interval_s;
+        behind -= (1.0 - decay.over(interval_s)) * (behind + a_second * tau_s);
       }
-      before_deg = now_deg;
-      heading_deg[i] += behind_deg;
+      before = now;
+      values[i] += behind;
     }
   }
 };

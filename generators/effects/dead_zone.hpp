@@ -13,10 +13,12 @@ namespace gyrostat::effects {
 
 /// Rates about zero are not sensed (IEEE Std 528, dead band): up to the half width the rate is 0.
 /// Beyond it is the rate itself, as behind a threshold, or the rate less the half width, as behind
-/// a mechanical play, or between.
+/// a mechanical play, or between. Drivers do the same to what the sensor says, bias and noise
+/// included.
 struct DeadZone {
   double half_width_dps = 0.5;
   double lost_beyond = 0.0;
+  double of_output = 0.0;
 
   static constexpr std::string_view title = "small rates are not sensed";
   static constexpr Stage stage = Stage::electronics;
@@ -30,6 +32,8 @@ struct DeadZone {
               "largest rate that is not sensed"},
         Field{"lost_beyond", &P::lost_beyond, "1", ranges::fraction,
               "share of the half width that larger rates lose"},
+        Field{"of_output", &P::of_output, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: what is written is 0 where it would be small; 0: the rate is not sensed"},
     };
   }
 
@@ -37,7 +41,7 @@ struct DeadZone {
 
   void apply(Series& series, const Noise& /*noise*/) const {
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
-      const double rate = series.rate_ref_dps[i];
+      const double rate = of_output < 0.5 ? series.rate_ref_dps[i] : series.gyro_dps[i];
       series.gyro_dps[i] -= std::abs(rate) <= half_width_dps
                                 ? rate
                                 : std::copysign(lost_beyond * half_width_dps, rate);

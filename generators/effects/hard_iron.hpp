@@ -7,6 +7,7 @@
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/compass_deviation.hpp>
 #include <gyrostat/generators/sampled.hpp>
 #include <gyrostat/generators/stage.hpp>
 
@@ -17,6 +18,7 @@ namespace gyrostat::effects {
 struct HardIron {
   double amplitude_deg = 3.0;
   double phase_deg = 0.0;
+  double exact = 0.0;
 
   static constexpr std::string_view title = "heading error of one period a turn";
   static constexpr Stage stage = Stage::compass;
@@ -28,6 +30,8 @@ struct HardIron {
         Field{"amplitude_deg", &P::amplitude_deg, "deg", ranges::non_negative,
               "largest heading error"},
         Field{"phase_deg", &P::phase_deg, "deg", ranges::any, "phase of the error at heading 0"},
+        Field{"exact", &P::exact, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: as fields add up, with overtones; 0: one harmonic alone"},
     };
   }
 
@@ -36,7 +40,7 @@ struct HardIron {
   void apply(Series& series, const Noise& /*noise*/) const {
     constexpr double rad = std::numbers::pi / 180.0;
     for (double& heading : series.heading_deg)
-      heading += amplitude_deg * std::sin((heading + phase_deg) * rad);
+      heading += compass_deviation_deg(amplitude_deg, (heading + phase_deg) * rad, exact);
   }
 };
 

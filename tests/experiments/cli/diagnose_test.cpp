@@ -94,7 +94,11 @@ TEST(Diagnose, TellsOneLineAPhaseWhereNobodyWatchesAndTheAnswerFirst) {
       << ended.out;
   EXPECT_THAT(ended.out.substr(0, ended.out.find("\n\n")), Not(HasSubstr("spreads")));
   std::istringstream answer(ended.out.substr(0, ended.out.find("causes\n")));
-  for (std::string line; std::getline(answer, line);) EXPECT_LE(line.size(), 80U) << line;
+  const auto columns = [](const std::string& line) {  // bytes that begin a character
+    return std::count_if(line.begin(), line.end(),
+                         [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
+  };
+  for (std::string line; std::getline(answer, line);) EXPECT_LE(columns(line), 80) << line;
   EXPECT_THAT(folder.read("page.html"), HasSubstr("<h1>rec.csv</h1>"));
   EXPECT_THAT(folder.read("page.html"), Not(HasSubstr(folder.path().string())));
   const auto figures = folder.contents();
