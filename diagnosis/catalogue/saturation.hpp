@@ -8,15 +8,16 @@
 
 namespace gyrostat::gap {
 
-/// Rates beyond a limit are cut; limits above the fastest rate cut nothing.
+/// Rates beyond a limit are cut; limits above the fastest rate cut nothing. A limit of the output
+/// is read off its values, so that what the likelihood finds is one of the sensing element.
 template <>
 struct Diagnosed<effects::Saturation> {
   static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::Saturation::limit_dps};
 
   static std::vector<effects::Saturation> starts(const Evidence& e) {
-    return {shaped(e, Trace::rate, effects::Saturation{}, &effects::Saturation::limit_dps,
-                   0.05 * fastest_dps(e), 1.02 * fastest_dps(e))};
+    return {shaped(e, Trace::rate, effects::Saturation{.of_element = 1.0},
+                   &effects::Saturation::limit_dps, 0.05 * fastest_dps(e), 1.02 * fastest_dps(e))};
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

@@ -160,6 +160,8 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
     return !marks.silent.samples.empty() && z[i] == 0.0;
   };
   double equal = 0.0, twice = 0.0, count = 0.0;
+  double equal_at_rest = 0.0, at_rest = 0.0;
+  const auto& reference = simulator.conditions().series().rate_ref_dps;
   double low = 1e300, high = -1e300;
   for (const auto& span : simulator.conditions().spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i)
@@ -176,13 +178,19 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
     for (std::size_t i = span.first + 2; i < span.last; ++i) {
       count += 1.0;
       differences.push_back(z[i] - z[i - 1]);
+      constexpr double hardly = 0.05;  // of a step
+      if (reference.empty() || std::abs(reference[i] - reference[i - 1]) < hardly * marks.lsb_dps) {
+        at_rest += 1.0;
+        equal_at_rest += z[i] == z[i - 1] ? 1.0 : 0.0;
+      }
       // What is clipped is not repeated.
       if (z[i] != z[i - 1] || z[i] == low || z[i] == high || is_silent(i)) continue;
       equal += 1.0;
       if (z[i - 1] == z[i - 2]) twice += 1.0;
     }
-  if (marks.lsb_dps > 0.0 && count > 0.0)
-    marks.white_under_grid_dps = white_under_grid(marks.lsb_dps, equal / count);
+  // Of a motion, neighbours are not equal whatever the noise.
+  if (marks.lsb_dps > 0.0 && at_rest > 0.0)
+    marks.white_under_grid_dps = white_under_grid(marks.lsb_dps, equal_at_rest / at_rest);
   double by_chance = 0.0;
   if (marks.lsb_dps > 0.0)
     by_chance = equal_by_chance(differences, marks.lsb_dps);

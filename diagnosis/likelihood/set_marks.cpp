@@ -98,10 +98,12 @@ void SetSearcher::put_in_order(FoundSet& found) {
   auto& effects = found.scenario.effects;
   std::vector<std::size_t> order(effects.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  // An angle's errors come before the limit that clips them, a zone of the output after all that is
-  // analogue.
+  // An angle's errors come before the limit that clips them and a limit of the element before the
+  // grid, a zone of the output after all that is analogue.
   const auto rank = [&](std::size_t k) {
     if (effects[k].id() == "angle_quantization") return 0;
+    if (effects[k].id() == "saturation" && effects[k].value(field_of(effects[k], "of_element")) > 0)
+      return 0;
     return effects[k].id() == "dead_zone" ? 2 : 1;
   };
   std::stable_sort(order.begin(), order.end(),

@@ -41,44 +41,63 @@ TEST_P(StrongSet, IsFoundWhole) {
 
 INSTANTIATE_TEST_SUITE_P(
     SetSearch, StrongSet,
-    testing::Values(Known{"noise",
-                          {effects::NoiseBandwidth{2.0}, effects::Vibration{0.04, 4.0, 0.4},
-                           effects::Outliers{0.005, 0.5}}},
-                    Known{"slow",
-                          {effects::GaussMarkov{0.02, 15.0}, effects::ThermalCurvature{6e-4, 40.0},
-                           effects::StaleSamples{0.05, 1.0}}},
-                    Known{"red",
-                          {effects::BiasInstability{.coefficient_dps = 0.03},
-                           effects::Sinusoidal{.amplitude_dps = 0.02, .frequency_hz = 0.3}}},
-                    Known{"hump",
-                          {effects::WanderingLine{.amplitude_dps = 0.08,
-                                                  .frequency_hz = 6.0,
-                                                  .wander_hz = 0.4,
-                                                  .correlation_time_s = 2.0},
-                           effects::Sinusoidal{.amplitude_dps = 0.01, .frequency_hz = 1.3}}},
-                    Known{"levels",
-                          {effects::Telegraph{0.03, 40.0}, effects::Quantization{0.1},
-                           effects::NoiseTemperature{0.03}}},
-                    Known{"stairs",
-                          {effects::BiasSteps{20.0, 0.1}, effects::ThermalHysteresis{0.08, 3.0}}},
-                    Known{"filtered",
-                          {effects::NoiseBandwidth{2.0, 2.0, 1.0}, effects::GaussMarkov{0.02, 15.0},
-                           effects::RateRamp{5e-4}}},
-                    Known{"angle",
-                          {effects::NoiseBandwidth{5.0, 2.0, 1.0},
-                           effects::AngleQuantization{.coefficient_deg = 8e-4},
-                           effects::Vibration{0.02, 4.0, 0.4}, effects::BiasSteps{20.0, 0.15}}},
-                    Known{"spikes",
-                          {effects::NoiseAveraging{2.5, 1.0}, effects::Outliers{0.002, 0.3},
-                           effects::Sinusoidal{.amplitude_dps = 0.02, .frequency_hz = 0.3}}},
-                    Known{"averaged",
-                          {effects::NoiseAveraging{2.5, 1.0}, effects::Vibration{0.04, 4.0, 0.4},
-                           effects::ScaleAsymmetry{0.0015}},
-                          true},
-                    Known{"motion",
-                          {effects::ScaleFactor{0.01}, effects::SensorBandwidth{1.0},
-                           effects::HardIron{5.0, 40.0}},
-                          true}),
+    testing::Values(
+        Known{"noise",
+              {effects::NoiseBandwidth{2.0}, effects::Vibration{0.04, 4.0, 0.4},
+               effects::Outliers{0.005, 0.5}}},
+        Known{"slow",
+              {effects::GaussMarkov{0.02, 15.0}, effects::ThermalCurvature{6e-4, 40.0},
+               effects::StaleSamples{0.05, 1.0}}},
+        Known{"red",
+              {effects::BiasInstability{.coefficient_dps = 0.03},
+               effects::Sinusoidal{.amplitude_dps = 0.02, .frequency_hz = 0.3}}},
+        Known{"hump",
+              {effects::WanderingLine{.amplitude_dps = 0.08,
+                                      .frequency_hz = 6.0,
+                                      .wander_hz = 0.4,
+                                      .correlation_time_s = 2.0},
+               effects::Sinusoidal{.amplitude_dps = 0.01, .frequency_hz = 1.3}}},
+        Known{"levels",
+              {effects::Telegraph{0.03, 40.0}, effects::Quantization{0.1},
+               effects::NoiseTemperature{0.03}}},
+        Known{"stairs", {effects::BiasSteps{20.0, 0.1}, effects::ThermalHysteresis{0.08, 3.0}}},
+        Known{"filtered",
+              {effects::NoiseBandwidth{2.0, 2.0, 1.0}, effects::GaussMarkov{0.02, 15.0},
+               effects::RateRamp{5e-4}}},
+        Known{"angle",
+              {effects::NoiseBandwidth{5.0, 2.0, 1.0},
+               effects::AngleQuantization{.coefficient_deg = 8e-4},
+               effects::Vibration{0.02, 4.0, 0.4}, effects::BiasSteps{20.0, 0.15}}},
+        Known{"spikes",
+              {effects::NoiseAveraging{2.5, 1.0}, effects::Outliers{0.002, 0.3},
+               effects::Sinusoidal{.amplitude_dps = 0.02, .frequency_hz = 0.3}}},
+        Known{"averaged",
+              {effects::NoiseAveraging{2.5, 1.0}, effects::Vibration{0.04, 4.0, 0.4},
+               effects::ScaleAsymmetry{0.0015}},
+              true},
+        Known{"iron",
+              {effects::HardIron{6.0, 40.0, 1.0}, effects::SoftIron{3.0, 10.0, 1.0},
+               effects::CompassLag{.time_constant_s = 0.5, .of_field = 1.0}},
+              true},
+        Known{"side", {effects::ScaleAsymmetry{0.003, -1.0}, effects::HardIron{1.0, 40.0}}, true},
+        Known{"silence",
+              {effects::DeadZone{.half_width_dps = 2.0, .of_output = 1.0},
+               effects::ScaleFactor{0.003}},
+              true},
+        Known{"play",
+              {effects::DeadZone{.half_width_dps = 2.0, .lost_beyond = 1.0, .of_output = 1.0},
+               effects::NoiseAveraging{2.5, 1.0}},
+              true},
+        Known{"broad",
+              {effects::WanderingLine{.amplitude_dps = 0.1,
+                                      .frequency_hz = 5.5,
+                                      .wander_hz = 0.5,
+                                      .correlation_time_s = 10.0},
+               effects::GaussMarkov{0.02, 15.0}}},
+        Known{"motion",
+              {effects::ScaleFactor{0.01}, effects::SensorBandwidth{1.0},
+               effects::HardIron{5.0, 40.0}},
+              true}),
     [](const auto& known) { return known.param.name; });
 
 /// Rates in steps of an angle's grid an interval lie on a grid themselves, and are not rounded.
@@ -203,6 +222,26 @@ TEST(SetSearch, AHeadingThatIsHalfASampleLateHasNoLag) {
           std::remainder(series.heading_deg[i] - late * mean_rate / 20.0, 360.0);
     }
     EXPECT_EQ(found_in(shifted), std::set<std::string>{}) << late;
+  }
+}
+
+/// The rates of a reference seldom add up to its heading: neither what is left over minutes nor a
+/// half sample beside iron has a name.
+TEST(SetSearch, AReferenceWhoseRatesDoNotAddUpHasNoIron) {
+  for (const double amplitude_deg : {0.0, 2.0}) {
+    Scenario s = moving();
+    if (amplitude_deg > 0.0) s.effects = {effects::HardIron{amplitude_deg, 40.0}};
+    auto series = recorded(s, 24, true);
+    const NormalStream steps(24, 0, "wander");
+    double wander_deg = 0.0;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      wander_deg += 0.002 * steps.normal(i);
+      series.heading_deg[i] = std::remainder(
+          series.heading_deg[i] + wander_deg - 0.5 * series.rate_ref_dps[i] / 20.0, 360.0);
+    }
+    std::set<std::string> expected;
+    if (amplitude_deg > 0.0) expected = {"hard_iron"};
+    EXPECT_EQ(found_in(series), expected);
   }
 }
 

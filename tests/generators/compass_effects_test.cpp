@@ -60,6 +60,37 @@ TEST(SoftIron, IsTheSecondHarmonicOfTheHeadingAndNoOther) {
       error(effects::SoftIron{.amplitude_deg = 3.0, .phase_deg = 30.0}, full_turn()), 2);
 }
 
+/// A field of the same direction in the vehicle, or one that bends with it, adds up to what is
+/// measured; its largest error is the amplitude.
+TEST(Iron, InExactFormIsTheDirectionOfTheSumOfFields) {
+  constexpr double rad = std::numbers::pi / 180.0, amplitude_deg = 8.0, phase_deg = 30.0;
+  const auto heading = full_turn();
+  for (const double periods : {1.0, 2.0}) {
+    const auto errors = periods == 1.0
+                            ? error(effects::HardIron{amplitude_deg, phase_deg, 1.0}, heading)
+                            : error(effects::SoftIron{amplitude_deg, phase_deg, 1.0}, heading);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < heading.size(); ++i) {
+      const auto field = std::polar(1.0, -heading[i] * rad);
+      const auto bent = periods == 1.0 ? std::complex(1.0) : std::conj(field);
+      const auto sum = field - std::polar(std::sin(amplitude_deg * rad), phase_deg * rad) * bent;
+      EXPECT_NEAR(std::remainder(-std::arg(sum) / rad - heading[i] - errors[i], 360.0), 0.0, 1e-9);
+      largest = std::max(largest, std::abs(errors[i]));
+    }
+    EXPECT_NEAR(largest, amplitude_deg, 0.01 * amplitude_deg);
+  }
+}
+
+/// A slow turn is late by as much whichever is filtered.
+TEST(CompassLag, OfTheFieldIsThatOfItsDirectionWhereTheTurnIsSlow) {
+  std::vector<double> turning;
+  for (int k = 0; k < 400; ++k) turning.push_back(0.05 * k);
+  const auto direction = error(effects::CompassLag{.time_constant_s = 1.0}, turning);
+  const auto field = error(effects::CompassLag{.time_constant_s = 1.0, .of_field = 1.0}, turning);
+  EXPECT_NEAR(field.back(), direction.back(), 1e-3);
+  EXPECT_NEAR(direction.back(), -0.5, 1e-3);  // of half a degree a second
+}
+
 /// A step is a rise over one interval d: behind it (1 - e^{-d/tau}) tau / d of the step at its end.
 TEST(CompassLag, DecaysAfterAStepWithItsTimeConstant) {
   std::vector<double> step(100, 60.0);

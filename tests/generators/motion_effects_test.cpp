@@ -80,6 +80,14 @@ TEST(Saturation, ClipsAtBothLimitsAndPassesWhatLiesBetweenAndGaps) {
   EXPECT_TRUE(std::isnan(z[4]));
 }
 
+TEST(Saturation, OfTheElementLeavesBiasAndNoise) {
+  auto series = silent(even_times(3, 100.0));
+  series.rate_ref_dps = {29.0, 31.0, -40.0};
+  series.gyro_dps = {29.5, 31.5, -39.0};
+  effects::Saturation{.limit_dps = 30.0, .of_element = 1.0}.apply(series, {1, 0});
+  EXPECT_EQ(series.gyro_dps, (std::vector<double>{29.5, 30.5, -29.0}));
+}
+
 TEST(DeadZone, HidesRatesUpToItsHalfWidth) {
   EXPECT_EQ(sensed(effects::DeadZone{.half_width_dps = 0.5}, {0.5, -0.5, 0.3, 0.51, -0.51, 8.0}),
             (std::vector<double>{0.0, 0.0, 0.0, 0.51, -0.51, 8.0}));
@@ -97,6 +105,24 @@ TEST(DeadZone, LeavesBiasAndNoiseWhereTheyWere) {
   series.gyro_dps = {0.75, 0.5};
   effects::DeadZone{.half_width_dps = 0.3}.apply(series, {1, 0});
   EXPECT_EQ(series.gyro_dps, (std::vector<double>{0.5, 0.5}));
+}
+
+TEST(DeadZone, OfTheOutputIsOfBiasAndNoise) {
+  auto series = silent(even_times(4, 100.0));
+  series.rate_ref_dps = {0.25, 0.0, 5.0, -5.0};
+  series.gyro_dps = {0.75, -0.5, 5.5, -4.5};
+  auto play = series;
+  effects::DeadZone{.half_width_dps = 0.6, .of_output = 1.0}.apply(series, {1, 0});
+  EXPECT_EQ(series.gyro_dps, (std::vector<double>{0.75, 0.0, 5.5, -4.5}));
+  effects::DeadZone{.half_width_dps = 0.5, .lost_beyond = 1.0, .of_output = 1.0}.apply(play,
+                                                                                       {1, 0});
+  EXPECT_EQ(play.gyro_dps, (std::vector<double>{0.25, 0.0, 5.0, -4.0}));
+}
+
+TEST(ScaleAsymmetry, OfOneSideLeavesTheOther) {
+  EXPECT_EQ(sensed(effects::ScaleAsymmetry{0.25, 1.0}, {4.0, -4.0}), (std::vector{6.0, -4.0}));
+  EXPECT_EQ(sensed(effects::ScaleAsymmetry{0.25, -1.0}, {4.0, -4.0}), (std::vector{4.0, -2.0}));
+  EXPECT_EQ(sensed(effects::ScaleAsymmetry{0.25}, {4.0, -4.0}), (std::vector{5.0, -3.0}));
 }
 
 TEST(GSensitivity, AddsEachAxisByItsCoefficient) {
