@@ -7,19 +7,16 @@
 
 namespace gyrostat::gap {
 
-/// A share of the size of the rate, in both directions or in one.
+/// A share of the size of the rate. Beside a scale factor of the same size, one direction is right
+/// (SetSearcher::join_to_one_side).
 template <>
 struct Diagnosed<effects::ScaleAsymmetry> {
   static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::ScaleAsymmetry::error};
-  static constexpr bool comes_in_forms = true;
 
   static std::vector<effects::ScaleAsymmetry> starts(const Evidence& e) {
-    std::vector<effects::ScaleAsymmetry> all;
-    for (const double one_side : {0.0, 1.0, -1.0})
-      all.push_back(scaled(e, Trace::rate, effects::ScaleAsymmetry{.one_side = one_side},
-                           [](auto& p, double a) { p.error = a; }));
-    return all;
+    return {
+        scaled(e, Trace::rate, effects::ScaleAsymmetry{}, [](auto& p, double a) { p.error = a; })};
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

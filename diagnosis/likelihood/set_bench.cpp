@@ -36,6 +36,14 @@ bool passes_the_noise_filter(const Effect& effect, const Scenario& scenario) {
   });
 }
 
+/// A shift by less than part of a sample beside a filter is the filter's own: between samples, its
+/// input is not known.
+bool is_of_the_filter(const Effect& effect, const Scenario& scenario, double interval_s) {
+  constexpr double least = 0.1;  // of a sample
+  return effect.id() == "time_offset" && has(scenario, "sensor_bandwidth") &&
+         std::abs(effect.value(field_of(effect, "offset_s"))) < least * interval_s;
+}
+
 }  // namespace
 
 bool has(const Scenario& scenario, std::string_view effect) {
@@ -131,7 +139,9 @@ double SetBench::price_of(const Scenario& scenario) const {
   for (const auto& effect : scenario.effects) {
     const auto* cause = cause_types().find(effect.id());
     if (cause == nullptr) continue;
-    if (!cause->is_what_it_is_called(effect, conditions_)) return beyond_any;
+    if (!cause->is_what_it_is_called(effect, conditions_) ||
+        is_of_the_filter(effect, scenario, conditions_.interval_s()))
+      return beyond_any;
     if (is_marked(effect.id())) continue;
     sum += prior +
            of_a_parameter * static_cast<double>(cause->free_parameters.size() - cause->amplitudes +
@@ -193,6 +203,9 @@ Standing SetBench::without(const Standing& standing, std::size_t effect) const {
   if (ArimaLaw::of(rest.random_error).walk_dps < small)
     if (auto other = refitted(with_walk_of_at_least(rest, small)); other.score > best.score)
       best = std::move(other);
+  // The motion's other effects had moved beside it.
+  if (band == EffectBand::motion)
+    if (auto fit = polished(best); fit.score > best.score) best = std::move(fit);
   best.beside_the_last = as_it_was;
   return best;
 }

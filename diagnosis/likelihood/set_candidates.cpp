@@ -136,12 +136,17 @@ Standing SetBench::polished(Standing standing) const {
         double above = 0.0, below = 0.0;
         tbb::parallel_invoke([&] { above = likelihood(more); }, [&] { below = likelihood(less); });
         const double curve = above + below - 2.0 * here;
-        double by =
+        const double by =
             curve < 0.0 ? 0.5 * step * (below - above) / curve : (above > below ? step : -step);
-        by = std::clamp(by, -5.0 * step, 5.0 * step);
+        // Of what is linear the parabola is right however far it goes.
         const auto& range = effect.fields()[f].range;
-        effect.value(f) = std::clamp(middle + by, range.from, range.to);
-        const double there = likelihood(scenario);
+        double there = here - 1.0;
+        for (const double furthest : {50.0, 5.0}) {
+          if (there > here || (furthest < 50.0 && std::abs(by) <= furthest * step)) break;
+          effect.value(f) = std::clamp(middle + std::clamp(by, -furthest * step, furthest * step),
+                                       range.from, range.to);
+          there = likelihood(scenario);
+        }
         if (there > here)
           here = there;
         else

@@ -83,15 +83,35 @@ void SetSearcher::give_grid_to_angle(const Marks& marks, FoundSet& found) const 
   if (std::abs(std::sqrt(12.0) * coefficient_deg / lsb_deg - 1.0) > most_apart) return;
   coefficient_deg = lsb_deg / std::sqrt(12.0);
   angle->value(field_of(*angle, "on_grid")) = 1.0;
-  const auto place = static_cast<std::size_t>(grid - effects.begin());
-  effects.erase(grid);
-  std::erase_if(found.intervals, [&](const auto& i) { return i.effect == place; });
-  for (auto& interval : found.intervals)
-    if (interval.effect > place) --interval.effect;
-  std::erase_if(found.members, [](const auto& m) { return m.effect == "quantization"; });
+  remove(grid, found);
   // What was taken for the error of rounding rates.
   double& white = found.scenario.random_error.measurement_noise_std_dps;
   white = std::hypot(white, marks.lsb_dps / std::sqrt(12.0));
+}
+
+void SetSearcher::join_to_one_side(FoundSet& found) {
+  constexpr double most_apart = 0.03;
+  auto& effects = found.scenario.effects;
+  const auto place_of = [&](std::string_view id) {
+    return std::find_if(effects.begin(), effects.end(),
+                        [&](const auto& e) { return e.id() == id; });
+  };
+  const auto asymmetry = place_of("scale_asymmetry"), scale = place_of("scale_factor");
+  if (asymmetry == effects.end() || scale == effects.end()) return;
+  const double half = asymmetry->value(field_of(*asymmetry, "error"));
+  const double shared = scale->value(field_of(*scale, "error"));
+  if (std::abs(std::abs(shared / half) - 1.0) > most_apart) return;
+  asymmetry->value(field_of(*asymmetry, "one_side")) = shared * half > 0.0 ? 1.0 : -1.0;
+  remove(scale, found);
+}
+
+void SetSearcher::remove(std::vector<Effect>::iterator effect, FoundSet& found) {
+  const auto place = static_cast<std::size_t>(effect - found.scenario.effects.begin());
+  std::erase_if(found.members, [&](const auto& m) { return m.effect == effect->id(); });
+  found.scenario.effects.erase(effect);
+  std::erase_if(found.intervals, [&](const auto& i) { return i.effect == place; });
+  for (auto& interval : found.intervals)
+    if (interval.effect > place) --interval.effect;
 }
 
 void SetSearcher::put_in_order(FoundSet& found) {

@@ -80,6 +80,7 @@ FoundSet SetSearcher::run() {
            .b_dps_s_per_C = coefficients.size() > 1 ? coefficients[1] : 0.0,
            .c_dps = 0.0};
   give_grid_to_angle(marks, found);
+  join_to_one_side(found);
   put_in_order(found);
   if (conditions_.has_heading()) search_compass(simulator_, recording_, options_, found);
   return found;

@@ -77,6 +77,9 @@ class SetSearcher {
   /// Where the noise shows clearly an angle in steps as large as the grid of the rates, the grid is
   /// the angle's: there is no other quantization.
   void give_grid_to_angle(const Marks& marks, FoundSet& found) const;
+  /// A scale factor and an asymmetry of the same size are one effect: one direction is right.
+  static void join_to_one_side(FoundSet& found);
+  static void remove(std::vector<Effect>::iterator effect, FoundSet& found);
   /// Both act at the converter, and what is clipped is clipped.
   static void put_in_order(FoundSet& found);
   std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
