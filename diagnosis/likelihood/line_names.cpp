@@ -164,8 +164,13 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
     const auto known = std::find_if(found.members.begin(), found.members.end(),
                                     [id = effect.id()](const auto& m) { return m.effect == id; });
     if (gain < clear_shape) {
-      if (effect.id() == "vibration" || !bench.is_allowed("vibration")) continue;
+      if (effect.id() == "vibration") continue;
       // Its spectrum alone does not tell it from noise in that band.
+      if (!bench.is_allowed("vibration")) {
+        found.nameless_log_odds = std::max(found.nameless_log_odds, clear_shape);
+        if (known != found.members.end()) found.members.erase(known);
+        continue;
+      }
       standing = with_resonance(bench, standing, k);
       effect = standing.scenario.effects[k];
       std::erase_if(found.intervals, [&](const auto& interval) { return interval.effect == k; });

@@ -210,6 +210,19 @@ TEST(SetSearch, NamesALineThatWandersLittle) {
             (std::set<std::string>{"quantization", "wandering_line"}));
 }
 
+/// Where noise in a band is not in the catalogue, it is no line that wanders.
+TEST(SetSearch, NoiseInABandHasNoOtherName) {
+  Scenario s = still();
+  s.effects = {effects::Vibration{0.04, 4.0, 0.4}};
+  const auto series = recorded(s, 77, false);
+  const Simulator simulator(series, 1);
+  SetSearchOptions options;
+  options.without = {"vibration"};
+  const auto found = find_set(simulator, series, options);
+  for (const auto& member : found.members) EXPECT_NE(member.effect, "wandering_line");
+  EXPECT_GT(found.nameless_log_odds, 0.0);
+}
+
 /// Whether a sample has turned by its own rate, by half of it or not yet is the recorder's habit.
 TEST(SetSearch, AHeadingThatIsHalfASampleLateHasNoLag) {
   for (const double late : {-0.5, 0.5, 1.0}) {
