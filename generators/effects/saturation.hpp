@@ -19,7 +19,7 @@ struct Saturation {
   static constexpr std::string_view title = "the output is clipped";
   static constexpr Stage stage = Stage::conversion;
   static constexpr bool sample_by_sample = true;
-  static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps};
+  static constexpr std::array needs = {&Series::gyro_dps};
 
   static constexpr auto fields() {
     using P = Saturation;
@@ -37,7 +37,8 @@ struct Saturation {
       for (double& z : series.gyro_dps) z = clipped(z);
       return;
     }
-    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i)
+    constexpr std::array sensed = {&Series::gyro_dps, &Series::rate_ref_dps};
+    for (std::size_t i = 0, n = samples_with(series, sensed); i < n; ++i)
       series.gyro_dps[i] += clipped(series.rate_ref_dps[i]) - series.rate_ref_dps[i];
   }
 
