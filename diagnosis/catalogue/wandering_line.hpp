@@ -20,7 +20,7 @@ struct Diagnosed<effects::WanderingLine> {
       &effects::WanderingLine::amplitude_dps, &effects::WanderingLine::frequency_hz,
       &effects::WanderingLine::wander_hz, &effects::WanderingLine::correlation_time_s};
 
-  /// Bands wider than a line that stands still, which it fills while it hardly turns or many times.
+  /// Bands wider than a line that stands still, each filled by one that wanders slowly through it.
   static std::vector<effects::WanderingLine> guesses(const Beside& beside) {
     const double resolution_hz = beside.fitter.reduced().grid().resolution_hz();
     std::vector<effects::WanderingLine> all;

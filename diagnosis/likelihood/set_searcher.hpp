@@ -80,7 +80,7 @@ class SetSearcher {
   /// A scale factor and an asymmetry of the same size are one effect: one direction is right.
   static void join_to_one_side(FoundSet& found);
   static void remove(std::vector<Effect>::iterator effect, FoundSet& found);
-  /// Both act at the converter, and what is clipped is clipped.
+  /// What acts at the converter, in the order in which it does.
   static void put_in_order(FoundSet& found);
   std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
   /// Log-likelihood that noise which warms, and noise with tails, gain at most where it is only the
