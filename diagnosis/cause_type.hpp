@@ -33,8 +33,10 @@ struct CauseType {
   std::vector<std::string_view> free_parameters;
   /// How many of them, the first, are amplitudes of a slow signature.
   std::size_t amplitudes;
-  bool comes_in_forms;  ///< one more parameter, which no fit moves: starts have each its own
-  Effect (*effect)();   ///< with its default parameters
+  /// How many parameters more its form has cost, which no fit moves: starts have each its own.
+  /// nullptr: none.
+  std::size_t (*chosen_parameters)(const Effect& effect);
+  Effect (*effect)();  ///< with its default parameters
   /// First parameters from what a set leaves of the recording, one or several; none where it shows
   /// nothing alike, nullptr where `guesses` finds them.
   std::vector<Effect> (*starts)(const Evidence& evidence);

@@ -24,7 +24,7 @@ namespace gyrostat::gap {
 ///   };
 ///
 /// CauseType says what each of them means. There are no defaults: one that is forgotten does not
-/// compile. Some add `amplitudes`, `comes_in_forms` or `told_otherwise`.
+/// compile. Some add `amplitudes`, `chosen_parameters` or `told_otherwise`.
 template <class E>
 struct Diagnosed;
 
@@ -47,6 +47,10 @@ concept HasGuesses = requires(const Beside& beside) {
 template <class E>
 concept IsToldOtherwise = requires(const E& effect, const Conditions& conditions) {
   { Diagnosed<E>::told_otherwise(effect, conditions) } -> std::same_as<std::vector<E>>;
+};
+template <class E>
+concept ComesInForms = requires(const E& effect) {
+  { Diagnosed<E>::chosen_parameters(effect) } -> std::same_as<std::size_t>;
 };
 template <class E>
 concept HasLaw = requires(const E& effect, NoiseLaw& law) {
@@ -90,59 +94,67 @@ CauseType describe_cause() {
                 else
                   return std::size_t{D::signature == Signature::slow};
               }(),
-          .comes_in_forms = requires {D::comes_in_forms;
-}
-, .effect = [] { return Effect(E{}); },
-  .starts =
-      [] {
-        using Starts = std::vector<Effect> (*)(const Evidence&);
-        if constexpr (HasStarts<E>)
-          return Starts([](const Evidence& evidence) {
-            std::vector<Effect> all;
-            for (const E& start : D::starts(evidence)) all.emplace_back(start);
-            return all;
-          });
-        else
-          return Starts(nullptr);
-      }(),
-  .guesses =
-      [] {
-        using Guesses = std::vector<Effect> (*)(const Beside&);
-        if constexpr (HasGuesses<E>)
-          return Guesses([](const Beside& beside) {
-            std::vector<Effect> all;
-            for (const E& guess : D::guesses(beside)) all.emplace_back(guess);
-            return all;
-          });
-        else
-          return Guesses(nullptr);
-      }(),
-  .told_otherwise =
-      [] {
-        using ToldOtherwise = std::vector<Effect> (*)(const Effect&, const Conditions&);
-        if constexpr (IsToldOtherwise<E>)
-          return ToldOtherwise([](const Effect& effect, const Conditions& conditions) {
-            std::vector<Effect> all;
-            for (const E& other : D::told_otherwise(*effect.as<E>(), conditions))
-              all.emplace_back(other);
-            return all;
-          });
-        else
-          return ToldOtherwise(nullptr);
-      }(),
-  .enter =
-      [] {
-        using Enter = void (*)(const Effect&, NoiseLaw&);
-        if constexpr (HasLaw<E>)
-          return Enter([](const Effect& effect, NoiseLaw& law) { D::enter(*effect.as<E>(), law); });
-        else
-          return Enter(nullptr);
-      }(),
-  .why_not_assessable = D::why_not_assessable,
-  .is_what_it_is_called = [](const Effect& effect, const Conditions& conditions) {
-    return D::is_what_it_is_called(*effect.as<E>(), conditions);
-  }
-};  // namespace gyrostat::gap
+          .chosen_parameters =
+              [] {
+                using Chosen = std::size_t (*)(const Effect&);
+                if constexpr (ComesInForms<E>)
+                  return Chosen(
+                      [](const Effect& effect) { return D::chosen_parameters(*effect.as<E>()); });
+                else
+                  return Chosen(nullptr);
+              }(),
+          .effect = [] { return Effect(E{}); },
+          .starts =
+              [] {
+                using Starts = std::vector<Effect> (*)(const Evidence&);
+                if constexpr (HasStarts<E>)
+                  return Starts([](const Evidence& evidence) {
+                    std::vector<Effect> all;
+                    for (const E& start : D::starts(evidence)) all.emplace_back(start);
+                    return all;
+                  });
+                else
+                  return Starts(nullptr);
+              }(),
+          .guesses =
+              [] {
+                using Guesses = std::vector<Effect> (*)(const Beside&);
+                if constexpr (HasGuesses<E>)
+                  return Guesses([](const Beside& beside) {
+                    std::vector<Effect> all;
+                    for (const E& guess : D::guesses(beside)) all.emplace_back(guess);
+                    return all;
+                  });
+                else
+                  return Guesses(nullptr);
+              }(),
+          .told_otherwise =
+              [] {
+                using ToldOtherwise = std::vector<Effect> (*)(const Effect&, const Conditions&);
+                if constexpr (IsToldOtherwise<E>)
+                  return ToldOtherwise([](const Effect& effect, const Conditions& conditions) {
+                    std::vector<Effect> all;
+                    for (const E& other : D::told_otherwise(*effect.as<E>(), conditions))
+                      all.emplace_back(other);
+                    return all;
+                  });
+                else
+                  return ToldOtherwise(nullptr);
+              }(),
+          .enter =
+              [] {
+                using Enter = void (*)(const Effect&, NoiseLaw&);
+                if constexpr (HasLaw<E>)
+                  return Enter(
+                      [](const Effect& effect, NoiseLaw& law) { D::enter(*effect.as<E>(), law); });
+                else
+                  return Enter(nullptr);
+              }(),
+          .why_not_assessable = D::why_not_assessable,
+          .is_what_it_is_called =
+              [](const Effect& effect, const Conditions& conditions) {
+                return D::is_what_it_is_called(*effect.as<E>(), conditions);
+              }};  // namespace gyrostat::gap
 }
 
 }  // namespace gyrostat::gap

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <deque>
 #include <span>
 #include <string>
@@ -23,6 +24,9 @@ struct EffectType : ParametricType {
   /// Whether it changes each sample of the gyro by the channels of that sample alone, without
   /// noise: then it may be given any samples, also those of several trials, in any order.
   bool sample_by_sample = false;
+  /// Whether it says how the rate is sensed: it comes before the electronics' other effects, to
+  /// which the rate is what is sensed. Null: it does not.
+  bool (*is_response)(const std::any& effect) = nullptr;
   /// Tells its code from another under the same name; empty for code of the program itself.
   std::string code{};
 
@@ -45,6 +49,7 @@ class Effect : public Chosen<EffectType> {
   using Chosen::Chosen;
 
   Stage stage() const { return type().stage; }
+  bool is_response() const { return type().is_response != nullptr && type().is_response(plugin()); }
   /// Changes the series as the effect does, under the trial's noise.
   void apply(Series& series, const Noise& noise) const { type().apply(plugin(), series, noise); }
 };
@@ -54,6 +59,18 @@ template <class E>
 inline constexpr bool acts_sample_by_sample = requires {
   E::sample_by_sample;
 };
+
+/// An effect that may say how the rate is sensed has an `is_response`.
+template <class E>
+concept MayRespond = requires(const E& effect) {
+  { effect.is_response() } -> std::same_as<bool>;
+};
+
+template <class E>
+bool responds(const std::any& effect) {
+  if constexpr (MayRespond<E>) return std::any_cast<E>(&effect)->is_response();
+  return false;
+}
 
 /// The description of an effect under a name. A program that describes and adds one of its own has
 /// it in its scenarios, beside those of gyrostat.
@@ -88,11 +105,14 @@ inline constexpr bool acts_sample_by_sample = requires {
 template <class E>
 EffectType describe_effect(std::string_view id) {
   static constexpr auto needs = E::needs;
-  return {describe_parametric<E>(id), E::stage, needs,
+  return {describe_parametric<E>(id),
+          E::stage,
+          needs,
           [](const std::any& effect, Series& series, const Noise& noise) {
             std::any_cast<E>(&effect)->apply(series, noise);
           },
-          acts_sample_by_sample<E>};
+          acts_sample_by_sample<E>,
+          responds<E>};
 }
 
 }  // namespace gyrostat

@@ -59,7 +59,7 @@ void measure_rate(const Scenario& scenario, const Noise& noise, Series& series) 
   for (std::size_t i = 0; i < series.size(); ++i)
     series.gyro_dps[i] = series.rate_ref_dps[i] + series.thermal_bias_dps[i];
   add_noise(scenario, noise, series);
-  for (const auto stage : stages_of_the_rate) apply_stage(stage, scenario, noise, series);
+  apply_in_order(effects_on_gyro(scenario), noise, series);
 }
 
 void turn(const Compass& compass, const Scenario& scenario, const Noise& noise, Series& series) {
@@ -108,6 +108,39 @@ constexpr std::array influences = {&Series::temperature_C,   &Series::rate_ref_d
                                    &Series::cross_rate_2_dps};
 
 }  // namespace
+
+std::vector<Effect> effects_on_gyro(const Scenario& scenario) {
+  std::vector<Effect> ordered;
+  const auto take = [&](Stage stage, bool responses) {
+    for (const auto& effect : scenario.effects)
+      if (effect.stage() == stage && effect.is_response() == responses) ordered.push_back(effect);
+  };
+  take(Stage::noise, false);
+  for (const bool responses : {true, false})
+    for (const auto stage : {Stage::electronics, Stage::conversion, Stage::transport})
+      take(stage, responses);
+  return ordered;
+}
+
+void apply_in_order(const std::vector<Effect>& on_gyro, const Noise& noise, Series& series) {
+  const auto responds = [](const Effect& effect) { return effect.is_response(); };
+  if (std::none_of(on_gyro.begin(), on_gyro.end(), responds)) {
+    for (const auto& effect : on_gyro) effect.apply(series, noise);
+    return;
+  }
+  const auto reference = series.rate_ref_dps;
+  for (const auto& effect : on_gyro) {
+    if (!effect.is_response()) {
+      effect.apply(series, noise);
+      continue;
+    }
+    const auto before = series.gyro_dps;
+    effect.apply(series, noise);
+    for (std::size_t i = 0; i < std::min(before.size(), series.rate_ref_dps.size()); ++i)
+      series.rate_ref_dps[i] += series.gyro_dps[i] - before[i];
+  }
+  series.rate_ref_dps = reference;
+}
 
 std::size_t Sampling::samples() const {
   return std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(duration_s * rate_hz)));

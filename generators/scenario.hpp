@@ -80,9 +80,13 @@ void synthesise_conditions(const Scenario& scenario, const Noise& noise, Series&
 /// the effects on it.
 void turn_compass(const Scenario& scenario, const Noise& noise, Series& series);
 
-/// The stages of what happens to a rate after its noise, in order.
-inline constexpr std::array stages_of_the_rate = {Stage::noise, Stage::electronics,
-                                                  Stage::conversion, Stage::transport};
+/// What happens to a rate after its white noise, in order: to the noise, then how the rate is
+/// sensed, then all else, stage by stage.
+std::vector<Effect> effects_on_gyro(const Scenario& scenario);
+
+/// Has them act on the gyro. To what comes after an effect that says how the rate is sensed, that
+/// is the rate; afterwards `rate_ref_dps` is the true one again.
+void apply_in_order(const std::vector<Effect>& on_gyro, const Noise& noise, Series& series);
 
 /// The errors of `scenario` under the conditions of a recording: its times, even or not,
 /// temperature, rates (about its own axis 0 where it has none), acceleration, mag_valid, and its

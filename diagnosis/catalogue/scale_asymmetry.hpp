@@ -7,16 +7,22 @@
 
 namespace gyrostat::gap {
 
-/// A share of the size of the rate. Beside a scale factor of the same size, one direction is right
-/// (SetSearcher::join_to_one_side).
+/// A share of the size of the rate, of both directions or of one alone, each a start of its own.
 template <>
 struct Diagnosed<effects::ScaleAsymmetry> {
   static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::ScaleAsymmetry::error};
 
+  static std::size_t chosen_parameters(const effects::ScaleAsymmetry& effect) {
+    return effect.one_side == 0.0 ? 0 : 1;
+  }
+
   static std::vector<effects::ScaleAsymmetry> starts(const Evidence& e) {
-    return {
-        scaled(e, Trace::rate, effects::ScaleAsymmetry{}, [](auto& p, double a) { p.error = a; })};
+    std::vector<effects::ScaleAsymmetry> all;
+    for (const double side : {0.0, 1.0, -1.0})
+      all.push_back(scaled(e, Trace::rate, effects::ScaleAsymmetry{.one_side = side},
+                           [](auto& p, double a) { p.error = a; }));
+    return all;
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <numbers>
+
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
@@ -7,7 +10,7 @@
 
 namespace gyrostat::gap {
 
-/// The rate through a low-pass filter of one or two poles, each a start of its own.
+/// The rate through a low-pass filter of one or two poles or a mean, each a start of its own.
 template <>
 struct Diagnosed<effects::SensorBandwidth> {
   static constexpr auto signature = Signature::repeated;
@@ -16,10 +19,33 @@ struct Diagnosed<effects::SensorBandwidth> {
   static std::vector<effects::SensorBandwidth> starts(const Evidence& e) {
     const double rate_hz = e.conditions().rate_hz();
     std::vector<effects::SensorBandwidth> all;
-    for (const auto& form : {effects::SensorBandwidth{},
-                             effects::SensorBandwidth{.poles = 2.0, .maximally_flat = 1.0}})
+    for (const auto& form :
+         {effects::SensorBandwidth{}, effects::SensorBandwidth{.poles = 2.0, .maximally_flat = 1.0},
+          effects::SensorBandwidth{.averages = 1.0}})
       all.push_back(shaped(e, Trace::rate, form, &effects::SensorBandwidth::cutoff_hz,
                            0.002 * rate_hz, 0.49 * rate_hz));
+    return all;
+  }
+
+  /// The other forms that delay a slow motion by as much.
+  static std::vector<effects::SensorBandwidth> told_otherwise(
+      const effects::SensorBandwidth& effect, const Conditions& c) {
+    // Of a cutoff of 1 Hz, in seconds.
+    constexpr double of_pole = 0.5 / std::numbers::pi,
+                     of_butterworth = of_pole * std::numbers::sqrt2, of_mean = 0.5 * 0.44294647;
+    const bool is_mean = effect.averages > 0.5, is_flat = !is_mean && effect.maximally_flat > 0.5;
+    const double delay_s = (is_mean   ? of_mean
+                            : is_flat ? of_butterworth
+                                      : of_pole * effect.poles) /
+                           effect.cutoff_hz;
+    std::vector<effects::SensorBandwidth> all;
+    const double most_hz = 0.49 * c.rate_hz();
+    if (is_mean || is_flat) all.push_back({.cutoff_hz = of_pole / delay_s});
+    if (!is_flat)
+      all.push_back({.cutoff_hz = std::min(most_hz, of_butterworth / delay_s),
+                     .poles = 2.0,
+                     .maximally_flat = 1.0});
+    if (!is_mean) all.push_back({.cutoff_hz = of_mean / delay_s, .averages = 1.0});
     return all;
   }
 

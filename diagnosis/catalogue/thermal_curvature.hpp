@@ -6,15 +6,18 @@
 
 namespace gyrostat::gap {
 
-/// The square of the temperature, about the middle of its range: with another middle the linear
-/// drift would be another.
+/// The square of the temperature, or with its cube, about the middle of its range: with another
+/// middle the linear drift would be another.
 template <>
 struct Diagnosed<effects::ThermalCurvature> {
   static constexpr auto signature = Signature::slow;
-  static constexpr std::array free_parameters = {&effects::ThermalCurvature::curvature_dps_per_C2};
+  static constexpr std::array free_parameters = {&effects::ThermalCurvature::curvature_dps_per_C2,
+                                                 &effects::ThermalCurvature::cubic_dps_per_C3};
+  static constexpr std::size_t amplitudes = 2;
 
   static std::vector<effects::ThermalCurvature> guesses(const Beside& beside) {
-    return {{1.0, beside.middle_temperature_C()}};
+    const double middle_C = beside.middle_temperature_C();
+    return {{1.0, middle_C}, {1.0, middle_C, 1.0}};
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::warming(c); }

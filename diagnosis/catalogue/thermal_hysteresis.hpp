@@ -17,10 +17,17 @@ struct Diagnosed<effects::ThermalHysteresis> {
   static constexpr std::array free_parameters = {&effects::ThermalHysteresis::amplitude_dps,
                                                  &effects::ThermalHysteresis::width_C};
 
+  static std::size_t chosen_parameters(const effects::ThermalHysteresis& effect) {
+    return std::size_t{effect.gradual != 0.0} + std::size_t{effect.first_branch != 0.0};
+  }
+
   static std::vector<effects::ThermalHysteresis> guesses(const Beside& beside) {
     std::vector<effects::ThermalHysteresis> all;
     const double span_C = extent(beside.conditions.slow_temperature_C());
-    for (const double share : {0.03, 0.08, 0.2, 0.4}) all.push_back({1.0, share * span_C});
+    for (const double first : {0.0, 1.0, -1.0})
+      for (const double gradual : {0.0, 1.0})
+        for (const double share : {0.003, 0.01, 0.03, 0.08, 0.2, 0.4})
+          all.push_back({1.0, share * span_C, gradual, first});
     return all;
   }
 

@@ -6,7 +6,7 @@
 
 namespace gyrostat::gap {
 
-/// The slow rate follows the temperature late.
+/// The slow rate follows the temperature late, through one pole or two, each a start of its own.
 template <>
 struct Diagnosed<effects::ThermalLag> {
   static constexpr auto signature = Signature::slow;
@@ -15,15 +15,23 @@ struct Diagnosed<effects::ThermalLag> {
 
   static std::vector<effects::ThermalLag> guesses(const Beside& beside) {
     std::vector<effects::ThermalLag> all;
-    for (const double memory_s : beside.memories_s()) all.push_back({1.0, memory_s});
+    for (const double poles : {1.0, 2.0})
+      for (const double memory_s : beside.memories_s()) all.push_back({1.0, memory_s, poles});
     return all;
+  }
+
+  static std::size_t chosen_parameters(const effects::ThermalLag& effect) {
+    return effect.poles > 1.0 ? 1 : 0;
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::warming(c); }
 
-  /// One that takes most of the recording is a ramp.
+  /// One that takes most of the recording is a ramp; one within the ten seconds over which T' is
+  /// taken is what another recorder calls T'.
   static bool is_what_it_is_called(const effects::ThermalLag& effect, const Conditions& c) {
-    return effect.time_constant_s < 0.3 * c.interval_s() * static_cast<double>(c.size());
+    constexpr double least_s = 10.0;
+    return effect.time_constant_s > least_s &&
+           effect.time_constant_s < 0.3 * c.interval_s() * static_cast<double>(c.size());
   }
 };
 

@@ -16,7 +16,9 @@ struct Diagnosed<effects::VibrationRectification> {
   static constexpr std::array free_parameters = {
       &effects::VibrationRectification::coefficient_dps_per_m2ps4};
 
-  static constexpr bool comes_in_forms = true;
+  static std::size_t chosen_parameters(const effects::VibrationRectification& /*effect*/) {
+    return 1;
+  }
   static std::vector<effects::VibrationRectification> guesses(const Beside& beside) {
     const double least_s = 2.0 * beside.conditions.interval_s();
     std::vector<effects::VibrationRectification> all;

@@ -11,7 +11,7 @@
 #include <gyrostat/diagnosis/likelihood/compass_errors.hpp>
 #include <gyrostat/diagnosis/likelihood/compass_step.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
-#include <gyrostat/diagnosis/starts/quantile.hpp>
+#include <gyrostat/diagnosis/likelihood/heading_bursts.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -65,44 +65,12 @@ class CompassSearch {
   CompassErrors errors_;
   std::vector<char> hidden_;  ///< a flag a cluster: within a burst
   double cost_of_a_value_;
-  double burst_gain_ = 0.0, bursts_per_hour_ = 0.0, burst_s_ = 0.0, burst_deg_ = 0.0;
+  HeadingBursts bursts_;
 };
 
 void CompassSearch::find_bursts(const std::vector<Effect>& effects) {
-  const auto slow = errors_.means_of(effects);
-  std::vector<double> sizes;
-  for (const auto& span : conditions_.slow_spans(Part::train))
-    for (std::size_t i = span.first; i < span.last; ++i)
-      if (!is_missing(slow[i])) sizes.push_back(slow[i]);
-  if (sizes.size() < 50) return;
-  const double centre = quantile(sizes, 0.5);
-  for (double& s : sizes) s = std::abs(s - centre);
-  const double deviation = std::max(quantile(sizes, 0.5) / normal_quartile, 1e-9);
-  std::fill(hidden_.begin(), hidden_.end(), char{0});
-  double hit = 0.0, bursts = 0.0, square = 0.0, gain = 0.0, count = 0.0;
-  for (const auto& span : conditions_.slow_spans(Part::train)) {
-    bool inside = false;
-    for (std::size_t i = span.first; i < span.last; ++i) {
-      if (is_missing(slow[i])) continue;
-      const double z = std::abs(slow[i] - centre) / deviation;
-      const bool now = z > 5.0;
-      count += 1.0;
-      if (now) {
-        hidden_[i] = 1;
-        hit += 1.0;
-        square += z * z;
-        gain += 0.5 * z * z - std::log(z) - 5.0;
-        bursts += inside ? 0.0 : 1.0;
-      }
-      inside = now;
-    }
-  }
-  burst_gain_ = gain;
-  if (hit == 0.0) return;
-  const double hours = count * conditions_.slow_interval_s() / 3600.0;
-  bursts_per_hour_ = bursts / hours;
-  burst_s_ = std::max(hit / bursts, 1.0) * conditions_.slow_interval_s();
-  burst_deg_ = deviation * std::sqrt(square / hit);
+  bursts_ = heading_bursts(conditions_, errors_.means_of(effects));
+  hidden_ = bursts_.hidden;
 }
 
 double CompassSearch::cost(const Effect& effect) const {
@@ -266,11 +234,11 @@ void CompassSearch::run(const SetSearchOptions& options) {
   found_.scenario.compass.initial_heading_deg = errors_.centre_deg();
   found_.baseline.compass.noise_std_deg = law_of({}).std_deg();
   found_.baseline.compass.initial_heading_deg = errors_.centre_deg();
-  const double odds_of_bursts = burst_gain_ - 3.0 * cost_of_a_value_ - prior_odds;
+  const double odds_of_bursts = bursts_.gain - 3.0 * cost_of_a_value_ - prior_odds;
   if (!is_left_out("magnetic_bursts") && odds_of_bursts > 0.0) {
-    set.push_back(with_values("magnetic_bursts", {{"bursts_per_hour", bursts_per_hour_},
-                                                  {"mean_duration_s", burst_s_},
-                                                  {"std_deg", burst_deg_}}));
+    set.push_back(with_values("magnetic_bursts", {{"bursts_per_hour", bursts_.per_hour},
+                                                  {"mean_duration_s", bursts_.duration_s},
+                                                  {"std_deg", bursts_.size_deg}}));
     members.push_back({"magnetic_bursts", odds_of_bursts});
   }
   found_.scenario.effects.insert(found_.scenario.effects.end(), set.begin(), set.end());

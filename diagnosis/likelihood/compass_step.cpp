@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <gyrostat/core/numerics/dense.hpp>
+#include <gyrostat/core/step.hpp>
 #include <gyrostat/core/values.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/likelihood/walking_level.hpp>

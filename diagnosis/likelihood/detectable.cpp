@@ -26,13 +26,26 @@ std::optional<std::size_t> size_field(const CauseType& cause, const Effect& effe
   return std::nullopt;
 }
 
-/// What a fit would begin from, the middle first.
+/// Whether two guesses differ in what a fit moves alone.
+bool are_of_one_form(const CauseType& cause, const Effect& a, const Effect& b) {
+  for (std::size_t f = 0; f < a.fields().size(); ++f) {
+    const bool is_free = std::find(cause.free_parameters.begin(), cause.free_parameters.end(),
+                                   a.fields()[f].name) != cause.free_parameters.end();
+    if (is_free ? (a.value(f) == 0.0) != (b.value(f) == 0.0) : a.value(f) != b.value(f))
+      return false;
+  }
+  return true;
+}
+
+/// What a fit would begin from in its first form, the middle first.
 std::vector<Effect> examples_of(const SetBench& bench, const Standing& standing,
                                 const CauseType& cause) {
   std::vector<Effect> all;
   if (cause.guesses != nullptr)
     all = cause.guesses(Beside{bench.conditions(), *standing.fitter, standing.fit});
   if (all.empty()) all.push_back(cause.effect());
+  std::erase_if(
+      all, [&, first = all.front()](const auto& e) { return !are_of_one_form(cause, first, e); });
   std::vector<Effect> ordered;
   const std::size_t middle = all.size() / 2;
   for (std::size_t off = 0; off <= middle; ++off) {

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
 
@@ -15,6 +16,15 @@ inline std::size_t field_of(const Effect& effect, std::string_view name) {
   return static_cast<std::size_t>(
       std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == name; }) -
       fields.begin());
+}
+
+/// The fields of an effect's amplitudes, of which one that is 0 belongs to another form of it.
+inline std::vector<std::size_t> amplitudes_of(const Effect& effect, const CauseType& cause) {
+  std::vector<std::size_t> all;
+  for (std::size_t a = 0; a < cause.amplitudes; ++a)
+    if (const auto field = field_of(effect, cause.free_parameters[a]); effect.value(field) != 0.0)
+      all.push_back(field);
+  return all;
 }
 
 /// The effect of a name with some values of its fields; defaults for the others.

@@ -11,41 +11,6 @@
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 
 namespace gyrostat::gap {
-namespace {
-
-/// What a parameter gains by chance: half a nat, and as much again as makes chance rare.
-constexpr double of_a_parameter = 1.5;
-
-/// White noise belongs in R: where the memory beside the walk were the larger, the noise would have
-/// passed a filter, and that is an effect.
-bool has_white_noise(const Scenario& scenario) {
-  const auto& e = scenario.random_error;
-  return e.phi == 0.0 ||
-         ArimaLaw::of(e).variance() <= e.measurement_noise_std_dps * e.measurement_noise_std_dps;
-}
-
-/// Whether the rate passes the filter that colours the noise: that is one filter, and no second
-/// surprise.
-bool passes_the_noise_filter(const Effect& effect, const Scenario& scenario) {
-  constexpr double alike = 0.2;  // of the logarithm of the cutoff
-  if (effect.id() != "sensor_bandwidth") return false;
-  const double cutoff_hz = effect.value(field_of(effect, "cutoff_hz"));
-  return std::any_of(scenario.effects.begin(), scenario.effects.end(), [&](const auto& other) {
-    return other.id() == "noise_bandwidth" &&
-           std::abs(std::log(other.value(field_of(other, "cutoff_hz")) / cutoff_hz)) < alike;
-  });
-}
-
-/// A shift by less than part of a sample beside a filter is the filter's own: between samples, its
-/// input is not known.
-bool is_of_the_filter(const Effect& effect, const Scenario& scenario, double interval_s) {
-  constexpr double least = 0.1;  // of a sample
-  return effect.id() == "time_offset" && has(scenario, "sensor_bandwidth") &&
-         std::abs(effect.value(field_of(effect, "offset_s"))) < least * interval_s;
-}
-
-}  // namespace
-
 bool has(const Scenario& scenario, std::string_view effect) {
   return std::any_of(scenario.effects.begin(), scenario.effects.end(),
                      [&](const auto& e) { return e.id() == effect; });
@@ -108,11 +73,23 @@ std::vector<double> SetBench::gyro_beside(const Scenario& scenario) const {
   Scenario quiet = plain();
   for (const auto& effect : scenario.effects)
     if (is_taken_out(effect)) quiet.effects.push_back(effect);
+  if (response_) quiet.effects.push_back(*response_);
   if (quiet.effects.empty()) return gyro;
   Series with;
   synthesise_rate_under(quiet, conditions_.series(), {}, with);
   for (std::size_t i = 0; i < gyro.size(); ++i) gyro[i] -= with.gyro_dps[i] - plain_gyro_dps_[i];
   return gyro;
+}
+
+std::vector<double> SetBench::sensed_rate(const Scenario& scenario) const {
+  auto rate = conditions_.series().rate_ref_dps;
+  Scenario quiet = plain();
+  for (const auto& effect : scenario.effects)
+    if (effect.is_response()) quiet.effects.push_back(effect);
+  Series with;
+  synthesise_rate_under(quiet, conditions_.series(), {}, with);
+  for (std::size_t i = 0; i < rate.size(); ++i) rate[i] += with.gyro_dps[i] - plain_gyro_dps_[i];
+  return rate;
 }
 
 std::vector<double> SetBench::rate_error_beside(const Scenario& scenario) const {
@@ -129,29 +106,6 @@ std::shared_ptr<const SetFitter> SetBench::fitter_of(const Scenario& scenario) c
       conditions_,
       std::make_shared<const ReducedRate>(conditions_, rate_error_beside(scenario), grid_),
       simulator_.interrupt());
-}
-
-double SetBench::price_of(const Scenario& scenario) const {
-  constexpr double beyond_any = 1e300;
-  if (!has_white_noise(scenario)) return beyond_any;
-  const double values = static_cast<double>(conditions_.train_points().size());
-  double sum = scenario.random_error.phi != 0.0 ? prior + 2.0 * of_a_parameter : 0.0;
-  for (const auto& effect : scenario.effects) {
-    const auto* cause = cause_types().find(effect.id());
-    if (cause == nullptr) continue;
-    if (!cause->is_what_it_is_called(effect, conditions_) ||
-        is_of_the_filter(effect, scenario, conditions_.interval_s()))
-      return beyond_any;
-    if (is_marked(effect.id())) continue;
-    sum += prior +
-           of_a_parameter * static_cast<double>(cause->free_parameters.size() - cause->amplitudes +
-                                                (cause->comes_in_forms ? 1 : 0));
-    if (passes_the_noise_filter(effect, scenario)) sum -= prior;
-    if (effect.id() == "sinusoidal") sum += std::log(static_cast<double>(conditions_.size()));
-    if (effect.id() == "vibration" || effect.id() == "wandering_line")
-      sum += 0.5 * std::log(values);
-  }
-  return sum;
 }
 
 Standing SetBench::fitted(const Scenario& scenario, std::shared_ptr<const SetFitter> fitter,
@@ -191,15 +145,8 @@ Standing SetBench::without(const Standing& standing, std::size_t effect) const {
       0.1 * beside.slow_std_dps() / std::sqrt(static_cast<double>(conditions_.cluster()));
   Standing best = refitted(rest);
   // What is told otherwise may do without it.
-  for (std::size_t k = 0; k < rest.effects.size(); ++k) {
-    const auto& cause = cause_types().named(rest.effects[k].id(), "effects");
-    if (cause.told_otherwise == nullptr || band_of(cause.id) != band) continue;
-    for (const auto& other : cause.told_otherwise(rest.effects[k], conditions_)) {
-      Scenario told = rest;
-      told.effects[k] = other;
-      if (auto fit = polished(refitted(told)); fit.score > best.score) best = std::move(fit);
-    }
-  }
+  for (std::size_t k = 0; k < rest.effects.size(); ++k)
+    if (band_of(rest.effects[k].id()) == band) best = told_otherwise(best, k);
   if (ArimaLaw::of(rest.random_error).walk_dps < small)
     if (auto other = refitted(with_walk_of_at_least(rest, small)); other.score > best.score)
       best = std::move(other);
@@ -210,17 +157,35 @@ Standing SetBench::without(const Standing& standing, std::size_t effect) const {
   return best;
 }
 
+Standing SetBench::told_otherwise(const Standing& standing, std::size_t effect) const {
+  const auto& told = standing.scenario.effects[effect];
+  const auto& cause = cause_types().named(told.id(), "effects");
+  if (cause.told_otherwise == nullptr) return standing;
+  Standing best = standing;
+  for (const auto& other : cause.told_otherwise(told, conditions_)) {
+    Scenario scenario = standing.scenario;
+    scenario.effects[effect] = other;
+    if (auto fit = polished(refitted(scenario)); fit.score > best.score) best = std::move(fit);
+  }
+  return best;
+}
+
 std::vector<double> SetBench::rate_left_by(const Scenario& scenario,
                                            const std::vector<char>& hidden) const {
   auto left = rate_error_beside(scenario);
   for (std::size_t i = 0; i < left.size(); ++i)
     if (hidden[i] != 0) left[i] = no_value;
+  take_out_level(left);
+  return left;
+}
+
+void SetBench::take_out_level(std::vector<double>& values) const {
   const auto blocks = level_blocks();
   std::vector<double> means;
   for (const auto& [first, last] : blocks) {
     double sum = 0.0, count = 0.0;
     for (std::size_t i = first; i < last; ++i)
-      if (!is_missing(left[i])) sum += left[i], count += 1.0;
+      if (!is_missing(values[i])) sum += values[i], count += 1.0;
     means.push_back(count > 0.0 ? sum / count : no_value);
   }
   const auto middle = [&](std::size_t block) {
@@ -235,9 +200,8 @@ std::vector<double> SetBench::rate_left_by(const Scenario& scenario,
                              (other > b ? blocks[b].last == blocks[other].first
                                         : blocks[other].last == blocks[b].first);
       if (is_beside) level += (means[other] - means[b]) * from_middle / (middle(other) - middle(b));
-      left[i] -= level;
+      values[i] -= level;
     }
-  return left;
 }
 
 std::vector<Span> SetBench::level_blocks() const {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
@@ -46,6 +47,10 @@ class SetBench {
   void mask_only(std::vector<char> samples);
   void mask_too(const std::vector<char>& samples);
 
+  /// What of the motion's response has no name, and is taken out beside any set.
+  const std::optional<Effect>& response() const { return response_; }
+  void take_out_response(std::optional<Effect> response) { response_ = std::move(response); }
+
   /// No noise, no drift and no effects, under the recording's sampling.
   Scenario plain() const;
   /// The effects beside white noise and a walk that are found without a start.
@@ -67,6 +72,8 @@ class SetBench {
   /// The parameters of what is taken out, each by parabolas through the likelihood, the noise as it
   /// is.
   Standing polished(Standing standing) const;
+  /// With one of its effects told otherwise, where that is likelier.
+  Standing told_otherwise(const Standing& standing, std::size_t effect) const;
   /// Of the parameters of a fitted set; those of what is taken out from the curvature of the
   /// likelihood, the other effects as they are.
   std::vector<ParameterInterval> intervals_of(const Standing& standing) const;
@@ -76,6 +83,10 @@ class SetBench {
   /// next a straight line: a step between them would be an innovation of its own. NaN where
   /// `hidden` (a flag a sample).
   std::vector<double> rate_left_by(const Scenario& scenario, const std::vector<char>& hidden) const;
+  /// The reference rate as the scenario's effects have it sensed.
+  std::vector<double> sensed_rate(const Scenario& scenario) const;
+  /// As far as a value a sample is not level over those blocks.
+  void take_out_level(std::vector<double>& values) const;
   /// The blocks, over which that level is taken, within one part each.
   std::vector<Span> level_blocks() const;
 
@@ -99,6 +110,7 @@ class SetBench {
   std::vector<std::string> without_;
   std::vector<double> plain_gyro_dps_;  ///< of plain()
   std::shared_ptr<const RateGrid> grid_;
+  std::optional<Effect> response_;
   bool marked_saturation_ = false, marked_dead_zone_ = false;
 };
 

@@ -129,6 +129,7 @@ Standing SetBench::polished(Standing standing) const {
       for (const auto name : cause.free_parameters) {
         const auto f = field_of(effect, name);
         const double middle = effect.value(f);
+        if (middle == 0.0) continue;  // another form has it
         const double step = (pass == 0 ? 0.02 : 0.004) * std::max(std::abs(middle), 1e-9);
         Scenario more = scenario, less = scenario;
         more.effects[at].value(f) = middle + step;

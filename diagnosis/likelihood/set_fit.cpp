@@ -96,10 +96,10 @@ SetFitter::Regressors SetFitter::regressors_of(const Scenario& scenario) const {
     const auto* cause = cause_types().find(effect.id());
     if (cause == nullptr || cause->signature != Signature::slow) continue;
     const bool is_fixed = cause->free_parameters.size() == cause->amplitudes;
-    for (std::size_t unit = 0; unit < cause->amplitudes; ++unit) {
+    const auto amplitudes = amplitudes_of(effect, *cause);
+    for (const auto unit : amplitudes) {
       Effect one = effect;
-      for (std::size_t a = 0; a < cause->amplitudes; ++a)
-        one.value(field_of(one, cause->free_parameters[a])) = a == unit ? 1.0 : 0.0;
+      for (const auto field : amplitudes) one.value(field) = field == unit ? 1.0 : 0.0;
       alone.effects = {one};
       regressors.conservativeResize(static_cast<Eigen::Index>(slow_series_.size()),
                                     regressors.cols() + 1);
@@ -173,9 +173,10 @@ void SetFitter::take_coefficients(const RateTerms& terms, SetFit& fit) const {
   for (auto& effect : fit.scenario.effects) {
     const auto* cause = cause_types().find(effect.id());
     if (cause == nullptr || cause->signature != Signature::slow) continue;
-    for (std::size_t a = 0; a < cause->amplitudes; ++a, ++at)
-      effect.value(field_of(effect, cause->free_parameters[a])) =
-          found[static_cast<Eigen::Index>(at)] / spreads[at];
+    for (const auto field : amplitudes_of(effect, *cause)) {
+      effect.value(field) = found[static_cast<Eigen::Index>(at)] / spreads[at];
+      ++at;
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/response_left.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
 
 namespace gyrostat::gap {
@@ -89,22 +90,6 @@ void SetSearcher::give_grid_to_angle(const Marks& marks, FoundSet& found) const 
   white = std::hypot(white, marks.lsb_dps / std::sqrt(12.0));
 }
 
-void SetSearcher::join_to_one_side(FoundSet& found) {
-  constexpr double most_apart = 0.03;
-  auto& effects = found.scenario.effects;
-  const auto place_of = [&](std::string_view id) {
-    return std::find_if(effects.begin(), effects.end(),
-                        [&](const auto& e) { return e.id() == id; });
-  };
-  const auto asymmetry = place_of("scale_asymmetry"), scale = place_of("scale_factor");
-  if (asymmetry == effects.end() || scale == effects.end()) return;
-  const double half = asymmetry->value(field_of(*asymmetry, "error"));
-  const double shared = scale->value(field_of(*scale, "error"));
-  if (std::abs(std::abs(shared / half) - 1.0) > most_apart) return;
-  asymmetry->value(field_of(*asymmetry, "one_side")) = shared * half > 0.0 ? 1.0 : -1.0;
-  remove(scale, found);
-}
-
 void SetSearcher::remove(std::vector<Effect>::iterator effect, FoundSet& found) {
   const auto place = static_cast<std::size_t>(effect - found.scenario.effects.begin());
   std::erase_if(found.members, [&](const auto& m) { return m.effect == effect->id(); });
@@ -147,10 +132,21 @@ std::vector<char> SetSearcher::edges_of_the_dead_zone(const Scenario& scenario) 
     if (effect.id() != "dead_zone" || reference.empty()) continue;
     const double edge = effect.value(field_of(effect, "half_width_dps"));
     const double near = reach * white_with_rounding(scenario);
+    if (near > edge) continue;  // nothing would be left of it
     for (std::size_t i = 0; i < edges.size(); ++i)
       edges[i] = std::abs(std::abs(reference[i]) - edge) < near ? 1 : 0;
   }
   return edges;
+}
+
+std::vector<char> SetSearcher::unknown_samples(const Scenario& scenario) const {
+  const auto unknown =
+      samples_of_unknown_rate(conditions_, scenario, white_with_rounding(scenario));
+  // A motion that is hardly anywhere known would leave too little.
+  constexpr std::ptrdiff_t most_of = 4;
+  const bool leaves_enough = most_of * std::count(unknown.begin(), unknown.end(), char{1}) <
+                             static_cast<std::ptrdiff_t>(unknown.size());
+  return leaves_enough ? unknown : std::vector<char>(unknown.size(), 0);
 }
 
 }  // namespace gyrostat::gap

@@ -9,6 +9,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <gyrostat/diagnosis/likelihood/motion_left.hpp>
+#include <gyrostat/diagnosis/likelihood/response_left.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 /// A further effect of the same band gains this share of what the band's clearest does: nature's
 /// form of an effect and ours differ by as much.
 constexpr double share_of_band = 0.003;
-constexpr double most_odds = 1e4;
 
 EffectBand band_of_last(const Standing& standing) {
   return band_of(standing.scenario.effects.back().id());
@@ -103,100 +103,91 @@ Standing SetSearcher::two_further(const Standing& standing, std::vector<Standing
   return best;
 }
 
+Standing SetSearcher::beside_response(Standing standing) {
+  constexpr double clear = 20.0;  // of eight sizes, half a nat each by chance
+  const auto known = bench_.response();
+  bench_.take_out_response(std::nullopt);
+  const auto found = response_left(bench_, standing.scenario);
+  if (!known && !found) return standing;
+  const auto plain = known ? bench_.refitted(standing.scenario) : standing;
+  if (!found) return plain;
+  bench_.take_out_response(found);
+  if (auto fit = bench_.refitted(standing.scenario); fit.score > plain.score + clear) return fit;
+  bench_.take_out_response(std::nullopt);
+  return plain;
+}
+
+/// What the motion does is repeated by every replica: noise must not stand in for it.
+std::vector<Standing>::const_iterator SetSearcher::foremost(
+    const Standing& standing, const std::vector<Standing>& tried) const {
+  constexpr double clear = 10.0, least_score = -1e299;
+  const double of_motion =
+      standing.score + std::max(clear, least_gain(standing, EffectBand::motion));
+  auto best = tried.end();
+  bool moves = false;
+  for (auto t = tried.begin(); t != tried.end(); ++t) {
+    if (t->score < least_score) continue;
+    const bool also_moves = band_of_last(*t) == EffectBand::motion && t->score > of_motion;
+    if (best == tried.end() || (also_moves && !moves) ||
+        (also_moves == moves && t->score > best->score)) {
+      best = t;
+      moves = also_moves;
+    }
+  }
+  return best;
+}
+
+/// What the newcomer made needless goes, and what was fitted beside less has moved.
+Standing SetSearcher::settled(Standing standing) const {
+  for (bool dropped = true; dropped;) {
+    dropped = false;
+    for (std::size_t k = 0; k < standing.scenario.effects.size(); ++k) {
+      const auto id = standing.scenario.effects[k].id();
+      if (bench_.is_marked(id) || (is_of_response(id) && hides_response())) continue;
+      auto rest = bench_.without(standing, k);
+      if (rest.score > standing.score) {
+        standing = std::move(rest);
+        dropped = true;
+        break;
+      }
+    }
+  }
+  if (auto fit = bench_.polished(standing); fit.score > standing.score) standing = std::move(fit);
+  if (standing.scenario.effects.empty() || band_of_last(standing) != EffectBand::motion)
+    return standing;
+  for (std::size_t k = 0; k + 1 < standing.scenario.effects.size(); ++k)
+    if (is_of_response(standing.scenario.effects[k].id()))
+      standing = bench_.told_otherwise(standing, k);
+  return standing;
+}
+
 Standing SetSearcher::searched(Standing standing) {
+  bool motion_has_changed = true;
   for (std::size_t step = 0; step < 2 * options_.most_effects; ++step) {
     if (standing.scenario.effects.size() >= options_.most_effects + 2) break;
     auto tried = each_added(standing);
-    const auto best = std::max_element(
-        tried.begin(), tried.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
     for (const auto& t : tried)
       if (t.score > -1e299)
         screening_.emplace_back(t.scenario.effects.back().id(), t.score - standing.score);
-    if (best == tried.end() || best->score < -1e299) break;
+    const auto best = foremost(standing, tried);
+    if (best == tried.end()) break;
+    // When no more is to be had of the motion that has a name, what it lacks must not pass for
+    // noise.
+    if (motion_has_changed && band_of_last(*best) != EffectBand::motion) {
+      motion_has_changed = false;
+      const double before = standing.score;
+      standing = beside_response(std::move(standing));
+      if (standing.score != before) continue;
+    }
     const bool pays = best->score > standing.score + least_gain(standing, band_of_last(*best));
     auto next = pays ? *best : two_further(standing, std::move(tried));
     if (next.score <= standing.score) break;
+    motion_has_changed |= band_of_last(next) == EffectBand::motion;
     gains_.emplace_back(next.scenario.effects.back().id(), next.score - standing.score);
     standing = std::move(next);
     tell(fmt::format("beside {}", standing.scenario.effects.back().id()),
          standing.scenario.effects.size() + 2);
-    // What the newcomer made needless goes.
-    for (bool dropped = true; dropped;) {
-      dropped = false;
-      for (std::size_t k = 0; k < standing.scenario.effects.size(); ++k) {
-        if (bench_.is_marked(standing.scenario.effects[k].id())) continue;
-        auto rest = bench_.without(standing, k);
-        if (rest.score > standing.score) {
-          standing = std::move(rest);
-          dropped = true;
-          break;
-        }
-      }
-    }
-    // What was fitted beside less has moved.
-    if (auto fit = bench_.polished(standing); fit.score > standing.score) standing = std::move(fit);
-  }
-  return standing;
-}
-
-Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
-  std::size_t exchanges = 0;
-  for (bool swapped = true; swapped;) {
-    swapped = false;
-    found.rivals.clear();
-    for (std::size_t k = 0; k < standing.scenario.effects.size(); ++k) {
-      const Effect effect = standing.scenario.effects[k];
-      if (bench_.is_marked(effect.id())) continue;
-      tell(fmt::format("rivals of {}", effect.id()), standing.scenario.effects.size() - k);
-      const auto rest = bench_.without(standing, k);
-      // The same effect from other parameters may stand there, too, but is no rival; nor are names
-      // of a line.
-      const auto is_the_same = [&](const Standing& other) {
-        const auto id = other.scenario.effects.back().id();
-        return id == effect.id() || (is_line(id) && is_line(effect.id()));
-      };
-      const auto others = each_added(rest);
-      double second = rest.score;
-      const Standing* best = &rest;
-      for (const auto& other : others) {
-        if (other.score > best->score) best = &other;
-        if (other.score < -1e299 || is_the_same(other)) continue;
-        second = std::max(second, other.score);
-        if (other.score > standing.score - 3.0)
-          found.rivals.push_back({other.scenario.effects.back(),
-                                  std::string(other.scenario.effects.back().id()),
-                                  std::string(effect.id()), other.score - standing.score});
-      }
-      // From other parameters, what the others are worth beside it is as before.
-      constexpr double little = 3.0;
-      if (best != &rest && is_the_same(*best) && best->score > standing.score &&
-          best->score < standing.score + little) {
-        standing = *best;
-        auto& effects = standing.scenario.effects;
-        std::rotate(effects.begin() + static_cast<std::ptrdiff_t>(k), effects.end() - 1,
-                    effects.end());
-        standing.fit.scenario.effects = effects;
-        best = &rest;
-      }
-      if (best->score > standing.score + 0.1) {
-        standing = searched(*best);
-        swapped = ++exchanges < 2 * options_.most_effects;
-        break;
-      }
-      const std::string name(standing.scenario.effects[k].id());
-      const auto known = std::find_if(found.members.begin(), found.members.end(),
-                                      [&](const auto& m) { return m.effect == name; });
-      const double odds = std::min(standing.score - second, most_odds);
-      if (known == found.members.end())
-        found.members.push_back({name, odds});
-      else
-        known->log_odds = std::max(known->log_odds, odds);
-    }
-    if (swapped)
-      found.members.erase(
-          std::remove_if(found.members.begin(), found.members.end(),
-                         [&](const auto& m) { return !bench_.is_marked(m.effect); }),
-          found.members.end());
+    standing = settled(std::move(standing));
   }
   return standing;
 }

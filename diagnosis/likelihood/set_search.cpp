@@ -66,6 +66,7 @@ FoundSet SetSearcher::run() {
   found.scenario = standing.scenario;
   found.intervals = bench_.intervals_of(standing);
   if (!coarse) end_ = standing;
+  response_ = bench_.response();
   add_tails(found);
   auto unseen = edges_of_the_dead_zone(standing.scenario);
   for (std::size_t i = 0; i < unseen.size(); ++i) unseen[i] |= repeats_[i];
@@ -80,7 +81,6 @@ FoundSet SetSearcher::run() {
            .b_dps_s_per_C = coefficients.size() > 1 ? coefficients[1] : 0.0,
            .c_dps = 0.0};
   give_grid_to_angle(marks, found);
-  join_to_one_side(found);
   put_in_order(found);
   if (conditions_.has_heading()) search_compass(simulator_, recording_, options_, found);
   return found;
@@ -93,6 +93,7 @@ Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::st
   const bool repeats =
       is_in("stale_samples") || is_in("saturation") || bench_.is_marked("dead_zone");
   bench_.mask_only(repeats ? repeats_ : std::vector<char>(recording_.size(), 0));
+  bench_.take_out_response(std::nullopt);
   if (is_in("outliers")) bench_.mask_too(tails_.outliers);
   Scenario some = whole;
   some.effects.clear();
@@ -113,7 +114,11 @@ Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::st
 
 std::vector<Nameless> SetSearcher::nameless_beside(const Scenario& set) const {
   if (!end_) return {};
-  return nameless_parts(simulator_, recording_, *end_->fitter, end_->scenario, set);
+  auto parts = nameless_parts(simulator_, recording_, *end_->fitter, end_->scenario, set);
+  if (response_)
+    parts.push_back({*response_, "a response to the motion without a name, within four samples",
+                     end_->scenario.random_error});
+  return parts;
 }
 
 std::vector<Detectable> SetSearcher::detectable() const {

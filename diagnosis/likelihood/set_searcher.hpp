@@ -21,9 +21,9 @@ void add_mark(std::string_view effect, FoundSet& found);
 /// Standard deviation of white noise with what rounding adds.
 double white_with_rounding(const Scenario& scenario);
 
-/// find_set() and what may be asked of it afterwards: its moves are in set_moves.cpp, beginnings
-/// from elsewhere in set_beginnings.cpp, what is read off values in set_marks.cpp, what only sizes
-/// of innovations say in set_tails.cpp.
+/// find_set() and what may be asked of it afterwards: its moves are in set_moves.cpp and
+/// set_exchange.cpp, beginnings from elsewhere in set_beginnings.cpp, what is read off values in
+/// set_marks.cpp, what only sizes of innovations say in set_tails.cpp.
 class SetSearcher {
  public:
   SetSearcher(const Simulator& simulator, const Series& recording, const SetSearchOptions& options,
@@ -56,11 +56,21 @@ class SetSearcher {
   /// One round of the search.
   std::vector<Standing> each_added(const Standing& standing);
   Standing searched(Standing standing);
+  /// Of sets with one effect more the best, of those with one of the motion where any is clear.
+  std::vector<Standing>::const_iterator foremost(const Standing& standing,
+                                                 const std::vector<Standing>& tried) const;
+  Standing settled(Standing standing) const;
   /// The best of the sets with two more effects, neither of which pays alone: where both are slow,
   /// one leaves to the walk what hides it. The standing itself where there is none better.
   Standing two_further(const Standing& standing, std::vector<Standing> tried);
   /// Of a further effect of the band.
   double least_gain(const Standing& standing, EffectBand band) const;
+  /// Whether samples are masked that a response in time shows in.
+  bool hides_response() const {
+    return !hidden_from_response_.empty() && bench_.masked() != hidden_from_response_;
+  }
+  /// Beside what the named response to the motion lacks, where that shows.
+  Standing beside_response(Standing standing);
   /// Every member against all that might stand in its place.
   Standing exchanged(Standing standing, FoundSet& found);
   /// Where several effects colour the noise, these found anew beside its lines, a filter first:
@@ -77,12 +87,12 @@ class SetSearcher {
   /// Where the noise shows clearly an angle in steps as large as the grid of the rates, the grid is
   /// the angle's: there is no other quantization.
   void give_grid_to_angle(const Marks& marks, FoundSet& found) const;
-  /// A scale factor and an asymmetry of the same size are one effect: one direction is right.
-  static void join_to_one_side(FoundSet& found);
   static void remove(std::vector<Effect>::iterator effect, FoundSet& found);
   /// What acts at the converter, in the order in which it does.
   static void put_in_order(FoundSet& found);
   std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
+  /// Samples between which the motion is not known.
+  std::vector<char> unknown_samples(const Scenario& scenario) const;
   /// Log-likelihood that noise which warms, and noise with tails, gain at most where it is only the
   /// grid that makes its size, or its distribution, another with the level.
   struct OfGrid {
@@ -104,6 +114,8 @@ class SetSearcher {
   SetSearchProgress progress_;
   SetBench bench_;
   std::vector<char> repeats_;  ///< samples that do not count, whatever the set
+  /// Those that do not count for a response in time: it shows where the motion is least known.
+  std::vector<char> hidden_from_response_;
   Tails tails_;
   OfGrid feigned_;
   bool has_outliers_ = false, has_warm_noise_ = false;
@@ -111,7 +123,8 @@ class SetSearcher {
   std::size_t rounds_ = 0;  ///< in which every candidate was tried
   std::size_t left_ = 1;
   std::string doing_;
-  std::optional<Standing> end_;  ///< of the search; none where the fast part has no law
+  std::optional<Standing> end_;     ///< of the search; none where the fast part has no law
+  std::optional<Effect> response_;  ///< at the end: what of the motion's response has no name
   std::vector<std::pair<std::string, double>> screening_, gains_;
 };
 

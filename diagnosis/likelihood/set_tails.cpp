@@ -63,7 +63,11 @@ SetSearcher::OfGrid SetSearcher::feigned_by_grid(double lsb_of_noise) const {
 
 void SetSearcher::judge_tails(const Standing& standing) {
   auto hidden = edges_of_the_dead_zone(standing.scenario);
-  for (std::size_t i = 0; i < hidden.size(); ++i) hidden[i] |= repeats_[i];
+  const auto unknown = unknown_samples(standing.scenario);
+  for (std::size_t i = 0; i < hidden.size(); ++i) {
+    hidden[i] |= repeats_[i];
+    hidden[i] |= unknown[i];
+  }
   auto left = bench_.rate_left_by(standing.scenario, hidden);
   // Neither may outliers pass for a burst, nor the samples of a burst for outliers.
   auto without_outliers = left;
@@ -118,6 +122,8 @@ Standing SetSearcher::searched_beside_tails(Standing standing) {
     bench_.mask_only(repeats_);
     bench_.mask_too(edges_of_the_dead_zone(standing.scenario));
     if (has_outliers_) bench_.mask_too(tails_.outliers);
+    hidden_from_response_ = bench_.masked();
+    bench_.mask_too(unknown_samples(standing.scenario));
     if (round > 0 && bench_.masked() == hidden) break;
     standing = coloured_anew(searched(bench_.refitted(standing.scenario)));
   }
@@ -136,9 +142,10 @@ void SetSearcher::add_tails(FoundSet& found) const {
     // The error of rounding stays as it is.
     const auto law = law_of(found.scenario, conditions_.interval_s());
     const double of_what_warms = law.white > 0.0 ? 1.0 + law.rounding / law.white : 1.0;
-    found.scenario.effects.push_back(
-        with_values("noise_temperature", {{"relative_per_C", tails_.noise_per_C * of_what_warms},
-                                          {"reference_C", tails_.reference_C}}));
+    found.scenario.effects.push_back(with_values(
+        "noise_temperature", {{"relative_per_C", tails_.noise_per_C * of_what_warms},
+                              {"reference_C", tails_.reference_C},
+                              {"curvature_per_C2", tails_.noise_per_C2 * of_what_warms}}));
     found.members.push_back({"noise_temperature", tails_.temperature_gain - feigned_.warmth - 8.0});
   }
 }

@@ -41,7 +41,7 @@ SetFitter::Amplitude SetFitter::amplitude_of(const Scenario& scenario, std::size
   for (std::size_t k = 0; k < effect; ++k)
     if (const auto* cause = cause_types().find(scenario.effects[k].id());
         cause != nullptr && cause->signature == Signature::slow)
-      at += cause->amplitudes;
+      at += amplitudes_of(scenario.effects[k], *cause).size();
   const double spread = regressors_of(scenario).spreads[at];
   const auto errors = coefficients_over_walks(scenario).second;
   return {errors[static_cast<Eigen::Index>(at)] / spread, amplitude_dps_ / spread};
@@ -77,12 +77,12 @@ std::vector<ParameterInterval> SetFitter::intervals(const SetFit& fit) const {
     const auto& effect = fit.scenario.effects[k];
     const auto* cause = cause_types().find(effect.id());
     if (cause == nullptr || cause->signature != Signature::slow) continue;
-    for (std::size_t a = 0; a < cause->amplitudes; ++a, ++at) {
+    for (const auto field : amplitudes_of(effect, *cause)) {
       const auto c = static_cast<Eigen::Index>(at);
       const double value = coefficients[c] / spreads[at];
       const double reach = two_sided_95 * coefficients_std[c] / spreads[at];
-      found.push_back(
-          {k, field_of(effect, cause->free_parameters[a]), value - reach, value + reach});
+      found.push_back({k, field, value - reach, value + reach});
+      ++at;
     }
   }
   return found;

@@ -6,6 +6,7 @@
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/autoregression.hpp>
+#include <gyrostat/diagnosis/likelihood/noise_over.hpp>
 #include <gyrostat/diagnosis/likelihood/outlier_mixture.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
@@ -121,45 +122,20 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
   std::vector<double> relative(w.innovations.size(), 1.0);
   if (temperature) {
     const auto& T = conditions.series().temperature_C;
+    std::vector<double> off;
     double mean = 0.0;
     for (const std::size_t i : w.samples) mean += T[i] / n;
+    for (const std::size_t i : w.samples) off.push_back(T[i] - mean);
+    const auto warm = noise_over(off, w.innovations, deviation, cut);
+    deviation = warm.deviation;
     tails.reference_C = mean;
-    double square = 0.0;
-    for (int pass = 0; pass < 8;
-         ++pass) {  // Fisher scoring of log sigma = log s + log(1 + b (T - T0))
-      double tt = 0.0, tv = 0.0, ss = 0.0, count = 0.0;
-      for (std::size_t k = 0; k < w.samples.size(); ++k) {
-        const double off = T[w.samples[k]] - mean;
-        const double gain = std::max(0.05, 1.0 + tails.noise_per_C * off);
-        const double e = w.innovations[k] / (gain * deviation);
-        if (std::abs(e) > cut) continue;
-        const double slope = off / gain;
-        tt += 2.0 * slope * slope;
-        tv += slope * (e * e - 1.0);
-        ss += e * e;
-        count += 1.0;
-      }
-      square = ss / std::max(1.0, count);
-      deviation *= std::sqrt(square);
-      tails.noise_per_C += tt > 0.0 ? std::clamp(tv / tt, -0.05, 0.05) : 0.0;
-    }
-    double even = 0.0, with = 0.0, square_even = 0.0, count = 0.0, logs = 0.0;
-    double square_with = 0.0;
-    for (std::size_t k = 0; k < w.samples.size(); ++k) {
-      const double gain = std::max(0.05, 1.0 + tails.noise_per_C * (T[w.samples[k]] - mean));
-      relative[k] = gain;
-      const double e = w.innovations[k];
-      if (std::abs(e) > cut * deviation * gain) continue;
-      count += 1.0;
-      square_even += e * e;
-      square_with += e * e / (gain * gain);
-      logs += std::log(gain);
-    }
-    even = -0.5 * count * std::log(square_even / count);
-    with = -0.5 * count * std::log(square_with / count) - logs;
-    tails.temperature_gain = std::max(0.0, with - even);
+    tails.noise_per_C = warm.slope;
+    tails.noise_per_C2 = warm.curvature;
+    tails.temperature_gain = std::max(0.0, warm.gain);
     // What does not show does not scale the others.
-    if (tails.temperature_gain < 7.0) std::fill(relative.begin(), relative.end(), 1.0);
+    if (tails.temperature_gain >= 7.0)
+      std::transform(off.begin(), off.end(), relative.begin(),
+                     [&](double o) { return warm.gain_at(o); });
   }
 
   std::vector<double> squares(w.innovations.size());

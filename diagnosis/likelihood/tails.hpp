@@ -10,7 +10,7 @@ namespace gyrostat::gap {
 struct Tails {
   double outlier_probability = 0.0, outlier_std_dps = 0.0, outlier_size_dps = 0.0;
   double outlier_gain = 0.0;  ///< log-likelihood beyond normal innovations
-  double noise_per_C = 0.0, reference_C = 0.0;
+  double noise_per_C = 0.0, noise_per_C2 = 0.0, reference_C = 0.0;
   double temperature_gain = 0.0;  ///< log-likelihood beyond even noise
   double white_std_dps = 0.0;     ///< of innovations that are not outliers, at the reference
   std::vector<char> outliers;     ///< a flag a sample, of all samples

@@ -39,6 +39,8 @@ struct DeadZone {
 
   static constexpr DeadZone absent() { return {.half_width_dps = 0.0}; }
 
+  bool is_response() const { return of_output < 0.5; }
+
   void apply(Series& series, const Noise& /*noise*/) const {
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
       const double rate = of_output < 0.5 ? series.rate_ref_dps[i] : series.gyro_dps[i];

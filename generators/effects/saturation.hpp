@@ -32,6 +32,8 @@ struct Saturation {
 
   static constexpr Saturation absent() { return {.limit_dps = 1e9}; }
 
+  bool is_response() const { return of_element >= 0.5; }
+
   void apply(Series& series, const Noise& /*noise*/) const {
     if (of_element < 0.5) {
       for (double& z : series.gyro_dps) z = clipped(z);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
@@ -15,12 +16,15 @@
 namespace gyrostat::effects {
 
 /// The sensor follows the rate through a low-pass filter at its bandwidth (IEEE Std 1554,
-/// bandwidth): equal poles, a rate being held over the interval before its sample, or
-/// Butterworth's. At the first sample it has come to rest.
+/// bandwidth): equal poles, a rate being held over the interval before its sample, Butterworth's,
+/// or the mean over the time before a sample, the rate being straight between samples, which takes
+/// 3 dB where the product of time and frequency is 0.443 (Oppenheim and Schafer, "Discrete-Time
+/// Signal Processing", 3rd ed., 2.6). At the first sample it has come to rest.
 struct SensorBandwidth {
   double cutoff_hz = 5.0;
   double poles = 1.0;
   double maximally_flat = 0.0;
+  double averages = 0.0;
 
   static constexpr int most_poles = 8;
 
@@ -37,14 +41,19 @@ struct SensorBandwidth {
               "how many poles"},
         Field{"maximally_flat", &P::maximally_flat, "1", Range{.from = 0, .to = 1, .whole = true},
               "1: Butterworth's poles; 0: equal ones"},
+        Field{"averages", &P::averages, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: a moving average instead of poles"},
     };
   }
 
   static constexpr SensorBandwidth absent() { return {.cutoff_hz = 1e9}; }
 
+  bool is_response() const { return true; }
+
   void apply(Series& series, const Noise& /*noise*/) const {
     const std::size_t samples = samples_with(series, needs);
     if (samples < 2) return;
+    if (averages > 0.5) return average(series, samples);
     const auto count =
         static_cast<std::size_t>(std::clamp(std::lround(poles), 1L, long{most_poles}));
     const auto& rate = series.rate_ref_dps;
@@ -62,6 +71,27 @@ struct SensorBandwidth {
       for (std::size_t k = 0; k < count; ++k)
         passed = sensed[k] = passed + left * (sensed[k] - passed);
       series.gyro_dps[i] += passed - rate[i];
+    }
+  }
+
+ private:
+  void average(Series& series, std::size_t samples) const {
+    constexpr double half_power = 0.44294647;  // sin(pi x) / (pi x) = 1 / sqrt(2)
+    const double over_s = half_power / cutoff_hz;
+    const auto& t_s = series.t_s;
+    const auto& rate = series.rate_ref_dps;
+    std::vector<double> turned(samples, 0.0);  // since the first sample, degrees
+    for (std::size_t i = 1; i < samples; ++i)
+      turned[i] = turned[i - 1] + 0.5 * (rate[i - 1] + rate[i]) * (t_s[i] - t_s[i - 1]);
+    std::size_t at = 0;  // the last sample that is not after the beginning of the mean
+    for (std::size_t i = 0; i < samples; ++i) {
+      const double begin_s = t_s[i] - over_s;
+      while (at + 1 < i && t_s[at + 1] <= begin_s) ++at;
+      const double into_s = begin_s - t_s[at];
+      double before = into_s * rate[at];
+      if (into_s > 0.0 && at + 1 < samples)
+        before += 0.5 * into_s * into_s * (rate[at + 1] - rate[at]) / (t_s[at + 1] - t_s[at]);
+      series.gyro_dps[i] += (turned[i] - turned[at] - before) / over_s - rate[i];
     }
   }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
@@ -14,10 +15,14 @@ namespace gyrostat::effects {
 /// Bias that differs between rising and falling temperature: the play (backlash) operator
 /// y <- clamp(y, T - width, T + width), B += amplitude (T - y) / width, so that a temperature
 /// moving one way for more than 2 width sits on the branch +amplitude or -amplitude.
-/// (Krasnosel'skii and Pokrovskii, Systems with Hysteresis, 1989, ch. 1.)
+/// (Krasnosel'skii and Pokrovskii, Systems with Hysteresis, 1989, ch. 1.) Or the branch is
+/// approached the slower, the nearer it is: B += amplitude z, dz = (dT - |dT| z) / width (Dahl,
+/// AIAA Journal 14, 1976).
 struct ThermalHysteresis {
   double amplitude_dps = 0.01;
   double width_C = 3.0;
+  double gradual = 0.0;
+  double first_branch = 0.0;
 
   static constexpr std::string_view title = "bias depends on the direction of temperature";
   static constexpr Stage stage = Stage::sensing;
@@ -30,6 +35,11 @@ struct ThermalHysteresis {
               "half the distance between the two branches"},
         Field{"width_C", &P::width_C, "°C", ranges::positive,
               "half the temperature change that leads from one branch to the other"},
+        Field{"gradual", &P::gradual, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: the branch is approached exponentially, over that change; 0: by play"},
+        Field{
+            "first_branch", &P::first_branch, "1", Range{.from = -1, .to = 1},
+            "where the first sample is: 1 on the branch of a rising temperature, -1 on the other"},
     };
   }
 
@@ -37,11 +47,25 @@ struct ThermalHysteresis {
 
   void apply(Series& series, const Noise& /*noise*/) const {
     if (series.temperature_C.empty()) return;
-    double play_C = series.temperature_C.empty() ? 0.0 : series.temperature_C.front();
+    if (gradual > 0.5) return approach(series);
+    double play_C = series.temperature_C.front() - first_branch * width_C;
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
       const double T = series.temperature_C[i];
       play_C = std::clamp(play_C, T - width_C, T + width_C);
       series.thermal_bias_dps[i] += amplitude_dps * (T - play_C) / width_C;
+    }
+  }
+
+ private:
+  /// From one temperature to the next, monotonically, in closed form.
+  void approach(Series& series) const {
+    double share = first_branch, before_C = series.temperature_C.front();
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
+      const double rise_C = series.temperature_C[i] - before_C;
+      before_C = series.temperature_C[i];
+      const double branch = rise_C < 0.0 ? -1.0 : 1.0;
+      share = branch + (share - branch) * std::exp(-std::abs(rise_C) / width_C);
+      series.thermal_bias_dps[i] += amplitude_dps * share;
     }
   }
 };

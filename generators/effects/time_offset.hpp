@@ -12,12 +12,13 @@
 namespace gyrostat::effects {
 
 /// Gyro and reference have clocks of their own: the gyro shows the rate that the reference had
-/// `offset` earlier, or later where it is negative. Between samples the rate is a cubic through
-/// both neighbours with the slopes of their neighbours (cubic convolution, Keys, IEEE Trans. ASSP
-/// 29, 1981), within 1 % of a sine of up to an eighth of the sampling rate at any delay; before the
-/// first and after the last sample it is theirs.
+/// `offset` earlier, or later where it is negative, and clocks of unlike pace drift apart. Between
+/// samples the rate is a cubic through both neighbours with the slopes of their neighbours (cubic
+/// convolution, Keys, IEEE Trans. ASSP 29, 1981), within 1 % of a sine of up to an eighth of the
+/// sampling rate at any delay; before the first and after the last sample it is theirs.
 struct TimeOffset {
   double offset_s = 0.05;
+  double drift_ppm = 0.0;
 
   static constexpr std::string_view title = "the clocks of gyro and reference differ";
   static constexpr Stage stage = Stage::electronics;
@@ -28,14 +29,18 @@ struct TimeOffset {
     return std::array{
         Field{"offset_s", &P::offset_s, "s", ranges::any,
               "how much later the gyro shows a rate than the reference"},
+        Field{"drift_ppm", &P::drift_ppm, "1e-6", Range{.from = -1e5, .to = 1e5},
+              "how much more of that each second since the first sample brings"},
     };
   }
 
   static constexpr TimeOffset absent() { return {.offset_s = 0.0}; }
 
+  bool is_response() const { return true; }
+
   void apply(Series& series, const Noise& /*noise*/) const {
     const std::size_t n = samples_with(series, needs);
-    if (offset_s == 0.0 || n == 0) return;
+    if ((offset_s == 0.0 && drift_ppm == 0.0) || n == 0) return;
     const auto& t_s = series.t_s;
     const auto& rate = series.rate_ref_dps;
     const auto slope = [&](std::size_t i) {
@@ -44,7 +49,7 @@ struct TimeOffset {
     };
     std::size_t at = 0;  // the last sample that is not after the time asked for
     for (std::size_t i = 0; i < n; ++i) {
-      const double then_s = t_s[i] - offset_s;
+      const double then_s = t_s[i] - offset_s - 1e-6 * drift_ppm * (t_s[i] - t_s[0]);
       while (at + 1 < n && t_s[at + 1] <= then_s) ++at;
       double seen = rate[at];
       if (then_s > t_s[at] && at + 1 < n) {

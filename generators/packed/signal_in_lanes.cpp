@@ -37,9 +37,7 @@ void make_shared(const Scenario& scenario, const Noise& noise, Series& series) {
 std::optional<SharedConditions> shared_conditions(const Scenario& scenario) {
   if (scenario.recorded_noise_dps) return std::nullopt;
   SharedConditions shared;
-  for (const auto stage : stages_of_the_rate)
-    for (const auto& effect : scenario.effects)
-      if (effect.stage() == stage) shared.on_gyro.push_back(effect);
+  shared.on_gyro = effects_on_gyro(scenario);
   if (!std::all_of(shared.on_gyro.begin(), shared.on_gyro.end(),
                    [](const Effect& effect) { return effect.type().sample_by_sample; }))
     return std::nullopt;
@@ -113,7 +111,7 @@ void SignalInLanes::apply_effects(std::size_t first, std::size_t samples, double
   for (const auto& effect : conditions_.on_gyro)
     for (const auto channel : effect.type().needs) make(channel);
   stretch_.gyro_dps.assign(gyro_dps, gyro_dps + all);
-  for (const auto& effect : conditions_.on_gyro) effect.apply(stretch_, {});
+  apply_in_order(conditions_.on_gyro, {}, stretch_);
   std::copy(stretch_.gyro_dps.begin(), stretch_.gyro_dps.end(), gyro_dps);
 }
 

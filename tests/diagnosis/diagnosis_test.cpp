@@ -201,13 +201,13 @@ TEST(Diagnosis, ANameThatMissesTheRecordingIsNotAlone) {
   EXPECT_FALSE(d.next.what.empty());
 }
 
-/// Of twenty recordings without effects the set that the likelihood finds, and the verdict on ten
-/// of them. Three of 120 such recordings have an effect named: at that rate three of these twenty
-/// have in one of eighty families. The false-alarm rate that verdicts aim at is 5 %: three of ten
-/// would happen once in a hundred.
+/// Of fifty recordings without effects the set that the likelihood finds, and the verdict on ten
+/// of them. Eight of 300 others have an effect named (3 %, standard error 1 %); were it one in
+/// twenty, seven of fifty would have in one of seventy families, and three of ten verdicts would
+/// be alarms once in a hundred.
 TEST(Diagnosis, FindsNothingWhereThereIsNoGap) {
   int named = 0, alarms = 0;
-  for (std::uint64_t seed = 500; seed < 520; ++seed) {
+  for (std::uint64_t seed = 500; seed < 550; ++seed) {
     const Series series = recorded(still(), seed, false);
     if (seed < 510) {
       const auto d = diagnose(series, {});
@@ -217,7 +217,7 @@ TEST(Diagnosis, FindsNothingWhereThereIsNoGap) {
       named += find_set(Simulator(series, 1), series, {}).members.empty() ? 0 : 1;
     }
   }
-  EXPECT_LT(named, 3);
+  EXPECT_LT(named, 7);
   EXPECT_LT(alarms, 3);
 }
 

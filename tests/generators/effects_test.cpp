@@ -107,6 +107,27 @@ TEST(ThermalHysteresis, DependsOnTheOrderOfTemperaturesAndNotOnTime) {
   for (std::size_t k = 0; k < fast.size(); ++k) EXPECT_EQ(fast[k], slow[2 * k]);
 }
 
+/// 1 - exp(-rise / width), and from there to the other branch.
+TEST(ThermalHysteresis, MayApproachItsBranchGradually) {
+  const ThermalHysteresis gradual{.amplitude_dps = 0.01, .width_C = 3.0, .gradual = 1.0};
+  const double up = 1.0 - std::exp(-20.0 / 3.0);
+  EXPECT_NEAR(drift(gradual, moves({20.0, 40.0})).back(), 0.01 * up, 1e-15);
+  EXPECT_NEAR(drift(gradual, moves({20.0, 40.0, 37.0})).back(),
+              0.01 * (-1.0 + (up + 1.0) * std::exp(-1.0)), 1e-15);
+  const auto still = drift(gradual, {20.0, 25.0, 25.0, 25.0});
+  EXPECT_EQ(still[1], still[3]);
+}
+
+TEST(ThermalHysteresis, MayBeginOnEitherBranch) {
+  for (const double gradual : {0.0, 1.0}) {
+    const ThermalHysteresis above{0.01, 3.0, gradual, 1.0}, below{0.01, 3.0, gradual, -1.0};
+    EXPECT_DOUBLE_EQ(drift(above, moves({20.0, 40.0})).front(), 0.01);
+    EXPECT_DOUBLE_EQ(drift(above, moves({20.0, 40.0})).back(), 0.01);
+    EXPECT_DOUBLE_EQ(drift(below, moves({20.0, 40.0})).front(), -0.01);
+    EXPECT_DOUBLE_EQ(drift(below, moves({40.0, 20.0})).back(), -0.01);
+  }
+}
+
 TEST(ThermalEffects, OfZeroStrengthAddExactlyNothing) {
   const auto T = moves({20.0, 40.0, 20.0});
   for (const double v :

@@ -72,6 +72,61 @@ TEST(SensorBandwidth, OverUnevenIntervalsIsTheSameResponse) {
                 1e-12);
 }
 
+/// sin(pi f T) / (pi f T) = 1 / sqrt(2) at the cutoff f, and a ramp is late by half the time T.
+TEST(SensorBandwidth, OfAMeanHasHalfThePowerAtItsCutoffAndIsLateByHalfItsTime) {
+  std::vector<double> sine, ramp;
+  for (int i = 0; i < 4000; ++i) sine.push_back(std::sin(2.0 * std::numbers::pi * i / 400.0));
+  for (int i = 0; i < 400; ++i) ramp.push_back(0.1 * i);
+  const effects::SensorBandwidth mean{.cutoff_hz = 0.25, .averages = 1.0};
+  const auto z = sensed(mean, sine);
+  EXPECT_NEAR(mean_square({z.end() - 400, z.end()}), 0.25, 1e-4);
+  const double late_s = 0.5 * 0.44294647 / 0.25;
+  const auto followed = sensed(mean, ramp);
+  EXPECT_EQ(followed.front(), 0.0);
+  EXPECT_NEAR(followed.back(), ramp.back() - 10.0 * late_s, 1e-9);
+}
+
+/// Over intervals that differ, of a rate that is straight between samples: exactly.
+TEST(SensorBandwidth, OfAMeanOverUnevenIntervalsIsTheMean) {
+  auto series = silent({0.0, 0.1, 0.15, 0.9, 1.0});
+  series.rate_ref_dps = series.gyro_dps = {0.0, 1.0, 1.5, 9.0, 10.0};
+  effects::SensorBandwidth{.cutoff_hz = 0.44294647 / 0.4, .averages = 1.0}.apply(series, {1, 0});
+  EXPECT_NEAR(series.gyro_dps[3], 7.0, 1e-9);
+  EXPECT_NEAR(series.gyro_dps[4], 8.0, 1e-9);
+}
+
+/// What a scale multiplies is the rate as it is sensed, wherever a scenario names it.
+TEST(Scenario, OtherEffectsSeeTheRateAsItIsSensed) {
+  Series conditions;
+  for (int i = 0; i < 600; ++i) {
+    conditions.t_s.push_back(0.01 * i);
+    conditions.rate_ref_dps.push_back(20.0 * std::sin(0.05 * i));
+    conditions.gyro_dps.push_back(0.0);
+  }
+  const auto shown = [&](std::vector<Effect> effects) {
+    Scenario scenario;
+    scenario.random_error = {
+        .phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.0};
+    scenario.thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = 0.0};
+    scenario.effects = std::move(effects);
+    Series series;
+    synthesise_under(scenario, conditions, {1, 0}, series);
+    EXPECT_EQ(series.rate_ref_dps, conditions.rate_ref_dps);
+    return series.gyro_dps;
+  };
+  const effects::SensorBandwidth slow{.cutoff_hz = 0.3};
+  const effects::TimeOffset late{.offset_s = 0.05};
+  const effects::ScaleFactor scale{.error = 0.1};
+  const effects::DeadZone zone{.half_width_dps = 2.0};
+  const auto filtered = shown({slow, late}), scaled = shown({scale, slow, late});
+  for (std::size_t i = 0; i < filtered.size(); ++i)
+    EXPECT_NEAR(scaled[i], 1.1 * filtered[i], 1e-12) << i;
+  const auto cut = shown({scale, slow, zone});
+  const auto alone = shown({slow});
+  for (std::size_t i = 0; i < cut.size(); ++i)
+    EXPECT_NEAR(cut[i], std::abs(alone[i]) <= 2.0 ? 0.0 : 1.1 * alone[i], 1e-12) << i;
+}
+
 TEST(Saturation, ClipsAtBothLimitsAndPassesWhatLiesBetweenAndGaps) {
   const auto z = sensed(effects::Saturation{.limit_dps = 30.0},
                         {29.0, 31.0, -31.0, -30.0, std::numeric_limits<double>::quiet_NaN()});
@@ -133,6 +188,47 @@ TEST(GSensitivity, AddsEachAxisByItsCoefficient) {
   effects::GSensitivity{.x_dps_per_mps2 = 1.0, .y_dps_per_mps2 = 10.0, .z_dps_per_mps2 = 100.0}
       .apply(series, {1, 0});
   EXPECT_EQ(series.gyro_dps, (std::vector<double>{921.0, -900.0}));
+}
+
+/// Of a rate that is straight in time a shift is exact: 5 ms and 2 ms a second of 3 dps/s.
+TEST(TimeOffset, GrowsWithClocksOfUnlikePace) {
+  std::vector<double> ramp;
+  for (int i = 0; i < 500; ++i) ramp.push_back(0.03 * i);
+  const auto z = sensed(effects::TimeOffset{.offset_s = 0.005, .drift_ppm = 2000.0}, ramp);
+  for (std::size_t i = 10; i < 490; ++i)
+    EXPECT_NEAR(z[i], ramp[i] - 3.0 * (0.005 + 0.002 * 0.01 * static_cast<double>(i)), 1e-9) << i;
+  EXPECT_EQ(sensed(effects::TimeOffset{.offset_s = 0.0}, ramp), ramp);
+}
+
+TEST(ScaleTemperature, CurvesAboutItsReference) {
+  auto series = silent(even_times(3, 100.0));
+  series.rate_ref_dps = {100.0, 100.0, -10.0};
+  series.temperature_C = {20.0, 30.0, 40.0};
+  effects::ScaleTemperature{0.001, 30.0, 0.0002}.apply(series, {1, 0});
+  EXPECT_NEAR(series.gyro_dps[0], 100.0 * (-0.01 + 0.02), 1e-12);
+  EXPECT_EQ(series.gyro_dps[1], 0.0);
+  EXPECT_NEAR(series.gyro_dps[2], -10.0 * (0.01 + 0.02), 1e-12);
+}
+
+TEST(EmpiricalResponse, IsASumOverNeighbours) {
+  const std::vector<double> rates = {1.0, 5.0, -2.0, 7.0, 7.5, 3.0};
+  const auto z = sensed(
+      effects::EmpiricalResponse{
+          .weight_1 = 0.5, .weight_4 = 0.0, .weight_5 = -1.0, .weight_6 = 2.0},
+      rates);
+  for (std::size_t i = 0; i < rates.size(); ++i)
+    EXPECT_DOUBLE_EQ(z[i], rates[i] + 0.5 * rates[i < 4 ? 0 : i - 4] - rates[i] +
+                               2.0 * rates[std::min(i + 1, rates.size() - 1)])
+        << i;
+}
+
+/// What is missing counts as the sample itself, which weights that add up to nothing do not see.
+TEST(EmpiricalResponse, KnowsNothingOfWhatIsMissing) {
+  const auto z = sensed(effects::EmpiricalResponse{}, {4.0, 4.0, no_value, 4.0, 4.0});
+  EXPECT_EQ(z[0], 4.0);
+  EXPECT_EQ(z[1], 4.0);
+  EXPECT_TRUE(std::isnan(z[2]));
+  EXPECT_EQ(z[3], 4.0);
 }
 
 TEST(TimeOffset, OfWholeSamplesShiftsTheRateAndHoldsItsEnds) {
@@ -258,6 +354,21 @@ TEST(ThermalLag, DecaysAfterAStepWithItsTimeConstant) {
   EXPECT_EQ(bias[0], 0.0);
   for (std::size_t k = 1; k < step.size(); ++k)
     EXPECT_NEAR(bias[k], -0.1 * std::exp(-static_cast<double>(k) / 20.0), 1e-14);
+}
+
+/// Of k equal poles after a step exp(-x) (1 + x + ... ), x in time constants of one, is left to
+/// follow.
+TEST(ThermalLag, OfTwoPolesAddsTheirTimeConstants) {
+  std::vector<double> step(61, 30.0);
+  step[0] = 20.0;
+  const auto bias =
+      lag({.sensitivity_dps_per_C = 0.01, .time_constant_s = 40.0, .poles = 2.0}, step);
+  // Held over intervals of 1 s, of which both poles keep r = exp(-1 / 20): k r^k (1 - r) + r^k.
+  const double r = std::exp(-1.0 / 20.0);
+  for (std::size_t k = 1; k < step.size(); ++k) {
+    const auto n = static_cast<double>(k);
+    EXPECT_NEAR(bias[k], -0.1 * std::pow(r, n) * (1.0 + n * (1.0 - r)), 1e-14) << k;
+  }
 }
 
 /// Each interval the lag grows by the rise D and decays: e = exp(-1/20) (e + D), about 19.5 D.

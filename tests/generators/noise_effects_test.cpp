@@ -314,6 +314,16 @@ TEST(NoiseTemperature, MultipliesTheWhiteNoiseAndNothingElse) {
 }
 
 // The mean square of n normals has relative standard error sqrt(2 / n).
+TEST(NoiseTemperature, MayCurve) {
+  auto series = silent(even_times(3, 100.0));
+  series.temperature_C = {20.0, 30.0, 50.0};
+  series.gyro_dps = {1.0, 1.0, 1.0};
+  effects::NoiseTemperature{0.02, 30.0, 0.001}.apply(series, {1, 0});
+  EXPECT_NEAR(series.gyro_dps[0], 1.0 - 0.2 + 0.1, 1e-12);
+  EXPECT_EQ(series.gyro_dps[1], 1.0);
+  EXPECT_NEAR(series.gyro_dps[2], 1.0 + 0.4 + 0.4, 1e-12);
+}
+
 TEST(NoiseTemperature, GivesTheStandardDeviationThatItStates) {
   constexpr std::size_t n = 100000;
   auto series = noisy(n, 100.0);

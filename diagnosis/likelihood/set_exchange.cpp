@@ -1,0 +1,99 @@
+#include <gyrostat/diagnosis/likelihood/set_searcher.hpp>
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <gyrostat/diagnosis/likelihood/response_left.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+constexpr double most_odds = 1e4;
+
+}  // namespace
+
+Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
+  std::size_t exchanges = 0;
+  for (bool swapped = true; swapped;) {
+    swapped = false;
+    found.rivals.clear();
+    for (std::size_t k = 0; k < standing.scenario.effects.size(); ++k) {
+      const Effect effect = standing.scenario.effects[k];
+      if (bench_.is_marked(effect.id())) continue;
+      tell(fmt::format("rivals of {}", effect.id()), standing.scenario.effects.size() - k);
+      // What the response lacks was found beside this effect, not beside its rivals, and where it
+      // is not known it shows.
+      const auto response = bench_.response();
+      const auto masked = bench_.masked();
+      const Standing as_it_was = standing;
+      const bool is_bare = is_of_response(effect.id()) && (response || hides_response());
+      if (is_bare) {
+        bench_.take_out_response(std::nullopt);
+        if (hides_response()) bench_.mask_only(hidden_from_response_);
+        standing = bench_.refitted(standing.scenario);
+      }
+      const auto put_back = [&] {
+        bench_.take_out_response(response);
+        bench_.mask_only(masked);
+        standing = as_it_was;
+      };
+      const auto rest = bench_.without(standing, k);
+      // The same effect from other parameters may stand there, too, but is no rival; nor are names
+      // of a line.
+      const auto is_the_same = [&](const Standing& other) {
+        const auto id = other.scenario.effects.back().id();
+        return id == effect.id() || (is_line(id) && is_line(effect.id()));
+      };
+      const auto others = each_added(rest);
+      double second = rest.score;
+      const Standing* best = &rest;
+      for (const auto& other : others) {
+        if (other.score > best->score) best = &other;
+        if (other.score < -1e299 || is_the_same(other)) continue;
+        second = std::max(second, other.score);
+        if (other.score > standing.score - 3.0)
+          found.rivals.push_back({other.scenario.effects.back(),
+                                  std::string(other.scenario.effects.back().id()),
+                                  std::string(effect.id()), other.score - standing.score});
+      }
+      // From other parameters, what the others are worth beside it is as before.
+      constexpr double little = 3.0;
+      if (!is_bare && best != &rest && is_the_same(*best) && best->score > standing.score &&
+          best->score < standing.score + little) {
+        standing = *best;
+        auto& effects = standing.scenario.effects;
+        std::rotate(effects.begin() + static_cast<std::ptrdiff_t>(k), effects.end() - 1,
+                    effects.end());
+        standing.fit.scenario.effects = effects;
+        best = &rest;
+      }
+      if (best->score > standing.score + 0.1) {
+        standing = searched(*best);
+        if (is_bare && masked == bench_.masked() && standing.score < as_it_was.score) {
+          put_back();
+          continue;
+        }
+        swapped = ++exchanges < 2 * options_.most_effects;
+        break;
+      }
+      const std::string name(standing.scenario.effects[k].id());
+      const auto known = std::find_if(found.members.begin(), found.members.end(),
+                                      [&](const auto& m) { return m.effect == name; });
+      const double odds = std::min(standing.score - second, most_odds);
+      if (known == found.members.end())
+        found.members.push_back({name, odds});
+      else
+        known->log_odds = std::max(known->log_odds, odds);
+      if (is_bare) put_back();
+    }
+    if (swapped)
+      found.members.erase(
+          std::remove_if(found.members.begin(), found.members.end(),
+                         [&](const auto& m) { return !bench_.is_marked(m.effect); }),
+          found.members.end());
+  }
+  return standing;
+}
+
+}  // namespace gyrostat::gap
