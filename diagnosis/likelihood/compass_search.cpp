@@ -41,6 +41,7 @@ class CompassSearch {
     return errors_.law_of(effects, hidden_);
   }
   std::vector<Effect> polished(std::vector<Effect> set) const;
+  std::vector<char> beside_turns(const std::vector<Effect>& effects) const;
   void find_bursts(const std::vector<Effect>& effects);
   double cost(const Effect& effect) const;
   /// Of an effect, from what others leave.
@@ -68,8 +69,30 @@ class CompassSearch {
   HeadingBursts bursts_;
 };
 
+/// Where a compass that trails does: while it turns, and until that has died out.
+std::vector<char> CompassSearch::beside_turns(const std::vector<Effect>& effects) const {
+  std::vector<char> flags(conditions_.slow_size(), 0);
+  const auto lag = std::find_if(effects.begin(), effects.end(), is_lag);
+  if (lag == effects.end()) return flags;
+  constexpr double memories = 5.0, of_fastest = 0.05;
+  const double trails_s = lag->value(field_of(*lag, "time_constant_s")) +
+                          std::abs(lag->value(field_of(*lag, "delay_s")));
+  const auto reach =
+      static_cast<std::size_t>(std::ceil(memories * trails_s / conditions_.slow_interval_s()));
+  const auto& rate = conditions_.series().rate_ref_dps;
+  double fastest = 0.0;
+  for (const double r : rate)
+    if (!is_missing(r)) fastest = std::max(fastest, std::abs(r));
+  for (std::size_t i = 0; i < rate.size(); ++i) {
+    if (!(std::abs(rate[i]) > of_fastest * fastest)) continue;
+    const std::size_t first = i / conditions_.cluster();
+    for (std::size_t k = first; k < std::min(first + reach + 1, flags.size()); ++k) flags[k] = 1;
+  }
+  return flags;
+}
+
 void CompassSearch::find_bursts(const std::vector<Effect>& effects) {
-  bursts_ = heading_bursts(conditions_, errors_.means_of(effects));
+  bursts_ = heading_bursts(conditions_, errors_.means_of(effects), beside_turns(effects));
   hidden_ = bursts_.hidden;
 }
 

@@ -13,8 +13,8 @@ constexpr std::size_t fewest = 50;  // values of which a spread is known
 
 /// How far out values are, each as part of the run that is the farthest: the mean of a run beside
 /// what means of that length are elsewhere, in standard deviations; 0 up to `far`.
-std::vector<double> far_out(const std::vector<double>& values, const std::vector<Span>& spans,
-                            double far) {
+std::vector<double> far_out(std::vector<double> values, const std::vector<Span>& spans, double far,
+                            const std::vector<char>& misled) {
   std::vector<double> out(values.size(), 0.0);
   for (const std::size_t length : {1, 2, 4, 8, 16, 32}) {
     std::vector<double> means;
@@ -30,6 +30,8 @@ std::vector<double> far_out(const std::vector<double>& values, const std::vector
         first.push_back(i + 1 - length);
       }
     }
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (misled[i] != 0) values[i] = no_value;
     if (means.size() < fewest) break;
     std::vector<double> sizes = means;
     for (double& size : sizes) size = std::abs(size);
@@ -49,7 +51,8 @@ std::vector<double> far_out(const std::vector<double>& values, const std::vector
 
 }  // namespace
 
-HeadingBursts heading_bursts(const Conditions& conditions, std::vector<double> means_deg) {
+HeadingBursts heading_bursts(const Conditions& conditions, std::vector<double> means_deg,
+                             const std::vector<char>& misled) {
   HeadingBursts found{.hidden = std::vector<char>(means_deg.size(), 0)};
   constexpr double far = 5.0;
   const auto& spans = conditions.slow_spans(Part::train);
@@ -62,7 +65,7 @@ HeadingBursts heading_bursts(const Conditions& conditions, std::vector<double> m
   for (double& value : means_deg) value -= centre;
   for (double& s : sizes) s = std::abs(s - centre);
   const double deviation = std::max(quantile(sizes, 0.5) / normal_quartile, 1e-9);
-  const auto out = far_out(means_deg, spans, far);
+  const auto out = far_out(means_deg, spans, far, misled);
   double hit = 0.0, bursts = 0.0, square = 0.0, count = 0.0;
   for (const auto& span : spans) {
     // Of a burst: each value for itself, or its farthest run.

@@ -14,7 +14,9 @@ struct HeadingBursts {
 };
 
 /// Runs of the train part that are far out, cluster by cluster or as a whole, in an error whose
-/// means of clusters are given (deg; NaN: unknown).
-HeadingBursts heading_bursts(const Conditions& conditions, std::vector<double> means_deg);
+/// means of clusters are given (deg; NaN: unknown). Clusters in `misled` (a flag each) are far out
+/// for themselves alone: what is small there may be another effect's form.
+HeadingBursts heading_bursts(const Conditions& conditions, std::vector<double> means_deg,
+                             const std::vector<char>& misled);
 
 }  // namespace gyrostat::gap
