@@ -67,6 +67,7 @@ FoundSet SetSearcher::run() {
   found.intervals = bench_.intervals_of(standing);
   if (!coarse) end_ = standing;
   response_ = bench_.response();
+  masked_ = bench_.masked();
   add_tails(found);
   auto unseen = edges_of_the_dead_zone(standing.scenario);
   for (std::size_t i = 0; i < unseen.size(); ++i) unseen[i] |= repeats_[i];
@@ -115,14 +116,19 @@ Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::st
 std::vector<Nameless> SetSearcher::nameless_beside(const Scenario& set) const {
   if (!end_) return {};
   auto parts = nameless_parts(simulator_, recording_, *end_->fitter, end_->scenario, set);
+  // First: the others are found beside it, with the noise that they leave.
   if (response_)
-    parts.push_back({*response_, "a response to the motion without a name, within four samples",
-                     end_->scenario.random_error});
+    parts.insert(parts.begin(),
+                 {*response_, "a response to the motion without a name, within four samples",
+                  end_->scenario.random_error});
   return parts;
 }
 
-std::vector<Detectable> SetSearcher::detectable() const {
+std::vector<Detectable> SetSearcher::detectable() {
   if (!end_) return {};
+  // As at the end: a subset has other samples and no response taken out.
+  bench_.mask_only(masked_);
+  bench_.take_out_response(response_);
   return detectable_beside(
       bench_, *end_, [&](std::string_view effect) { return least_gain(*end_, band_of(effect)); });
 }

@@ -39,7 +39,7 @@ class SetSearcher {
   Scenario likeliest_baseline();
   Scenario subset_of(const Scenario& whole, const std::vector<std::string>& names);
   std::vector<Nameless> nameless_beside(const Scenario& set) const;
-  std::vector<Detectable> detectable() const;
+  std::vector<Detectable> detectable();
 
  private:
   /// `left` rounds are to come at least, as far as is known.
@@ -124,6 +124,7 @@ class SetSearcher {
   std::size_t left_ = 1;
   std::string doing_;
   std::optional<Standing> end_;     ///< of the search; none where the fast part has no law
+  std::vector<char> masked_;  ///< at the end
   std::optional<Effect> response_;  ///< at the end: what of the motion's response has no name
   std::vector<std::pair<std::string, double>> screening_, gains_;
 };

@@ -128,8 +128,8 @@ std::vector<double> turns(std::size_t samples) {
   return rate;
 }
 
-/// A sensor of second order that rings, which the catalogue does not have; the reference is known
-/// at the samples alone. What no name explains of its response must not pass for noise.
+/// A sensor of second order in continuous time, of a motion whose reference is known at the samples
+/// alone. What no name explains of its response must not pass for noise.
 TEST(SetSearch, AResponseOfAnotherFormIsNoNoise) {
   Series series = recorded(still(), 80, false);
   series.heading_deg.clear();
@@ -152,6 +152,17 @@ TEST(SetSearch, AResponseOfAnotherFormIsNoNoise) {
   EXPECT_TRUE(std::any_of(nameless.begin(), nameless.end(), [](const auto& part) {
     return part.effect.id() == "empirical_response";
   }));
+  // A subset is fitted without that response; what would have been found is not.
+  const auto sizes = [&] {
+    std::vector<double> all;
+    for (const auto& seen_at : found.detectable())
+      all.push_back(seen_at.effect.value(seen_at.field));
+    return all;
+  };
+  const auto before = sizes();
+  EXPECT_FALSE(before.empty());
+  found.subset({});
+  EXPECT_EQ(sizes(), before);
 }
 
 /// Fields that come and go softly, nowhere far beyond the noise of a cluster.
