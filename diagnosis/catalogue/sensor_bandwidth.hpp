@@ -32,7 +32,8 @@ struct Diagnosed<effects::SensorBandwidth> {
       const effects::SensorBandwidth& effect, const Conditions& c) {
     // Of a cutoff of 1 Hz, in seconds.
     constexpr double of_pole = 0.5 / std::numbers::pi,
-                     of_butterworth = of_pole * std::numbers::sqrt2, of_mean = 0.5 * 0.44294647;
+                     of_butterworth = of_pole * std::numbers::sqrt2,
+                     of_mean = 0.5 * effects::SensorBandwidth::half_power_of_mean;
     const bool is_mean = effect.averages > 0.5, is_flat = !is_mean && effect.maximally_flat > 0.5;
     const double delay_s = (is_mean   ? of_mean
                             : is_flat ? of_butterworth

@@ -120,6 +120,10 @@ std::vector<char> samples_of_unknown_rate(const Conditions& conditions, const Sc
     for (std::ptrdiff_t k = i + delay - reach; k <= i + delay + reach; ++k)
       if (k >= 0 && k < n) flags[static_cast<std::size_t>(k)] = 1;
   }
+  // A motion that is hardly anywhere known would leave too little.
+  constexpr std::ptrdiff_t most_of = 4;
+  if (most_of * std::count(flags.begin(), flags.end(), char{1}) >= n)
+    std::fill(flags.begin(), flags.end(), char{0});
   return flags;
 }
 

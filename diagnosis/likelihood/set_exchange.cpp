@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <gyrostat/diagnosis/likelihood/response_left.hpp>
-
 namespace gyrostat::gap {
 namespace {
 

@@ -6,7 +6,6 @@
 
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
-#include <gyrostat/diagnosis/likelihood/response_left.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
 
 namespace gyrostat::gap {
@@ -103,12 +102,10 @@ void SetSearcher::put_in_order(FoundSet& found) {
   auto& effects = found.scenario.effects;
   std::vector<std::size_t> order(effects.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  // An angle's errors come before the limit that clips them and a limit of the element before the
-  // grid, a zone of the output after all that is analogue.
+  // An angle's errors come before the limit that clips them, a zone of the output after all that is
+  // analogue.
   const auto rank = [&](std::size_t k) {
     if (effects[k].id() == "angle_quantization") return 0;
-    if (effects[k].id() == "saturation" && effects[k].value(field_of(effects[k], "of_element")) > 0)
-      return 0;
     return effects[k].id() == "dead_zone" ? 2 : 1;
   };
   std::stable_sort(order.begin(), order.end(),
@@ -137,16 +134,6 @@ std::vector<char> SetSearcher::edges_of_the_dead_zone(const Scenario& scenario) 
       edges[i] = std::abs(std::abs(reference[i]) - edge) < near ? 1 : 0;
   }
   return edges;
-}
-
-std::vector<char> SetSearcher::unknown_samples(const Scenario& scenario) const {
-  const auto unknown =
-      samples_of_unknown_rate(conditions_, scenario, white_with_rounding(scenario));
-  // A motion that is hardly anywhere known would leave too little.
-  constexpr std::ptrdiff_t most_of = 4;
-  const bool leaves_enough = most_of * std::count(unknown.begin(), unknown.end(), char{1}) <
-                             static_cast<std::ptrdiff_t>(unknown.size());
-  return leaves_enough ? unknown : std::vector<char>(unknown.size(), 0);
 }
 
 }  // namespace gyrostat::gap

@@ -9,7 +9,6 @@
 #include <tbb/parallel_invoke.h>
 
 #include <gyrostat/diagnosis/likelihood/motion_left.hpp>
-#include <gyrostat/diagnosis/likelihood/response_left.hpp>
 
 namespace gyrostat::gap {
 namespace {

@@ -10,6 +10,7 @@
 #include <gyrostat/diagnosis/likelihood/detectable.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/marks.hpp>
+#include <gyrostat/diagnosis/likelihood/response_left.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
 #include <gyrostat/diagnosis/likelihood/tails.hpp>
@@ -91,8 +92,10 @@ class SetSearcher {
   /// What acts at the converter, in the order in which it does.
   static void put_in_order(FoundSet& found);
   std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
-  /// Samples between which the motion is not known.
-  std::vector<char> unknown_samples(const Scenario& scenario) const;
+  /// Where the motion is not known between samples.
+  std::vector<char> unknown_samples(const Scenario& scenario) const {
+    return samples_of_unknown_rate(conditions_, scenario, white_with_rounding(scenario));
+  }
   /// Log-likelihood that noise which warms, and noise with tails, gain at most where it is only the
   /// grid that makes its size, or its distribution, another with the level.
   struct OfGrid {
@@ -124,7 +127,7 @@ class SetSearcher {
   std::size_t left_ = 1;
   std::string doing_;
   std::optional<Standing> end_;     ///< of the search; none where the fast part has no law
-  std::vector<char> masked_;  ///< at the end
+  std::vector<char> masked_;        ///< at the end
   std::optional<Effect> response_;  ///< at the end: what of the motion's response has no name
   std::vector<std::pair<std::string, double>> screening_, gains_;
 };

@@ -27,6 +27,8 @@ struct SensorBandwidth {
   double averages = 0.0;
 
   static constexpr int most_poles = 8;
+  /// Cutoff times averaging time: sin(pi x) / (pi x) = 1 / sqrt(2).
+  static constexpr double half_power_of_mean = 0.44294647;
 
   static constexpr std::string_view title = "the rate is low-passed";
   static constexpr Stage stage = Stage::electronics;
@@ -76,8 +78,7 @@ struct SensorBandwidth {
 
  private:
   void average(Series& series, std::size_t samples) const {
-    constexpr double half_power = 0.44294647;  // sin(pi x) / (pi x) = 1 / sqrt(2)
-    const double over_s = half_power / cutoff_hz;
+    const double over_s = half_power_of_mean / cutoff_hz;
     const auto& t_s = series.t_s;
     const auto& rate = series.rate_ref_dps;
     std::vector<double> turned(samples, 0.0);  // since the first sample, degrees
