@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <unsupported/Eigen/MatrixFunctions>
 
 namespace gyrostat {
 
@@ -61,5 +62,7 @@ SymmetricEigen symmetric_eigen(const MatrixXd& A) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
+
+MatrixXd matrix_exponential(const MatrixXd& A) { return A.exp(); }
 
 }  // namespace gyrostat

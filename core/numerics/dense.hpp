@@ -47,4 +47,8 @@ struct SymmetricEigen {
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
 
+/// exp(A), by scaling, a Pade approximation and squaring (Higham, SIAM J. Matrix Anal. Appl. 26,
+/// 2005).
+Eigen::MatrixXd matrix_exponential(const Eigen::MatrixXd& A);
+
 }  // namespace gyrostat

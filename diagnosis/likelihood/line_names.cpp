@@ -8,6 +8,7 @@
 
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/hidden_lines.hpp>
 #include <gyrostat/diagnosis/likelihood/line_shape.hpp>
 
 namespace gyrostat::gap {
@@ -16,22 +17,17 @@ namespace {
 /// An envelope that is so many times likelier than that of normal noise, as a logarithm.
 constexpr double clear_shape = 4.0;
 
-/// The band that a line fills.
-Resonance line_of(const Effect& line) {
-  const auto value = [&](std::string_view name) { return line.value(field_of(line, name)); };
-  if (line.id() == "wandering_line")
-    return {0.5 * value("amplitude_dps") * value("amplitude_dps"), value("frequency_hz"),
-            2.0 * value("wander_hz")};
-  return {value("std_dps") * value("std_dps"), value("centre_hz"), value("bandwidth_hz")};
-}
-
 bool is_bursts(const LineShape& shape) {
   return shape.bursts > std::max(shape.wandering, clear_shape);
 }
 
-bool are_neighbours(const Resonance& one, const Resonance& other) {
-  const double reach_hz = 2.0 * (one.bandwidth_hz + other.bandwidth_hz);
-  return std::abs(one.centre_hz - other.centre_hz) <= reach_hz;
+/// Of the line among the set's.
+LineTrack track_of(const Conditions& conditions, const std::vector<double>& left,
+                   const Scenario& set, std::size_t line) {
+  Scenario beside = set;
+  beside.effects.erase(beside.effects.begin() + static_cast<std::ptrdiff_t>(line));
+  return track_in_band(conditions, left, law_of(beside, conditions.interval_s()),
+                       band_of_line(set.effects[line]));
 }
 
 /// What two neighbouring bands are together.
@@ -56,7 +52,7 @@ std::vector<double> parts_of_wandering_lines(const SetBench& bench, const std::v
   for (std::size_t a = 0; a < effects.size(); ++a)
     for (std::size_t b = a + 1; b < effects.size(); ++b) {
       if (!is_line(effects[a].id()) || !is_line(effects[b].id())) continue;
-      const auto one = line_of(effects[a]), other = line_of(effects[b]);
+      const auto one = band_of_line(effects[a]), other = band_of_line(effects[b]);
       if (!are_neighbours(one, other)) continue;
       const double together = line_shape(bench.conditions(), left, joined(one, other)).wandering;
       if (together < clear_shape || together <= std::max(shapes[a].wandering, shapes[b].wandering))
@@ -78,14 +74,20 @@ Effect wandering_line_in(const Resonance& band, double radians) {
                       {"correlation_time_s", radians / (2.0 * std::numbers::pi * wander_hz)}});
 }
 
-/// In the place of a resonance, the likelier of both, fitted.
-Standing with_wandering_line(const SetBench& bench, const Standing& standing, std::size_t at) {
-  const auto band = line_of(standing.scenario.effects[at]);
+/// In the place of a resonance: as its track says, or else the likelier of both, fitted.
+Standing with_wandering_line(const SetBench& bench, const Standing& standing, std::size_t at,
+                             const LineTrack& track) {
+  const auto band = band_of_line(standing.scenario.effects[at]);
   Standing best = standing;
   best.score = -1e300;
-  for (const double radians : {3.0, 0.5}) {
+  std::vector<Effect> starts;
+  if (track.over_band >= clear_shape)
+    starts.emplace_back(track.line);
+  else
+    starts = {wandering_line_in(band, 3.0), wandering_line_in(band, 0.5)};
+  for (const auto& start : starts) {
     Scenario scenario = standing.scenario;
-    scenario.effects[at] = wandering_line_in(band, radians);
+    scenario.effects[at] = start;
     if (best.score < -1e299) best.scenario = scenario;  // as it is where no fit is called so
     constexpr int iterations = 15;
     if (auto fit = bench.fitted(scenario, standing.fitter, iterations); fit.score > best.score)
@@ -96,7 +98,7 @@ Standing with_wandering_line(const SetBench& bench, const Standing& standing, st
 
 /// In the place of a line that wanders, fitted.
 Standing with_resonance(const SetBench& bench, const Standing& standing, std::size_t at) {
-  const auto band = line_of(standing.scenario.effects[at]);
+  const auto band = band_of_line(standing.scenario.effects[at]);
   Standing best = standing;
   best.scenario.effects[at] = with_values("vibration", {{"std_dps", std::sqrt(band.variance)},
                                                         {"centre_hz", band.centre_hz},
@@ -122,7 +124,7 @@ std::vector<char> samples_in_bursts(const SetBench& bench, const Scenario& scena
   std::vector<char> inside(left_dps.size(), 0);
   for (const auto& effect : scenario.effects) {
     if (!is_line(effect.id())) continue;
-    const auto line = line_of(effect);
+    const auto line = band_of_line(effect);
     const auto shape = line_shape(bench.conditions(), left_dps, line);
     if (!is_bursts(shape)) continue;
     const auto found = samples_in_bursts(bench.conditions(), left_dps, line, shape);
@@ -137,9 +139,12 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
   const auto left = bench.rate_left_by(found.scenario, hidden);
   auto& effects = found.scenario.effects;
   std::vector<LineShape> shapes(effects.size());
+  std::vector<LineTrack> tracks(effects.size());
   tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t k) {
-    if (is_line(effects[k].id()))
-      shapes[k] = line_shape(bench.conditions(), left, line_of(effects[k]));
+    if (!is_line(effects[k].id())) return;
+    shapes[k] = line_shape(bench.conditions(), left, band_of_line(effects[k]));
+    tracks[k] = track_of(bench.conditions(), left, found.scenario, k);
+    shapes[k].wandering = std::max(shapes[k].wandering, tracks[k].over_band);
   });
   const auto parts = parts_of_wandering_lines(bench, left, found.scenario, shapes);
   bool refitted = false;
@@ -149,11 +154,11 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
   for (std::size_t k = 0; k < effects.size(); ++k)
     if (is_line(effects[k].id())) order.push_back(k);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return line_of(effects[a]).variance > line_of(effects[b]).variance;
+    return band_of_line(effects[a]).variance > band_of_line(effects[b]).variance;
   });
   for (const std::size_t k : order) {
     auto& effect = effects[k];
-    const auto line = line_of(effect);
+    const auto line = band_of_line(effect);
     const auto& shape = shapes[k];
     // Where a line seldom wanders to it comes and goes.
     const bool is_edge = std::any_of(wandering.begin(), wandering.end(),
@@ -193,7 +198,7 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
                                                 {"mean_duration_s", shape.on_s},
                                                 {"mean_interval_s", shape.off_s}});
     } else if (effect.id() != name) {
-      standing = with_wandering_line(bench, standing, k);
+      standing = with_wandering_line(bench, standing, k, tracks[k]);
       effect = standing.scenario.effects[k];
       refitted = true;
     }
@@ -202,6 +207,19 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
       known->effect = name;
       known->log_odds = std::min(known->log_odds, gain);
     }
+  }
+  for (const auto& [line, log_odds] : hidden_lines(bench, standing.scenario, left, clear_shape)) {
+    if (!bench.is_allowed(line.id())) {
+      found.nameless_log_odds = std::max(found.nameless_log_odds, log_odds);
+      continue;
+    }
+    standing.scenario.effects.push_back(line);
+    constexpr int iterations = 15;
+    if (auto fit = bench.fitted(standing.scenario, standing.fitter, iterations); fit.score > -1e299)
+      standing = std::move(fit);
+    effects.push_back(standing.scenario.effects.back());
+    found.members.push_back({std::string(line.id()), log_odds});
+    refitted = true;
   }
   if (refitted) take_over(standing, found.scenario);
   // One name each, however many lines it has.

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <numeric>
 
-#include <boost/math/special_functions/bessel.hpp>
 #include <tbb/parallel_for.h>
 
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/likelihood/log_bessel.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
@@ -50,12 +50,6 @@ std::vector<std::vector<double>> squared_envelopes(const Conditions& conditions,
     }
   }
   return all;
-}
-
-double log_bessel_i0(double x) {
-  using boost::math::policies::policy, boost::math::policies::promote_double;
-  if (x < 30.0) return std::log(boost::math::cyl_bessel_i(0, x, policy<promote_double<false>>()));
-  return x - 0.5 * std::log(2.0 * std::numbers::pi * x) + 0.125 / x;
 }
 
 LineShape shape_in_blocks(const Conditions& conditions, const std::vector<double>& left_dps,

@@ -115,7 +115,7 @@ Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<doubl
     for (const auto& span : conditions.spans(Part::train))
       for (std::size_t i = span.first + 1; i < span.last; ++i)
         if (!is_missing(z[i]) && !is_missing(z[i - 1]) &&
-            (marks.limit_dps == 0.0 || std::abs(z[i]) < marks.limit_dps))
+            (marks.limit_dps == 0.0 || std::abs(z[i]) < marks.limit_at(z[i])))
           look(z[i], z[i] - z[i - 1], reference[i] - reference[i - 1]);
   };
   std::vector<double> errors;
@@ -166,12 +166,17 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
   for (const auto& span : simulator.conditions().spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i)
       if (!is_missing(z[i])) low = std::min(low, z[i]), high = std::max(high, z[i]);
-  marks.limit_dps = std::max(clipped_at(simulator.conditions(), z, high),
-                             clipped_at(simulator.conditions(), z, low));
+  const double above = clipped_at(simulator.conditions(), z, high);
+  const double below = clipped_at(simulator.conditions(), z, low);
+  marks.limit_dps = std::max(above, below);
   if (marks.limit_dps > 0.0) {
+    // On a side that is not clipped, what was reached is no limit.
+    marks.limit_dps = above > 0.0 ? above : std::max(below, high);
+    const double other = below > 0.0 ? below : std::max(above, -low);
+    if (other != marks.limit_dps) marks.below_dps = other;
     marks.clipped.assign(z.size(), 0);
     for (std::size_t i = 0; i < z.size(); ++i)
-      marks.clipped[i] = std::abs(z[i]) >= marks.limit_dps ? 1 : 0;
+      marks.clipped[i] = std::abs(z[i]) >= marks.limit_at(z[i]) ? 1 : 0;
   }
   std::vector<double> differences;
   for (const auto& span : simulator.conditions().spans(Part::train))

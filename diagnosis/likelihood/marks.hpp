@@ -16,9 +16,15 @@ struct Marks {
   double stale_probability = 0.0;     ///< chance that a repeat begins at a sample; 0: no repeats
   double stale_run = 1.0;             ///< mean length of a repeat
   double limit_dps = 0.0;             ///< beyond which the output is clipped; 0: none is
+  double below_dps = 0.0;             ///< as far below zero; 0: as above
   std::vector<char> clipped;          ///< a flag a sample, where there is a limit
   SilentZone silent;                  ///< where the output is written as 0
   std::vector<char> repeats;  ///< a flag a sample: repeats the one before, where there are such
+
+  /// On a value's side of zero.
+  double limit_at(double value_dps) const {
+    return value_dps < 0.0 && below_dps > 0.0 ? below_dps : limit_dps;
+  }
 };
 
 /// Reads the train part for the numbers, all samples for the flags.

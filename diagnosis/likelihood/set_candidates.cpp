@@ -17,6 +17,8 @@ namespace {
 /// So far behind, polishing may still bring a candidate in front.
 constexpr double within_reach_of_polish = 30.0;
 constexpr int screening_iterations = 3;
+/// Where an effect of the motion gains so much, the noise beside it is another.
+constexpr double much = 100.0;
 /// Of an effect's guesses, so many are fitted a little, and so many to the end.
 constexpr std::size_t guesses_screened = 8, guesses_fitted = 2;
 
@@ -106,6 +108,10 @@ Standing SetBench::with_started(const Standing& standing, const CauseType& cause
     Scenario scenario = standing.scenario;
     scenario.effects.push_back(start);
     auto tried = refitted(scenario, 6);
+    // The walk that stood in for a motion is more than the noise, and a fit may end beside it.
+    if (are_forms && tried.score > standing.score + much)
+      if (auto anew = beside_noise(scenario.effects); anew.score > tried.score)
+        tried = std::move(anew);
     if (are_forms && tried.score > standing.score - within_reach_of_polish) keep(polished(tried));
     keep(std::move(tried));
   }

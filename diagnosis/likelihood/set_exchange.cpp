@@ -68,7 +68,10 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
       }
       if (best->score > standing.score + 0.1) {
         standing = searched(*best);
-        if (is_bare && masked == bench_.masked() && standing.score < as_it_was.score) {
+        // A name is worth what a response without one has to gain.
+        const double least =
+            as_it_was.score - (response && !bench_.response() ? clear_response : 0.0);
+        if (is_bare && masked == bench_.masked() && standing.score < least) {
           put_back();
           continue;
         }

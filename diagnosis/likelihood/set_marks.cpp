@@ -24,10 +24,11 @@ std::vector<char> SetSearcher::near_the_limit(const Marks& marks) const {
   auto near = marks.clipped;
   const auto& reference = conditions_.series().rate_ref_dps;
   constexpr std::size_t reach = 5;
+  constexpr double unbent = 0.95;  // converters bend into their limits
   for (std::size_t i = 0; i < near.size(); ++i) {
     const std::size_t from = i < reach ? 0 : i - reach;
     const std::size_t to = std::min(i + reach + 1, near.size());
-    if (std::abs(reference[i]) > 0.97 * marks.limit_dps ||
+    if (std::abs(reference[i]) > unbent * marks.limit_at(reference[i]) ||
         std::any_of(marks.clipped.begin() + static_cast<std::ptrdiff_t>(from),
                     marks.clipped.begin() + static_cast<std::ptrdiff_t>(to),
                     [](char c) { return c != 0; }))
@@ -50,7 +51,7 @@ std::vector<Effect> SetSearcher::read_off(const Marks& marks, FoundSet& found) {
     bench_.mask_too(marks.repeats);
   }
   if (marks.limit_dps > 0.0 && bench_.is_allowed("saturation")) {
-    add(with_values("saturation", {{"limit_dps", marks.limit_dps}}));
+    add(with_values("saturation", {{"limit_dps", marks.limit_dps}, {"below_dps", marks.below_dps}}));
     bench_.mark_saturation();
     bench_.mask_too(near_the_limit(marks));
   }

@@ -103,7 +103,6 @@ Standing SetSearcher::two_further(const Standing& standing, std::vector<Standing
 }
 
 Standing SetSearcher::beside_response(Standing standing) {
-  constexpr double clear = 20.0;  // of eight sizes, half a nat each by chance
   const auto known = bench_.response();
   bench_.take_out_response(std::nullopt);
   const auto found = response_left(bench_, standing.scenario);
@@ -111,7 +110,8 @@ Standing SetSearcher::beside_response(Standing standing) {
   const auto plain = known ? bench_.refitted(standing.scenario) : standing;
   if (!found) return plain;
   bench_.take_out_response(found);
-  if (auto fit = bench_.refitted(standing.scenario); fit.score > plain.score + clear) return fit;
+  if (auto fit = bench_.refitted(standing.scenario); fit.score > plain.score + clear_response)
+    return fit;
   bench_.take_out_response(std::nullopt);
   return plain;
 }

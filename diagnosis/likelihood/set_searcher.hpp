@@ -43,6 +43,9 @@ class SetSearcher {
   std::vector<Detectable> detectable();
 
  private:
+  /// What a response without a name has to gain: it has eight sizes, half a nat each by chance.
+  static constexpr double clear_response = 20.0;
+
   /// `left` rounds are to come at least, as far as is known.
   void tell(const std::string& what, std::size_t left) {
     doing_ = what;

@@ -10,21 +10,25 @@
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/core/series.hpp>
 #include <gyrostat/generators/butterworth.hpp>
+#include <gyrostat/generators/continuous_low_pass.hpp>
 #include <gyrostat/generators/sampled.hpp>
 #include <gyrostat/generators/stage.hpp>
 
 namespace gyrostat::effects {
 
 /// The sensor follows the rate through a low-pass filter at its bandwidth (IEEE Std 1554,
-/// bandwidth): equal poles, a rate being held over the interval before its sample, Butterworth's,
-/// or the mean over the time before a sample, the rate being straight between samples, which takes
-/// 3 dB where the product of time and frequency is 0.443 (Oppenheim and Schafer, "Discrete-Time
-/// Signal Processing", 3rd ed., 2.6). At the first sample it has come to rest.
+/// bandwidth): equal poles, a rate being held over the interval before its sample, or
+/// Butterworth's, by recursion as simulators do; either as a sensor does, to which the rate goes on
+/// between its samples; or the mean over the time before a sample, the rate being straight between
+/// samples, which takes 3 dB where the product of time and frequency is 0.443 (Oppenheim and
+/// Schafer, "Discrete-Time Signal Processing", 3rd ed., 2.6). At the first sample it has come to
+/// rest.
 struct SensorBandwidth {
   double cutoff_hz = 5.0;
   double poles = 1.0;
   double maximally_flat = 0.0;
   double averages = 0.0;
+  double continuous = 0.0;
 
   static constexpr int most_poles = 8;
   /// Cutoff times averaging time: sin(pi x) / (pi x) = 1 / sqrt(2).
@@ -45,6 +49,8 @@ struct SensorBandwidth {
               "1: Butterworth's poles; 0: equal ones"},
         Field{"averages", &P::averages, "1", Range{.from = 0, .to = 1, .whole = true},
               "1: a moving average instead of poles"},
+        Field{"continuous", &P::continuous, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: rate and filter go on between samples; 0: a recursion over samples"},
     };
   }
 
@@ -59,8 +65,10 @@ struct SensorBandwidth {
     const auto count =
         static_cast<std::size_t>(std::clamp(std::lround(poles), 1L, long{most_poles}));
     const auto& rate = series.rate_ref_dps;
+    const double cycles = cutoff_hz * series.duration_s() / static_cast<double>(samples - 1);
+    if (continuous > 0.5) return run_on(series, samples, {cycles, count, maximally_flat > 0.5});
     if (maximally_flat > 0.5) {
-      Butterworth sensed(cutoff_hz * series.duration_s() / static_cast<double>(samples - 1), count);
+      Butterworth sensed(cycles, count);
       for (std::size_t i = 0; i < samples; ++i)
         series.gyro_dps[i] += rate[0] + sensed(rate[i] - rate[0]) - rate[i];
       return;
@@ -77,6 +85,15 @@ struct SensorBandwidth {
   }
 
  private:
+  /// Between samples a cubic with the slopes at both, as in TimeOffset.
+  static void run_on(Series& series, std::size_t samples, ContinuousLowPass sensed) {
+    const auto& rate = series.rate_ref_dps;
+    for (std::size_t i = 1; i < samples; ++i)
+      series.gyro_dps[i] += rate[0] - rate[i] +
+                            sensed(rate[i - 1] - rate[0], rate[i] - rate[0], slope_at(rate, i - 1),
+                                   slope_at(rate, i));
+  }
+
   void average(Series& series, std::size_t samples) const {
     const double over_s = half_power_of_mean / cutoff_hz;
     const auto& t_s = series.t_s;

@@ -404,6 +404,22 @@ TEST(Dense, BlocksOfProductsDoNotDependOnTheProcessor) {
               1e-15);
 }
 
+/// Of a turn, of what decays, and of a chain of derivatives, which is Taylor's series.
+TEST(Dense, TheExponentialOfAMatrixIsKnownOfTurnsDecaysAndDerivatives) {
+  Dense A = Dense::Zero(6, 6);
+  A(0, 1) = 2.0;
+  A(1, 0) = -2.0;
+  A(2, 2) = -7.0;
+  A(3, 4) = A(4, 5) = 3.0;
+  const Dense E = matrix_exponential(A);
+  EXPECT_NEAR(E(0, 0), std::cos(2.0), 1e-13);
+  EXPECT_NEAR(E(0, 1), std::sin(2.0), 1e-13);
+  EXPECT_NEAR(E(2, 2), std::exp(-7.0), 1e-13);
+  EXPECT_NEAR(E(3, 5), 4.5, 1e-12);
+  EXPECT_NEAR(E(3, 4), 3.0, 1e-12);
+  EXPECT_NEAR(E(0, 2), 0.0, 1e-15);
+}
+
 TEST(SineOfTurns, IsThatOfLongDoubles) {
   NormalStream stream(1, 0, "sine_of_turns");
   for (const double size : {0.1, 1.0, 30.0, 1e5})

@@ -39,6 +39,22 @@ TEST(Marks, RepeatsBesideAGridShowWhereTheMotionTurns) {
   EXPECT_GE(seen, recordings - 2);
 }
 
+/// A converter clips at both ends, of which a bias taken out afterwards makes two limits; an end
+/// that is not reached is none.
+TEST(Marks, BothLimitsAreReadOff) {
+  Scenario s = moving();
+  s.effects = {effects::Saturation{.limit_dps = 50.0, .below_dps = 70.0}};
+  auto marks = marks_in(recorded(s, 42, true));
+  EXPECT_EQ(marks.limit_dps, 50.0);
+  EXPECT_EQ(marks.below_dps, 70.0);
+  s.effects = {effects::Saturation{.limit_dps = 50.0, .below_dps = 200.0}};
+  marks = marks_in(recorded(s, 42, true));
+  EXPECT_EQ(marks.limit_dps, 50.0);
+  EXPECT_GT(marks.below_dps, 79.0);
+  s.effects = {effects::Saturation{.limit_dps = 50.0}};
+  EXPECT_EQ(marks_in(recorded(s, 42, true)).below_dps, 0.0);
+}
+
 /// A gyro that lags its reference by a sample stands still where the reference turns, and equals by
 /// chance.
 TEST(Marks, AGyroThatLagsRepeatsNothing) {

@@ -95,6 +95,12 @@ INSTANTIATE_TEST_SUITE_P(
                                       .wander_hz = 0.5,
                                       .correlation_time_s = 10.0},
                effects::GaussMarkov{0.02, 15.0}}},
+        Known{"sweep",
+              {effects::WanderingLine{.amplitude_dps = 0.02,
+                                      .frequency_hz = 6.0,
+                                      .wander_hz = 0.6,
+                                      .correlation_time_s = 60.0},
+               effects::BiasSteps{20.0, 0.1}}},
         Known{
             "gradual",
             {effects::ThermalHysteresis{0.08, 5.0, 1.0, 1.0}, effects::Vibration{0.04, 4.0, 0.4}}},
@@ -129,12 +135,12 @@ std::vector<double> turns(std::size_t samples) {
 }
 
 /// A sensor of second order in continuous time, of a motion whose reference is known at the samples
-/// alone. What no name explains of its response must not pass for noise.
-TEST(SetSearch, AResponseOfAnotherFormIsNoNoise) {
+/// alone.
+Series turned_before_a_sensor_of_second_order(double damping) {
   Series series = recorded(still(), 80, false);
   series.heading_deg.clear();
   const auto fine = turns(series.size());
-  const double step_s = 1.0 / 160.0, omega = 2.0 * std::numbers::pi * 5.0, damping = 0.7071;
+  const double step_s = 1.0 / 160.0, omega = 2.0 * std::numbers::pi * 5.0;
   double seen = 0.0, rising = 0.0;
   for (std::size_t i = 0; i < fine.size(); ++i) {
     if (i % 8 == 0) {
@@ -144,6 +150,24 @@ TEST(SetSearch, AResponseOfAnotherFormIsNoNoise) {
     rising += step_s * omega * (omega * (fine[i] - seen) - 2.0 * damping * rising);
     seen += step_s * rising;
   }
+  return series;
+}
+
+TEST(SetSearch, AButterworthSensorIsOneOfContinuousTime) {
+  const Series series = turned_before_a_sensor_of_second_order(std::numbers::sqrt2 / 2.0);
+  const Simulator simulator(series, 1);
+  const auto found = find_set(simulator, series, {});
+  ASSERT_EQ(found.members.size(), 1u);
+  const auto* filter = found.scenario.effects.at(0).as<effects::SensorBandwidth>();
+  ASSERT_NE(filter, nullptr);
+  EXPECT_EQ(filter->continuous, 1.0);
+  EXPECT_EQ(filter->maximally_flat, 1.0);
+  EXPECT_NEAR(filter->cutoff_hz, 5.0, 0.1);
+}
+
+/// What no name explains of a response must not pass for noise: no Butterworth filter rings so.
+TEST(SetSearch, AResponseOfAnotherFormIsNoNoise) {
+  const Series series = turned_before_a_sensor_of_second_order(0.35);
   const Simulator simulator(series, 1);
   const auto found = find_set(simulator, series, {});
   ASSERT_EQ(found.members.size(), 1u);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <gyrostat/experiments/findings/models/model_format.hpp>
@@ -20,7 +22,7 @@ std::string write_matlab(const ModelSheet& sheet) {
     if (const auto* grid = effect.as<effects::Quantization>())
       set("Resolution", radians * grid->lsb_dps, "(rad/s)/LSB");
     if (const auto* range = effect.as<effects::Saturation>())
-      set("MeasurementRange", radians * range->limit_dps, "rad/s");
+      set("MeasurementRange", radians * std::max(range->limit_dps, range->below_dps), "rad/s");
   }
   if (model.bias_dps_per_C != 0.0)
     set("TemperatureBias", radians * model.bias_dps_per_C, "(rad/s)/degC");

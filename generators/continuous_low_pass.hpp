@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+
+#include <Eigen/Core>
+
+namespace gyrostat {
+
+/// A low-pass filter of continuous time: equal poles, each with its half power at the cutoff, or
+/// Butterworth's. From one sample to the next the input is a cubic, over which the linear system of
+/// the filter and the cubic's derivatives is integrated exactly (Van Loan, "Computing integrals
+/// involving the matrix exponential", IEEE Trans. Automatic Control 23, 1978). It begins at rest.
+class ContinuousLowPass {
+ public:
+  ContinuousLowPass(double cycles_a_sample, std::size_t poles, bool maximally_flat);
+
+  /// The output at the end of an interval. Slopes of the input are by the sample.
+  double operator()(double from, double to, double slope_from, double slope_to);
+
+ private:
+  Eigen::MatrixXd transition_;  ///< of the state
+  Eigen::MatrixXd by_input_;    ///< of the state by an input's value and three derivatives
+  Eigen::VectorXd state_, next_;
+  Eigen::Index output_ = 0;  ///< of the state
+};
+
+}  // namespace gyrostat
