@@ -79,6 +79,7 @@ LogScore Scoring::of(const Eigen::MatrixXd& replicas) const {
     shortfalls[k] = mean_square_shortfall(own_each.col(k), score.expected_each);
   std::sort(shortfalls.begin(), shortfalls.end());
   score.typical_shortfall = shortfalls[std::min(count - 1, count * 9 / 10)];
+  score.rare_shortfall = shortfalls[std::min(count - 1, count * 39 / 40)];
   score.expected = own.mean();
   score.spread = std::sqrt(std::max(1.0, (own.array() - own.mean()).square().sum() / (n - 1.0)));
   return score;
@@ -96,6 +97,10 @@ Eigen::VectorXd Scoring::spread(const Eigen::MatrixXd& replicas) const {
 double gap_of(const LogScore& score, const LogScore& truth) {
   return std::sqrt(std::max(
       0.0, mean_square_shortfall(score.each, truth.expected_each) - truth.typical_shortfall));
+}
+
+bool may_be_closed(const LogScore& score, const LogScore& truth) {
+  return mean_square_shortfall(score.each, truth.expected_each) <= truth.rare_shortfall;
 }
 
 std::array<double, 2> bootstrap_closed(const Instrument& instrument, const LogScore& before,

@@ -13,6 +13,7 @@ struct LogScore {
   double spread = 1.0;                  ///< of such a replica's
   Eigen::VectorXd each, expected_each;  ///< a reading each
   double typical_shortfall = 0.0;       ///< of such a replica: nine of ten have less
+  double rare_shortfall = 0.0;          ///< and 39 of 40 less than that
 
   /// How many spreads the recording scores below a replica.
   double deficit() const { return (expected - value) / spread; }
@@ -46,6 +47,9 @@ class Scoring {
 /// of a replica. A reading that a simulator of too much variety leaves open counts as well as one
 /// that it misses; a recording that `truth` made has a gap of 0.
 double gap_of(const LogScore& score, const LogScore& truth);
+
+/// Whether one in forty of the recordings that `truth` makes has a larger gap.
+bool may_be_closed(const LogScore& score, const LogScore& truth);
 
 /// 95 % interval of 1 - gap after / gap before when the readings of every lens are drawn again.
 std::array<double, 2> bootstrap_closed(const Instrument& instrument, const LogScore& before,

@@ -8,7 +8,7 @@
 
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
-#include <gyrostat/diagnosis/likelihood/hidden_lines.hpp>
+#include <gyrostat/diagnosis/likelihood/hidden_line.hpp>
 #include <gyrostat/diagnosis/likelihood/line_shape.hpp>
 
 namespace gyrostat::gap {
@@ -107,6 +107,31 @@ Standing with_resonance(const SetBench& bench, const Standing& standing, std::si
   if (auto fit = bench.fitted(best.scenario, standing.fitter, iterations); fit.score > -1e299)
     best = std::move(fit);
   return best;
+}
+
+/// With one more, fitted.
+Standing with_line(const SetBench& bench, Standing standing, const Effect& line) {
+  standing.scenario.effects.push_back(line);
+  constexpr int iterations = 15;
+  if (auto fit = bench.fitted(standing.scenario, standing.fitter, iterations); fit.score > -1e299)
+    return fit;
+  return standing;
+}
+
+/// However many lines it has.
+void one_name_each(FoundSet& found) {
+  auto& members = found.members;
+  for (std::size_t k = 1; k < members.size();)
+    if (std::any_of(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(k),
+                    [&](const auto& m) { return m.effect == members[k].effect; }))
+      members.erase(members.begin() + static_cast<std::ptrdiff_t>(k));
+    else
+      ++k;
+  for (const auto& effect : found.scenario.effects)
+    if ((!is_line(effect.id()) || found.nameless_log_odds == 0.0) &&
+        std::none_of(members.begin(), members.end(),
+                     [&](const auto& m) { return m.effect == effect.id(); }))
+      members.push_back({std::string(effect.id()), clear_shape});
 }
 
 /// The noise and the other effects as they were fitted beside lines of other names.
@@ -208,33 +233,18 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
       known->log_odds = std::min(known->log_odds, gain);
     }
   }
-  for (const auto& [line, log_odds] : hidden_lines(bench, standing.scenario, left, clear_shape)) {
-    if (!bench.is_allowed(line.id())) {
-      found.nameless_log_odds = std::max(found.nameless_log_odds, log_odds);
-      continue;
+  if (const auto more = hidden_line(bench, standing.scenario, left, clear_shape)) {
+    if (bench.is_allowed("wandering_line")) {
+      standing = with_line(bench, std::move(standing), more->line);
+      effects.push_back(standing.scenario.effects.back());
+      found.members.push_back({"wandering_line", more->log_odds});
+      refitted = true;
+    } else {
+      found.nameless_log_odds = std::max(found.nameless_log_odds, more->log_odds);
     }
-    standing.scenario.effects.push_back(line);
-    constexpr int iterations = 15;
-    if (auto fit = bench.fitted(standing.scenario, standing.fitter, iterations); fit.score > -1e299)
-      standing = std::move(fit);
-    effects.push_back(standing.scenario.effects.back());
-    found.members.push_back({std::string(line.id()), log_odds});
-    refitted = true;
   }
   if (refitted) take_over(standing, found.scenario);
-  // One name each, however many lines it has.
-  auto& members = found.members;
-  for (std::size_t k = 1; k < members.size();)
-    if (std::any_of(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(k),
-                    [&](const auto& m) { return m.effect == members[k].effect; }))
-      members.erase(members.begin() + static_cast<std::ptrdiff_t>(k));
-    else
-      ++k;
-  for (const auto& effect : effects)
-    if ((!is_line(effect.id()) || found.nameless_log_odds == 0.0) &&
-        std::none_of(members.begin(), members.end(),
-                     [&](const auto& m) { return m.effect == effect.id(); }))
-      members.push_back({std::string(effect.id()), clear_shape});
+  one_name_each(found);
 }
 
 }  // namespace gyrostat::gap

@@ -81,6 +81,18 @@ double SetSearcher::least_gain(const Standing& standing, EffectBand band) const 
   return share_of_band * std::max(of_band, of_motion);
 }
 
+double SetSearcher::least_gain(const Standing& standing, const Standing& with) const {
+  constexpr double clear = 10.0;
+  const auto band = band_of_last(with);
+  const double least = least_gain(standing, band);
+  const double gain = with.score - standing.score;
+  if (band != EffectBand::motion || gain < clear || gain > least) return least;
+  // Nor has what it leaves nothing of.
+  return std::min(
+      least, std::max(clear, log_gain_of_motion(conditions_, bench_.rate_left_by(
+                                                                 with.scenario, bench_.masked()))));
+}
+
 Standing SetSearcher::two_further(const Standing& standing, std::vector<Standing> tried) {
   constexpr double nearly_pays = 6.0;
   constexpr std::size_t most_tried = 3;
@@ -120,13 +132,12 @@ Standing SetSearcher::beside_response(Standing standing) {
 std::vector<Standing>::const_iterator SetSearcher::foremost(
     const Standing& standing, const std::vector<Standing>& tried) const {
   constexpr double clear = 10.0, least_score = -1e299;
-  const double of_motion =
-      standing.score + std::max(clear, least_gain(standing, EffectBand::motion));
   auto best = tried.end();
   bool moves = false;
   for (auto t = tried.begin(); t != tried.end(); ++t) {
     if (t->score < least_score) continue;
-    const bool also_moves = band_of_last(*t) == EffectBand::motion && t->score > of_motion;
+    const bool also_moves = band_of_last(*t) == EffectBand::motion &&
+                            t->score > standing.score + std::max(clear, least_gain(standing, *t));
     if (best == tried.end() || (also_moves && !moves) ||
         (also_moves == moves && t->score > best->score)) {
       best = t;
@@ -178,7 +189,7 @@ Standing SetSearcher::searched(Standing standing) {
       standing = beside_response(std::move(standing));
       if (standing.score != before) continue;
     }
-    const bool pays = best->score > standing.score + least_gain(standing, band_of_last(*best));
+    const bool pays = best->score > standing.score + least_gain(standing, *best);
     auto next = pays ? *best : two_further(standing, std::move(tried));
     if (next.score <= standing.score) break;
     motion_has_changed |= band_of_last(next) == EffectBand::motion;

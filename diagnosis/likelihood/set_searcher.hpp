@@ -67,8 +67,9 @@ class SetSearcher {
   /// The best of the sets with two more effects, neither of which pays alone: where both are slow,
   /// one leaves to the walk what hides it. The standing itself where there is none better.
   Standing two_further(const Standing& standing, std::vector<Standing> tried);
-  /// Of a further effect of the band.
+  /// Of a further effect of the band, or of the last of the set `with` one more.
   double least_gain(const Standing& standing, EffectBand band) const;
+  double least_gain(const Standing& standing, const Standing& with) const;
   /// Whether samples are masked that a response in time shows in.
   bool hides_response() const {
     return !hidden_from_response_.empty() && bench_.masked() != hidden_from_response_;
