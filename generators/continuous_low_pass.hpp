@@ -1,13 +1,25 @@
 #pragma once
 
+#include <complex>
 #include <cstddef>
+#include <vector>
 
 #include <Eigen/Core>
 
 namespace gyrostat {
 
-/// A low-pass filter of continuous time: equal poles, each with its half power at the cutoff, or
-/// Butterworth's. From one sample to the next the input is a cubic, over which the linear system of
+/// A low-pass filter of continuous time, x' = A x + b u with the output x[output], time in samples:
+/// equal poles, each with its half power at the cutoff, or Butterworth's.
+struct LowPassSystem {
+  LowPassSystem(double cycles_a_sample, std::size_t poles, bool maximally_flat);
+
+  std::vector<std::complex<double>> poles;
+  Eigen::MatrixXd A;
+  Eigen::VectorXd b;
+  Eigen::Index output = 0;
+};
+
+/// The same of a rate that is a cubic from one sample to the next, over which the linear system of
 /// the filter and the cubic's derivatives is integrated exactly (Van Loan, "Computing integrals
 /// involving the matrix exponential", IEEE Trans. Automatic Control 23, 1978). It begins at rest.
 class ContinuousLowPass {

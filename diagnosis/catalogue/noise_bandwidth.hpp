@@ -9,7 +9,8 @@
 
 namespace gyrostat::gap {
 
-/// Noise through a low-pass filter of one, two or four poles, each a start of its own.
+/// Noise through a low-pass filter of one, two or four poles, or of two before it was sampled, each
+/// a start of its own.
 template <>
 struct Diagnosed<effects::NoiseBandwidth> {
   static constexpr auto signature = Signature::none;
@@ -24,6 +25,10 @@ struct Diagnosed<effects::NoiseBandwidth> {
           all.push_back(
               {share * beside.conditions.rate_hz() * (flat > 0.5 ? 1.0 : std::sqrt(poles)), poles,
                flat});
+    for (const double flat : {0.0, 1.0})
+      for (const double share : {0.15, 0.4, 0.8})
+        all.push_back({share * beside.conditions.rate_hz() * (flat > 0.5 ? 1.0 : std::sqrt(2.0)),
+                       2.0, flat, 1.0});
     return all;
   }
 

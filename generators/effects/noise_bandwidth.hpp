@@ -11,18 +11,21 @@
 #include <gyrostat/core/series.hpp>
 #include <gyrostat/generators/butterworth.hpp>
 #include <gyrostat/generators/sampled.hpp>
+#include <gyrostat/generators/sampled_low_pass.hpp>
 #include <gyrostat/generators/stage.hpp>
 
 namespace gyrostat::effects {
 
 /// An output filter of unit gain at rest colours the white noise (IEEE Std 1554, bandwidth): equal
 /// poles, each exact between samples, or Butterworth's of the same order by the bilinear transform
-/// (Oppenheim and Schafer, "Discrete-Time Signal Processing", 3rd ed., 7.2). The noise keeps its
-/// density well below the cutoff.
+/// (Oppenheim and Schafer, "Discrete-Time Signal Processing", 3rd ed., 7.2); or either in
+/// continuous time before noise is sampled, of which what is above half the sampling rate is folded
+/// below it. The noise keeps its density well below the cutoff.
 struct NoiseBandwidth {
   double cutoff_hz = 20.0;
   double poles = 1.0;
   double maximally_flat = 0.0;
+  double continuous = 0.0;
 
   static constexpr std::string_view title = "an output filter colours the white noise";
   static constexpr Stage stage = Stage::noise;
@@ -38,6 +41,8 @@ struct NoiseBandwidth {
               "how many poles"},
         Field{"maximally_flat", &P::maximally_flat, "1", Range{.from = 0, .to = 1, .whole = true},
               "1: Butterworth's poles; 0: equal ones"},
+        Field{"continuous", &P::continuous, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: before sampling, of four poles at most; 0: a recursion over samples"},
     };
   }
 
@@ -55,9 +60,15 @@ struct NoiseBandwidth {
         series.gyro_dps[i] += passed(i, white) - white;
       }
     };
+    const double cycles = cutoff_hz * series.duration_s() / static_cast<double>(samples - 1);
+    if (is_folded()) {
+      SampledLowPass before_sampling(cycles, std::min(count, SampledLowPass::most_poles),
+                                     maximally_flat > 0.5);
+      filter([&](std::size_t /*i*/, double white) { return before_sampling(white); });
+      return;
+    }
     if (maximally_flat > 0.5) {
-      Butterworth butterworth(cutoff_hz * series.duration_s() / static_cast<double>(samples - 1),
-                              count);
+      Butterworth butterworth(cycles, count);
       filter([&](std::size_t /*i*/, double white) { return butterworth(white); });
       return;
     }
@@ -76,6 +87,13 @@ struct NoiseBandwidth {
   /// Multiplies by |H|² at angles (radians a sample), where a sampling interval is `interval_s`.
   void multiply_gain(std::span<const double> angles, std::span<const double> cosines,
                      double interval_s, std::span<double> gain) const {
+    if (is_folded()) {
+      const double count = std::min(poles, static_cast<double>(SampledLowPass::most_poles));
+      for (std::size_t k = 0; k < gain.size(); ++k)
+        gain[k] *= folded_gain(0.5 * angles[k] / std::numbers::pi, cutoff_hz * interval_s, count,
+                               maximally_flat > 0.5);
+      return;
+    }
     if (maximally_flat > 0.5) {
       if (cutoff_hz * interval_s >= 0.5) return;
       const double edge = std::tan(std::numbers::pi * cutoff_hz * interval_s);
@@ -90,6 +108,10 @@ struct NoiseBandwidth {
       gain[k] *= poles == 1.0 ? of_one : std::pow(of_one, poles);
     }
   }
+
+ private:
+  /// One pole is, sampled, a recursion.
+  bool is_folded() const { return continuous > 0.5 && (poles > 1.5 || maximally_flat > 0.5); }
 };
 
 }  // namespace gyrostat::effects

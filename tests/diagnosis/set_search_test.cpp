@@ -65,6 +65,10 @@ INSTANTIATE_TEST_SUITE_P(
         Known{"filtered",
               {effects::NoiseBandwidth{2.0, 2.0, 1.0}, effects::GaussMarkov{0.02, 15.0},
                effects::RateRamp{5e-4}}},
+        Known{"sampled",
+              {effects::NoiseBandwidth{
+                   .cutoff_hz = 7.0, .poles = 2.0, .maximally_flat = 1.0, .continuous = 1.0},
+               effects::GaussMarkov{0.02, 15.0}}},
         Known{"angle",
               {effects::NoiseBandwidth{5.0, 2.0, 1.0},
                effects::AngleQuantization{.coefficient_deg = 8e-4},

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -101,6 +103,35 @@ TEST(NoiseBandwidth, PolesFollowOneAnother) {
                 4.0 * std::sqrt(2.0 * power_of_power / n))
         << poles;
   }
+}
+
+// The spectrum of what a unit impulse leaves, against the folded filter's, of 2000 folds.
+TEST(SampledLowPass, HasTheFoldedDensityOfItsFilter) {
+  for (const std::size_t poles : {2, 3, 4})
+    for (const bool flat : {false, true})
+      for (const double cutoff : {0.08, 0.3, 0.45, 0.9}) {
+        SampledLowPass filter(cutoff, poles, flat);
+        std::vector<double> response;
+        for (int i = 0; i < 400; ++i) response.push_back(filter(i == 0 ? 1.0 : 0.0));
+        const auto folded = [&](double at) {
+          double sum = 0.0;
+          for (int fold = -2000; fold <= 2000; ++fold) {
+            const double square = std::pow((at + fold) / cutoff, 2.0);
+            const double n = static_cast<double>(poles);
+            sum += flat ? 1.0 / (1.0 + std::pow(square, n)) : std::pow(1.0 + square, -n);
+          }
+          return sum;
+        };
+        for (const double at : {0.01, 0.1, 0.3, 0.5}) {
+          std::complex<double> sum = 0.0;
+          for (std::size_t i = 0; i < response.size(); ++i)
+            sum += response[i] *
+                   std::polar(1.0, -2.0 * std::numbers::pi * at * static_cast<double>(i));
+          const double gain = folded(at) / folded(0.0);
+          EXPECT_NEAR(std::norm(sum), gain, 1e-6) << poles << flat << ' ' << cutoff << ' ' << at;
+          EXPECT_NEAR(folded_gain(at, cutoff, static_cast<double>(poles), flat), gain, 2e-3 * gain);
+        }
+      }
 }
 
 // Squares of one normal deviate a trial: relative standard error sqrt(2 / trials).

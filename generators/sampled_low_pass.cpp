@@ -1,0 +1,132 @@
+#include <gyrostat/generators/sampled_low_pass.hpp>
+
+#include <cmath>
+#include <complex>
+
+#include <gyrostat/core/numerics/dense.hpp>
+#include <gyrostat/generators/continuous_low_pass.hpp>
+
+namespace gyrostat {
+namespace {
+
+/// Autocovariance at lags 0, 1, ... of the output while white noise of unit density drives it.
+std::vector<double> autocovariance_of(const LowPassSystem& filter, std::size_t lags) {
+  const Eigen::Index order = filter.A.rows();
+  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(2 * order, 2 * order);
+  both.topLeftCorner(order, order) = -filter.A;
+  both.topRightCorner(order, order) = filter.b * filter.b.transpose();
+  both.bottomRightCorner(order, order) = filter.A.transpose();
+  const Eigen::MatrixXd over = matrix_exponential(both);
+  const Eigen::MatrixXd transition = over.bottomRightCorner(order, order).transpose();
+  Eigen::MatrixXd covariance = transition * over.topRightCorner(order, order), power = transition;
+  // Sums of twice as many intervals at a time.
+  for (int doubling = 0; doubling < 40; ++doubling) {
+    covariance += (power * covariance * power.transpose()).eval();
+    power = (power * power).eval();
+  }
+  Eigen::VectorXd row = covariance.col(filter.output);
+  std::vector<double> all;
+  for (std::size_t lag = 0; lag < lags; ++lag) {
+    all.push_back(row[filter.output]);
+    row = (transition * row).eval();
+  }
+  return all;
+}
+
+/// 1, a1, a2, ... whose roots are those of the filter over an interval.
+std::vector<double> autoregression_of(const LowPassSystem& filter) {
+  std::vector<std::complex<double>> polynomial = {1.0};
+  for (const auto& pole : filter.poles) {
+    polynomial.emplace_back(0.0);
+    for (std::size_t k = polynomial.size(); --k > 0;)
+      polynomial[k] -= std::exp(pole) * polynomial[k - 1];
+  }
+  std::vector<double> a;
+  for (const auto& value : polynomial) a.push_back(value.real());
+  return a;
+}
+
+/// The invertible moving average with this autocovariance, by the innovations of ever more samples
+/// (Brockwell and Davis, "Time Series: Theory and Methods", 2nd ed., 5.2).
+std::vector<double> moving_average_of(const std::vector<double>& autocovariance) {
+  const std::size_t order = autocovariance.size() - 1;
+  constexpr std::size_t samples = 400;
+  std::vector<std::vector<double>> shares;  // of the innovation so many samples before
+  std::vector<double> variances;
+  for (std::size_t n = 0; n < samples; ++n) {
+    std::vector<double> share(order + 1, 0.0);
+    double variance = autocovariance[0];
+    for (std::size_t lag = std::min(n, order); lag > 0; --lag) {
+      const std::size_t k = n - lag;
+      double sum = autocovariance[lag];
+      for (std::size_t further = lag + 1; further <= std::min(n, order); ++further)
+        sum -= shares[k][further - lag] * share[further] * variances[n - further];
+      share[lag] = sum / variances[k];
+      variance -= share[lag] * share[lag] * variances[k];
+    }
+    share[0] = 1.0;
+    shares.push_back(std::move(share));
+    variances.push_back(variance);
+  }
+  auto b = shares.back();
+  for (double& value : b) value *= std::sqrt(variances.back());
+  return b;
+}
+
+}  // namespace
+
+SampledLowPass::SampledLowPass(double cycles_a_sample, std::size_t poles, bool maximally_flat) {
+  const LowPassSystem filter(cycles_a_sample, poles, maximally_flat);
+  a_ = autoregression_of(filter);
+  const auto r = autocovariance_of(filter, 2 * poles);
+  std::vector<double> left(poles, 0.0);  // what the autoregression makes of it: no further lags
+  for (std::size_t lag = 0; lag < poles; ++lag)
+    for (std::size_t i = 0; i <= poles; ++i)
+      for (std::size_t k = 0; k <= poles; ++k)
+        left[lag] += a_[i] * a_[k] * r[lag + k > i ? lag + k - i : i - lag - k];
+  b_ = moving_average_of(left);
+  double above = 0.0, below = 0.0;
+  for (const double b : b_) above += b;
+  for (const double a : a_) below += a;
+  for (double& b : b_) b *= below / above;
+  a_.erase(a_.begin());
+  inputs_.assign(b_.size(), 0.0);
+  outputs_.assign(a_.size(), 0.0);
+}
+
+double SampledLowPass::operator()(double white) {
+  const auto shift_in = [](std::vector<double>& values, double value) {
+    for (std::size_t k = values.size(); --k > 0;) values[k] = values[k - 1];
+    values[0] = value;
+  };
+  shift_in(inputs_, white);
+  double out = 0.0;
+  for (std::size_t k = 0; k < b_.size(); ++k) out += b_[k] * inputs_[k];
+  for (std::size_t k = 0; k < a_.size(); ++k) out -= a_[k] * outputs_[k];
+  shift_in(outputs_, out);
+  return out;
+}
+
+double folded_gain(double cycles, double cutoff_cycles, double poles, bool maximally_flat) {
+  constexpr int folds = 3;
+  const auto sum_at = [&](double at) {
+    double sum = 0.0;
+    for (int fold = -folds; fold <= folds; ++fold) {
+      const double x = (at + fold) / cutoff_cycles, square = x * x;
+      if (poles == 2.0)
+        sum += maximally_flat ? 1.0 / (1.0 + square * square)
+                              : 1.0 / ((1.0 + square) * (1.0 + square));
+      else
+        sum +=
+            maximally_flat ? 1.0 / (1.0 + std::pow(square, poles)) : std::pow(1.0 + square, -poles);
+    }
+    // Of all further ones, by the integral over half a fold each side.
+    constexpr double first = folds + 0.5;
+    const double power = 2.0 * poles;
+    return sum +
+           2.0 * std::pow(cutoff_cycles, power) * std::pow(first, 1.0 - power) / (power - 1.0);
+  };
+  return sum_at(cycles) / sum_at(0.0);
+}
+
+}  // namespace gyrostat

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace gyrostat {
+
+/// White noise as samples show it that are taken after a filter of continuous time, which what is
+/// above half their rate passes, too: an autoregressive moving average of white samples, with unit
+/// gain at rest (Astrom, "Introduction to Stochastic Control Theory", 1970, 3.10: the poles are
+/// those of the filter over an interval, the moving average is the factor of what they leave).
+class SampledLowPass {
+ public:
+  /// `poles` from 1 to 4: beyond, the moving average is lost in rounding.
+  SampledLowPass(double cycles_a_sample, std::size_t poles, bool maximally_flat);
+
+  double operator()(double white);
+
+  static constexpr std::size_t most_poles = 4;
+
+ private:
+  std::vector<double> a_, b_;  ///< from lag 1, and from lag 0 on
+  std::vector<double> inputs_, outputs_;
+};
+
+/// |H|^2 of its density over that at rest: the filter's, folded at half the sampling rate.
+double folded_gain(double cycles, double cutoff_cycles, double poles, bool maximally_flat);
+
+}  // namespace gyrostat
