@@ -107,26 +107,31 @@ double SampledLowPass::operator()(double white) {
   return out;
 }
 
-double folded_gain(double cycles, double cutoff_cycles, double poles, bool maximally_flat) {
-  constexpr int folds = 3;
-  const auto sum_at = [&](double at) {
-    double sum = 0.0;
-    for (int fold = -folds; fold <= folds; ++fold) {
-      const double x = (at + fold) / cutoff_cycles, square = x * x;
-      if (poles == 2.0)
-        sum += maximally_flat ? 1.0 / (1.0 + square * square)
-                              : 1.0 / ((1.0 + square) * (1.0 + square));
-      else
-        sum +=
-            maximally_flat ? 1.0 / (1.0 + std::pow(square, poles)) : std::pow(1.0 + square, -poles);
-    }
-    // Of all further ones, by the integral over half a fold each side.
-    constexpr double first = folds + 0.5;
-    const double power = 2.0 * poles;
-    return sum +
-           2.0 * std::pow(cutoff_cycles, power) * std::pow(first, 1.0 - power) / (power - 1.0);
-  };
-  return sum_at(cycles) / sum_at(0.0);
+namespace {
+
+constexpr int folds = 3;
+
+}  // namespace
+
+FoldedGain::FoldedGain(double cutoff_cycles, std::size_t poles, bool maximally_flat)
+    : cutoff_cycles_(cutoff_cycles), poles_(poles), maximally_flat_(maximally_flat) {
+  // All further ones, by the integral from half a fold on.
+  constexpr double first = folds + 0.5;
+  const double power = 2.0 * static_cast<double>(poles);
+  further_ = 2.0 * std::pow(cutoff_cycles, power) * std::pow(first, 1.0 - power) / (power - 1.0);
+  at_rest_ = sum_at(0.0);
+}
+
+double FoldedGain::sum_at(double cycles) const {
+  double sum = further_;
+  for (int fold = -folds; fold <= folds; ++fold) {
+    const double x = (cycles + fold) / cutoff_cycles_;
+    const double base = maximally_flat_ ? x * x : 1.0 + x * x;
+    double power = base;
+    for (std::size_t k = 1; k < poles_; ++k) power *= base;
+    sum += 1.0 / (maximally_flat_ ? 1.0 + power : power);
+  }
+  return sum;
 }
 
 }  // namespace gyrostat

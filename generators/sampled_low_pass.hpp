@@ -24,6 +24,19 @@ class SampledLowPass {
 };
 
 /// |H|^2 of its density over that at rest: the filter's, folded at half the sampling rate.
-double folded_gain(double cycles, double cutoff_cycles, double poles, bool maximally_flat);
+class FoldedGain {
+ public:
+  FoldedGain(double cutoff_cycles, std::size_t poles, bool maximally_flat);
+
+  double operator()(double cycles) const { return sum_at(cycles) / at_rest_; }
+
+ private:
+  double sum_at(double cycles) const;
+
+  double cutoff_cycles_;
+  std::size_t poles_;
+  bool maximally_flat_;
+  double further_ = 0.0, at_rest_ = 1.0;
+};
 
 }  // namespace gyrostat

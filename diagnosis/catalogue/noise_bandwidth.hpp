@@ -26,7 +26,7 @@ struct Diagnosed<effects::NoiseBandwidth> {
               {share * beside.conditions.rate_hz() * (flat > 0.5 ? 1.0 : std::sqrt(poles)), poles,
                flat});
     for (const double flat : {0.0, 1.0})
-      for (const double share : {0.15, 0.4, 0.8})
+      for (const double share : {0.2, 0.6})
         all.push_back({share * beside.conditions.rate_hz() * (flat > 0.5 ? 1.0 : std::sqrt(2.0)),
                        2.0, flat, 1.0});
     return all;

@@ -21,17 +21,21 @@ double log_ratio(double seen, double power) {
 
 }  // namespace
 
+double Wandering::step_hz() const {
+  return is_anywhere() ? std_hz : std_hz * std::sqrt(-std::expm1(-2.0 / memory_blocks));
+}
+
 FrequencyTrack::FrequencyTrack(const BlockPowers& blocks, const Wandering& wandering)
     : blocks_(blocks) {
   const std::size_t count = 2 * blocks.bins() - 1;
   const double state_hz = 0.5 * blocks.resolution_hz;
   // What a state stands for has a width.
   const auto widened = [&](double std_hz) { return std::hypot(std_hz, 0.6 * state_hz); };
-  double step_hz = widened(wandering.std_hz), stay = 1.0;
+  const double step_hz = widened(wandering.step_hz());
+  double stay = 1.0;
   first_.assign(count, 1.0 / static_cast<double>(count));
   if (!wandering.is_anywhere()) {
     stay = std::exp(-1.0 / wandering.memory_blocks);
-    step_hz = widened(wandering.std_hz * std::sqrt((1.0 - stay) * (1.0 + stay)));
     double sum = 0.0;
     for (std::size_t s = 0; s < count; ++s)
       sum += first_[s] = bell(frequency_hz(s) - wandering.centre_hz, widened(wandering.std_hz));

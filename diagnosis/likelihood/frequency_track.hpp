@@ -15,6 +15,8 @@ struct Wandering {
 
   static Wandering anywhere(double step_hz) { return {0.0, step_hz, 0.0}; }
   bool is_anywhere() const { return memory_blocks == 0.0; }
+  /// Standard deviation of the frequency given the one before.
+  double step_hz() const;
 };
 
 /// A sine of constant power in noise, whose frequency is a hidden Markov chain over half bins

@@ -38,8 +38,18 @@ LineTrack track_in_blocks(const Conditions& conditions, const std::vector<double
   constexpr std::array<double, 3> of_half_bandwidth = {0.7, 1.2, 2.0};
   constexpr std::array<double, 5> memories = {1.0, 3.0, 10.0, 30.0, 100.0};
   constexpr std::array<double, 5> of_amplitude = {0.7, 0.85, 1.0, 1.15, 1.3};
+  // What moves through more bins from one block to the next stands in none within one.
+  constexpr double farthest = 2.0;
   LineTrack best;
   const double half_hz = 0.5 * band.bandwidth_hz;
+  const double resolution_hz = conditions.rate_hz() / static_cast<double>(length);
+  std::vector<Wandering> ways;
+  for (const double share : of_half_bandwidth)
+    for (const double memory : memories) {
+      const Wandering way{band.centre_hz, share * half_hz, memory};
+      if (way.step_hz() <= farthest * resolution_hz) ways.push_back(way);
+    }
+  if (ways.empty()) return best;
   const auto blocks = block_powers(conditions, left, noise, length, band.centre_hz,
                                    reach * of_half_bandwidth.back() * half_hz);
   if (blocks.bins() < 3 || blocks.told() < fewest_blocks) return best;
@@ -63,11 +73,7 @@ LineTrack track_in_blocks(const Conditions& conditions, const std::vector<double
               {amplitude, wandering.centre_hz, wandering.std_hz,
                wandering.memory_blocks * blocks.interval_s}};
   };
-  for (const double share : of_half_bandwidth)
-    for (const double memory : memories) {
-      const Wandering wandering{band.centre_hz, share * half_hz, memory};
-      keep(wandering, {blocks, wandering}, amplitude_dps);
-    }
+  for (const auto& way : ways) keep(way, {blocks, way}, amplitude_dps);
   if (best.over_band == 0.0) return best;
   const Wandering wandering{best.line.frequency_hz, best.line.wander_hz,
                             best.line.correlation_time_s / blocks.interval_s};

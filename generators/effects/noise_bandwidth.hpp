@@ -62,8 +62,7 @@ struct NoiseBandwidth {
     };
     const double cycles = cutoff_hz * series.duration_s() / static_cast<double>(samples - 1);
     if (is_folded()) {
-      SampledLowPass before_sampling(cycles, std::min(count, SampledLowPass::most_poles),
-                                     maximally_flat > 0.5);
+      SampledLowPass before_sampling(cycles, sampled_poles(), maximally_flat > 0.5);
       filter([&](std::size_t /*i*/, double white) { return before_sampling(white); });
       return;
     }
@@ -88,10 +87,9 @@ struct NoiseBandwidth {
   void multiply_gain(std::span<const double> angles, std::span<const double> cosines,
                      double interval_s, std::span<double> gain) const {
     if (is_folded()) {
-      const double count = std::min(poles, static_cast<double>(SampledLowPass::most_poles));
+      const FoldedGain folded(cutoff_hz * interval_s, sampled_poles(), maximally_flat > 0.5);
       for (std::size_t k = 0; k < gain.size(); ++k)
-        gain[k] *= folded_gain(0.5 * angles[k] / std::numbers::pi, cutoff_hz * interval_s, count,
-                               maximally_flat > 0.5);
+        gain[k] *= folded(0.5 * angles[k] / std::numbers::pi);
       return;
     }
     if (maximally_flat > 0.5) {
@@ -110,6 +108,10 @@ struct NoiseBandwidth {
   }
 
  private:
+  std::size_t sampled_poles() const {
+    return static_cast<std::size_t>(
+        std::clamp(std::lround(poles), 1L, static_cast<long>(SampledLowPass::most_poles)));
+  }
   /// One pole is, sampled, a recursion.
   bool is_folded() const { return continuous > 0.5 && (poles > 1.5 || maximally_flat > 0.5); }
 };

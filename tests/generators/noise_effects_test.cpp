@@ -129,7 +129,7 @@ TEST(SampledLowPass, HasTheFoldedDensityOfItsFilter) {
                    std::polar(1.0, -2.0 * std::numbers::pi * at * static_cast<double>(i));
           const double gain = folded(at) / folded(0.0);
           EXPECT_NEAR(std::norm(sum), gain, 1e-6) << poles << flat << ' ' << cutoff << ' ' << at;
-          EXPECT_NEAR(folded_gain(at, cutoff, static_cast<double>(poles), flat), gain, 2e-3 * gain);
+          EXPECT_NEAR(FoldedGain(cutoff, poles, flat)(at), gain, 2e-3 * gain);
         }
       }
 }
