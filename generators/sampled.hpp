@@ -20,16 +20,6 @@ std::size_t samples_with(const Series& series,
   return samples;
 }
 
-/// Slope at sample i, by the sample: of the quartic through five, near an end of the parabola or
-/// line through those that there are.
-inline double slope_at(const std::vector<double>& values, std::size_t i) {
-  const std::size_t last = values.size() - 1;
-  if (i >= 2 && i + 2 <= last)
-    return (8.0 * (values[i + 1] - values[i - 1]) - (values[i + 2] - values[i - 2])) / 12.0;
-  const std::size_t from = i == 0 ? 0 : i - 1, to = std::min(i + 1, last);
-  return (values[to] - values[from]) / static_cast<double>(std::max<std::size_t>(to - from, 1));
-}
-
 /// What the gyro of sample i is beside the true rate, thermal drift and random error: all that
 /// there is of white noise while that alone has been added.
 inline double error_beside_drift(const Series& series, std::size_t i) {

@@ -85,13 +85,16 @@ struct SensorBandwidth {
   }
 
  private:
-  /// Between samples a cubic with the slopes at both, as in TimeOffset.
+  /// Between samples a cubic with the slopes of their neighbours, as in TimeOffset.
   static void run_on(Series& series, std::size_t samples, ContinuousLowPass sensed) {
     const auto& rate = series.rate_ref_dps;
+    const auto slope = [&](std::size_t i) {
+      return 0.5 * (rate[std::min(i + 1, samples - 1)] - rate[i == 0 ? 0 : i - 1]);
+    };
     for (std::size_t i = 1; i < samples; ++i)
-      series.gyro_dps[i] += rate[0] - rate[i] +
-                            sensed(rate[i - 1] - rate[0], rate[i] - rate[0], slope_at(rate, i - 1),
-                                   slope_at(rate, i));
+      series.gyro_dps[i] +=
+          rate[0] - rate[i] +
+          sensed(rate[i - 1] - rate[0], rate[i] - rate[0], slope(i - 1), slope(i));
   }
 
   void average(Series& series, std::size_t samples) const {

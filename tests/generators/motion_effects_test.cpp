@@ -97,7 +97,7 @@ TEST(SensorBandwidth, OfAMeanOverUnevenIntervalsIsTheMean) {
 }
 
 /// At s = 2 pi i f a pole has 1 / (1 + s / w), Butterworth's two w^2 / (s^2 + sqrt(2) w s + w^2),
-/// his third 1 / (1 + s / w) more with a damping of 1. The cubic between samples is within 5e-5 of
+/// his third 1 / (1 + s / w) more with a damping of 1. The cubic between samples is within 1e-3 of
 /// a sine of a twentieth of the sampling rate.
 TEST(SensorBandwidth, OfContinuousTimeHasTheResponseOfItsPoles) {
   using namespace std::complex_literals;
@@ -126,7 +126,7 @@ TEST(SensorBandwidth, OfContinuousTimeHasTheResponseOfItsPoles) {
         for (std::size_t i = 1500; i < 1990; ++i) {
           const auto turning =
               std::polar(1.0, 2.0 * std::numbers::pi * hz * 0.01 * static_cast<double>(i));
-          ASSERT_NEAR(z[i], (response * turning).imag(), 5e-5)
+          ASSERT_NEAR(z[i], (response * turning).imag(), 1e-3)
               << form.poles << form.flat << cutoff_hz << ' ' << hz << ' ' << i;
         }
       }
@@ -183,8 +183,8 @@ TEST(Saturation, ClipsAtBothLimitsAndPassesWhatLiesBetweenAndGaps) {
 }
 
 TEST(Saturation, MayHaveAnotherLimitBelowZero) {
-  const auto z = sensed(effects::Saturation{.limit_dps = 30.0, .below_dps = 40.0},
-                        {29.0, 31.0, -31.0, -41.0});
+  const auto z =
+      sensed(effects::Saturation{.limit_dps = 30.0, .below_dps = 40.0}, {29.0, 31.0, -31.0, -41.0});
   EXPECT_EQ(z, (std::vector<double>{29.0, 30.0, -31.0, -40.0}));
 }
 
@@ -317,14 +317,14 @@ TEST(TimeOffset, OfAParabolaIsExactBetweenSamples) {
   }
 }
 
-TEST(TimeOffset, OfASineOfAnEighthOfTheSamplingRateIsWithinAThirdOfAPerCent) {
+TEST(TimeOffset, OfASineOfAnEighthOfTheSamplingRateIsWithinAPerCent) {
   std::vector<double> sine;
   const double turn = 2.0 * std::numbers::pi / 8.0;
   for (int i = 0; i < 200; ++i) sine.push_back(std::sin(turn * i));
   for (const double samples : {0.1, 0.25, 0.5, 0.8, -0.5, 7.4}) {
     const auto z = sensed(effects::TimeOffset{.offset_s = 0.01 * samples}, sine);
     for (int i = 20; i < 180; ++i)
-      EXPECT_NEAR(z[i], std::sin(turn * (i - samples)), 0.003) << samples << " samples at " << i;
+      EXPECT_NEAR(z[i], std::sin(turn * (i - samples)), 0.01) << samples << " samples at " << i;
   }
 }
 
