@@ -16,7 +16,10 @@ struct Diagnosed<effects::NoiseBandwidth> {
   static constexpr auto signature = Signature::none;
   static constexpr std::array free_parameters = {&effects::NoiseBandwidth::cutoff_hz};
 
-  static std::size_t chosen_parameters(const effects::NoiseBandwidth& /*effect*/) { return 1; }
+  /// Its poles are, and of what time it is.
+  static std::size_t chosen_parameters(const effects::NoiseBandwidth& effect) {
+    return effect.continuous > 0.5 ? 2 : 1;
+  }
   static std::vector<effects::NoiseBandwidth> guesses(const Beside& beside) {
     std::vector<effects::NoiseBandwidth> all;
     for (const double flat : {0.0, 1.0})
