@@ -57,7 +57,7 @@ std::string closeness(const Diagnosis& d) {
 }
 
 std::string what_is_left_in_words(const Diagnosis& d) {
-  return d.p_after < thresholds::p_of_the_unexplained
+  return std::min(d.p_after, p_of_the_oddest(d.unexplained)) < thresholds::p_of_the_unexplained
              ? " It still misses the recording by more than chance: something else is there, "
                "besides or instead."
              : "";

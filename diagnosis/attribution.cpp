@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
@@ -164,7 +165,11 @@ void Diagnosing::attribute() {
   const bool misses = after.deficit() > thresholds::deficit_of_a_miss ||
                       result_.p_after < thresholds::strictness_after * options_.significance;
   const bool open = result_.recovered < thresholds::recovery && misses;
-  const bool unexplained = (open && !only_the_compass_is_left()) || found_.nameless_log_odds > 0.0;
+  const double p_left = p_of_the_oddest(found_.unexplained);
+  const bool is_no_form = p_left < thresholds::p_of_the_unknown &&
+                          -std::log(p_left) > thresholds::share_of_form * found_.gain;
+  const bool unexplained =
+      (open && !only_the_compass_is_left()) || is_no_form || found_.nameless_log_odds > 0.0;
   result_.verdict =
       unexplained ? Verdict::unknown() : Verdict::cause(result_.effects.front().effect);
   if (unexplained) cannot_rule_out(Verdict::unknown());
@@ -172,7 +177,7 @@ void Diagnosing::attribute() {
   for (const auto& rival : found_.rivals)
     if (probability_of(rival.log_odds) >= thresholds::member_probability)
       cannot_rule_out(Verdict::cause(rival.effect));
-  if (open || result_.p_after < thresholds::p_of_the_unexplained)
+  if (open || std::min(result_.p_after, p_left) < thresholds::p_of_the_unexplained)
     cannot_rule_out(Verdict::unknown());
   for (const auto& effect : result_.effects) {
     const auto scenario = with_effects({effect.effect});

@@ -79,8 +79,6 @@ class Diagnosing {
   void see_what_is_left();
   /// What effects of the rate leave is seen in the heading alone: it casts no doubt on them.
   bool only_the_compass_is_left() const;
-  /// Of all ways in which the set leaves something unexplained, Bonferroni's bound.
-  double p_unexplained() const;
   /// With what has no name.
   void complete();
   void measure_shrinkage();

@@ -79,9 +79,10 @@ void Diagnosing::localise() {
   result_.unexplained = found_.unexplained;
   constexpr double level_of_odds =
       1.0 - thresholds::level_of_lenses - thresholds::level_of_unexplained;
-  result_.p_before = std::min({1.0, result_.p_after / thresholds::level_of_lenses,
-                               p_unexplained() / thresholds::level_of_unexplained,
-                               std::exp(-most_odds) / level_of_odds});
+  result_.p_before =
+      std::min({1.0, result_.p_after / thresholds::level_of_lenses,
+                p_of_the_oddest(found_.unexplained) / thresholds::level_of_unexplained,
+                std::exp(-most_odds) / level_of_odds});
   result_.where = departures_of(*train_);
   took("localisation");
 }
@@ -128,12 +129,6 @@ Scenario Diagnosing::with_effects(std::vector<std::string> names) {
   if (has(result_.enriched, nameless_compass) && !has(scenario, nameless_compass))
     scenario.compass.noise_std_deg = result_.baseline.compass.noise_std_deg;
   return scenario;
-}
-
-double Diagnosing::p_unexplained() const {
-  double least = 1.0;
-  for (const auto& u : found_.unexplained) least = std::min(least, u.p_value);
-  return std::min(1.0, least * static_cast<double>(found_.unexplained.size()));
 }
 
 /// Only where something is open: a rival, or what nothing explains.

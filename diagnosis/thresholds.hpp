@@ -25,9 +25,10 @@ inline constexpr double deficit_of_a_miss = 4.0;
 /// So many times stricter than the significance of the gap is that of what is left of it. The
 /// causes were fitted, and their form is not exactly nature's; "unknown" is for more than that.
 inline constexpr double strictness_after = 0.05;
-/// Where what names leave would come about by chance less often than this, unknown is beside them,
-/// and first where it is more than a form of nature's own.
-inline constexpr double p_of_the_unexplained = 0.01;
+/// Where what names leave would come about by chance less often than this, unknown is beside them;
+/// and first where the likelihood sees it ten times as clearly and as more than a form of nature's
+/// own.
+inline constexpr double p_of_the_unexplained = 0.01, p_of_the_unknown = 0.001;
 /// What a form of nature's own leaves, of what the set gained.
 inline constexpr double share_of_form = 0.01;
 /// Log odds above which an effect is not doubted because readings do not show it: 99 to 1.

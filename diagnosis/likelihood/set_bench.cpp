@@ -11,6 +11,14 @@
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 
 namespace gyrostat::gap {
+namespace {
+
+std::ptrdiff_t missing_in(const std::vector<double>& values) {
+  return std::count_if(values.begin(), values.end(), [](double v) { return is_missing(v); });
+}
+
+}  // namespace
+
 bool has(const Scenario& scenario, std::string_view effect) {
   return std::any_of(scenario.effects.begin(), scenario.effects.end(),
                      [&](const auto& e) { return e.id() == effect; });
@@ -32,6 +40,7 @@ SetBench::SetBench(const Simulator& simulator, const Series& recording,
   Series bare;
   synthesise_rate_under(plain(), conditions_.series(), {}, bare);
   plain_gyro_dps_ = std::move(bare.gyro_dps);
+  missing_ = missing_in(rate_error_beside(plain()));
 }
 
 bool SetBench::is_allowed(std::string_view effect) const {
@@ -102,16 +111,22 @@ std::vector<double> SetBench::rate_error_beside(const Scenario& scenario) const 
 
 std::shared_ptr<const SetFitter> SetBench::fitter_of(const Scenario& scenario) const {
   simulator_.interrupt().check();
-  return std::make_shared<SetFitter>(
-      conditions_,
-      std::make_shared<const ReducedRate>(conditions_, rate_error_beside(scenario), grid_),
-      simulator_.interrupt());
+  const auto error = rate_error_beside(scenario);
+  // Likelihoods of other samples are not to be compared.
+  constexpr double most_lost = 0.01;
+  if (static_cast<double>(missing_in(error) - missing_) >
+      most_lost * static_cast<double>(error.size()))
+    return nullptr;
+  return std::make_shared<SetFitter>(conditions_,
+                                     std::make_shared<const ReducedRate>(conditions_, error, grid_),
+                                     simulator_.interrupt());
 }
 
 Standing SetBench::fitted(const Scenario& scenario, std::shared_ptr<const SetFitter> fitter,
                           int iterations, Jumping jumping) const {
   // Not one initialiser beside others: where it throws, GCC 12 -O3 destroys those before it twice.
   Standing s;
+  if (!fitter) return s;
   s.fit = fitter->maximise(scenario, iterations, jumping);
   s.fitter = std::move(fitter);
   s.scenario = s.fit.scenario;
@@ -240,6 +255,7 @@ Standing SetBench::beside_noise(std::vector<Effect> effects) const {
   Scenario scenario = plain();
   scenario.effects = std::move(effects);
   const auto fitter = fitter_of(scenario);
+  if (!fitter) return {};
   const double first = std::max(fitter->reduced().white_std_dps(), 1e-9);
   scenario.random_error.measurement_noise_std_dps = first;
   // A walk far below the noise, and one that an unmodelled motion would call for.

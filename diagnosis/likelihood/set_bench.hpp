@@ -100,6 +100,7 @@ class SetBench {
   /// The recording's gyro without what is the same in every replica of the scenario.
   std::vector<double> gyro_beside(const Scenario& scenario) const;
   std::vector<double> rate_error_beside(const Scenario& scenario) const;
+  /// None where the scenario leaves other samples than the recording has.
   std::shared_ptr<const SetFitter> fitter_of(const Scenario& scenario) const;
   void add_intervals_of_taken_out(const Scenario& scenario, std::size_t effect,
                                   std::vector<ParameterInterval>& to) const;
@@ -109,6 +110,7 @@ class SetBench {
   const Series& recording_;
   std::vector<std::string> without_;
   std::vector<double> plain_gyro_dps_;  ///< of plain()
+  std::ptrdiff_t missing_ = 0;          ///< samples of the error beside plain()
   std::shared_ptr<const RateGrid> grid_;
   std::optional<Effect> response_;
   bool marked_saturation_ = false, marked_dead_zone_ = false;

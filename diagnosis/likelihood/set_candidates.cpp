@@ -123,7 +123,8 @@ Standing SetBench::polished(Standing standing) const {
                    is_taken_out))
     return standing;
   const auto likelihood = [&](const Scenario& scenario) {
-    return fitter_of(scenario)->terms(scenario).log_likelihood;
+    const auto fitter = fitter_of(scenario);
+    return fitter ? fitter->terms(scenario).log_likelihood : -1e300;
   };
   Scenario scenario = standing.scenario;
   double here = likelihood(scenario);
@@ -150,8 +151,10 @@ Standing SetBench::polished(Standing standing) const {
         double there = here - 1.0;
         for (const double furthest : {50.0, 5.0}) {
           if (there > here || (furthest < 50.0 && std::abs(by) <= furthest * step)) break;
-          effect.value(f) = std::clamp(middle + std::clamp(by, -furthest * step, furthest * step),
-                                       range.from, range.to);
+          const double bounded = std::clamp(
+              middle + std::clamp(by, -furthest * step, furthest * step), range.from, range.to);
+          // An end that is not of the range is approached.
+          effect.value(f) = range.contains(bounded) ? bounded : 0.5 * (middle + bounded);
           there = likelihood(scenario);
         }
         if (there > here)

@@ -32,7 +32,8 @@ void SetBench::add_intervals_of_taken_out(const Scenario& scenario, std::size_t 
   const auto likelihood = [&](const std::vector<double>& by) {
     Scenario there = scenario;
     for (std::size_t f = 0; f < n; ++f) there.effects[effect].value(fields[f]) += by[f] * steps[f];
-    return fitter_of(there)->terms(there).log_likelihood;
+    const auto fitter = fitter_of(there);
+    return fitter ? fitter->terms(there).log_likelihood : -1e300;
   };
   const std::vector<double> nowhere(n, 0.0);
   const double here = likelihood(nowhere);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
@@ -44,6 +45,8 @@ SetFitter::Amplitude SetFitter::amplitude_of(const Scenario& scenario, std::size
       at += amplitudes_of(scenario.effects[k], *cause).size();
   const double spread = regressors_of(scenario).spreads[at];
   const auto errors = coefficients_over_walks(scenario).second;
+  // Where hardly a mean is seen, no size of it is.
+  if (errors.size() == 0) return {std::numeric_limits<double>::infinity(), amplitude_dps_ / spread};
   return {errors[static_cast<Eigen::Index>(at)] / spread, amplitude_dps_ / spread};
 }
 

@@ -158,6 +158,12 @@ double p_of_the_spectrum(const SetFitter& fitter, const Conditions& conditions,
 
 }  // namespace
 
+double p_of_the_oddest(const std::vector<Unexplained>& ways) {
+  double least = 1.0;
+  for (const auto& way : ways) least = std::min(least, way.p_value);
+  return std::min(1.0, least * static_cast<double>(ways.size()));
+}
+
 std::vector<Unexplained> unexplained_by(const Conditions& conditions, const SetFitter& fitter,
                                         const Scenario& set) {
   const double without = fitter.maximise(set, iterations, Jumping::no).log_likelihood;

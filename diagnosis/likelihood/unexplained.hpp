@@ -13,6 +13,9 @@ struct Unexplained {
   double p_value;  ///< or a bound of it: that of chance to look as odd in this way
 };
 
+/// That of chance to look as odd as the oddest of them in any way (Bonferroni).
+double p_of_the_oddest(const std::vector<Unexplained>& ways);
+
 /// Tests of what a fitted set leaves that know no effect of the catalogue: whether the slow rate
 /// follows the temperature, its branch, its past, the time, the acceleration or the reference rate
 /// in a smooth way that the drift does not have, whether it remembers for longer than noise and for

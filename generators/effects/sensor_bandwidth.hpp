@@ -60,23 +60,34 @@ struct SensorBandwidth {
 
   void apply(Series& series, const Noise& /*noise*/) const {
     const std::size_t samples = samples_with(series, needs);
-    if (samples < 2) return;
-    if (averages > 0.5) return average(series, samples);
+    const auto& rate = series.rate_ref_dps;
+    // Where the rate was missing it begins anew.
+    for (std::size_t first = 0, last = 0; first < samples; first = last + 1) {
+      for (last = first; last < samples && !std::isnan(rate[last]);) ++last;
+      if (last < samples) series.gyro_dps[last] = rate[last];
+      if (last > first + 1) follow(series, first, last);
+    }
+  }
+
+ private:
+  void follow(Series& series, std::size_t first, std::size_t last) const {
+    if (averages > 0.5) return average(series, first, last);
     const auto count =
         static_cast<std::size_t>(std::clamp(std::lround(poles), 1L, long{most_poles}));
     const auto& rate = series.rate_ref_dps;
-    const double cycles = cutoff_hz * series.duration_s() / static_cast<double>(samples - 1);
-    if (continuous > 0.5) return run_on(series, samples, {cycles, count, maximally_flat > 0.5});
+    const double cycles = cutoff_hz * (series.t_s[last - 1] - series.t_s[first]) /
+                          static_cast<double>(last - 1 - first);
+    if (continuous > 0.5) return run_on(series, first, last, {cycles, count, maximally_flat > 0.5});
     if (maximally_flat > 0.5) {
       Butterworth sensed(cycles, count);
-      for (std::size_t i = 0; i < samples; ++i)
-        series.gyro_dps[i] += rate[0] + sensed(rate[i] - rate[0]) - rate[i];
+      for (std::size_t i = first; i < last; ++i)
+        series.gyro_dps[i] += rate[first] + sensed(rate[i] - rate[first]) - rate[i];
       return;
     }
     Decay decay(0.5 / (std::numbers::pi * cutoff_hz));
     std::array<double, most_poles> sensed{};
-    for (std::size_t i = 0; i < samples; ++i) {
-      const double left = decay(series.t_s, i);
+    for (std::size_t i = first; i < last; ++i) {
+      const double left = i == first ? 0.0 : decay(series.t_s, i);
       double passed = rate[i];
       for (std::size_t k = 0; k < count; ++k)
         passed = sensed[k] = passed + left * (sensed[k] - passed);
@@ -84,33 +95,33 @@ struct SensorBandwidth {
     }
   }
 
- private:
   /// Between samples a cubic with the slopes of their neighbours, as in TimeOffset.
-  static void run_on(Series& series, std::size_t samples, ContinuousLowPass sensed) {
+  static void run_on(Series& series, std::size_t first, std::size_t last,
+                     ContinuousLowPass sensed) {
     const auto& rate = series.rate_ref_dps;
     const auto slope = [&](std::size_t i) {
-      return 0.5 * (rate[std::min(i + 1, samples - 1)] - rate[i == 0 ? 0 : i - 1]);
+      return 0.5 * (rate[std::min(i + 1, last - 1)] - rate[std::max(i, first + 1) - 1]);
     };
-    for (std::size_t i = 1; i < samples; ++i)
+    for (std::size_t i = first + 1; i < last; ++i)
       series.gyro_dps[i] +=
-          rate[0] - rate[i] +
-          sensed(rate[i - 1] - rate[0], rate[i] - rate[0], slope(i - 1), slope(i));
+          rate[first] - rate[i] +
+          sensed(rate[i - 1] - rate[first], rate[i] - rate[first], slope(i - 1), slope(i));
   }
 
-  void average(Series& series, std::size_t samples) const {
+  void average(Series& series, std::size_t first, std::size_t last) const {
     const double over_s = half_power_of_mean / cutoff_hz;
     const auto& t_s = series.t_s;
     const auto& rate = series.rate_ref_dps;
-    std::vector<double> turned(samples, 0.0);  // since the first sample, degrees
-    for (std::size_t i = 1; i < samples; ++i)
+    std::vector<double> turned(last, 0.0);  // since the first sample, degrees
+    for (std::size_t i = first + 1; i < last; ++i)
       turned[i] = turned[i - 1] + 0.5 * (rate[i - 1] + rate[i]) * (t_s[i] - t_s[i - 1]);
-    std::size_t at = 0;  // the last sample that is not after the beginning of the mean
-    for (std::size_t i = 0; i < samples; ++i) {
+    std::size_t at = first;  // the last sample that is not after the beginning of the mean
+    for (std::size_t i = first; i < last; ++i) {
       const double begin_s = t_s[i] - over_s;
       while (at + 1 < i && t_s[at + 1] <= begin_s) ++at;
       const double into_s = begin_s - t_s[at];
       double before = into_s * rate[at];
-      if (into_s > 0.0 && at + 1 < samples)
+      if (into_s > 0.0 && at + 1 < last)
         before += 0.5 * into_s * into_s * (rate[at + 1] - rate[at]) / (t_s[at + 1] - t_s[at]);
       series.gyro_dps[i] += (turned[i] - turned[at] - before) / over_s - rate[i];
     }

@@ -201,6 +201,20 @@ TEST(Diagnosis, ANameThatMissesTheRecordingIsNotAlone) {
   EXPECT_FALSE(d.next.what.empty());
 }
 
+/// A neighbour takes up part of what is left out, and what it leaves of it follows the temperature
+/// by branch as no noise does: more than a form of nature's own would leave.
+TEST(Diagnosis, WhereTheLikelihoodSeesMoreThanAFormUnknownIsFirst) {
+  Scenario s = still();
+  s.effects = {effects::ThermalHysteresis{0.08, 3.0}};
+  DiagnosisOptions options;
+  options.without = {"thermal_hysteresis"};
+  const auto without = diagnose(recorded(s, 12, false), options);
+  EXPECT_LT(p_of_the_oddest(without.unexplained), 1e-3);
+  EXPECT_TRUE(without.verdict.is_unknown()) << without.verdict.text();
+  const auto with = diagnose(recorded(s, 12, false), {});
+  EXPECT_TRUE(with.verdict.names("thermal_hysteresis")) << with.verdict.text();
+}
+
 /// Of fifty recordings without effects the set that the likelihood finds, and the verdict on ten
 /// of them. Eight of 300 others have an effect named (3 %, standard error 1 %); were it one in
 /// twenty, seven of fifty would have in one of seventy families, and three of ten verdicts would

@@ -142,6 +142,25 @@ TEST(SensorBandwidth, OfContinuousTimeIsLateByItsPoles) {
   EXPECT_NEAR(z[800], ramp[800] - 10.0 * 2.0 / (2.0 * std::numbers::pi * 3.0), 1e-9);
 }
 
+/// A reference that was lost for a while leaves the filter what comes after it.
+TEST(SensorBandwidth, BeginsAnewWhereTheRateWasMissing) {
+  std::vector<double> rates(60, 5.0);
+  for (std::size_t i = 20; i < 30; ++i) rates[i] = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 40; i < 60; ++i) rates[i] = 9.0;
+  for (const auto& filter :
+       {effects::SensorBandwidth{.cutoff_hz = 5.0},
+        effects::SensorBandwidth{.cutoff_hz = 5.0, .poles = 2.0, .maximally_flat = 1.0},
+        effects::SensorBandwidth{.cutoff_hz = 5.0, .continuous = 1.0},
+        effects::SensorBandwidth{.cutoff_hz = 5.0, .averages = 1.0}}) {
+    const auto z = sensed(filter, rates);
+    EXPECT_NEAR(z[19], 5.0, 1e-12);
+    for (std::size_t i = 20; i < 30; ++i) EXPECT_TRUE(std::isnan(z[i]));
+    for (std::size_t i = 30; i < 39; ++i) EXPECT_NEAR(z[i], 5.0, 1e-12);
+    EXPECT_GT(z[45], 6.0);
+    EXPECT_NEAR(z[59], 9.0, 0.2);
+  }
+}
+
 /// What a scale multiplies is the rate as it is sensed, wherever a scenario names it.
 TEST(Scenario, OtherEffectsSeeTheRateAsItIsSensed) {
   Series conditions;
