@@ -161,7 +161,7 @@ double p_of_the_spectrum(const SetFitter& fitter, const Conditions& conditions,
 double p_of_the_oddest(const std::vector<Unexplained>& ways) {
   double least = 1.0;
   for (const auto& way : ways) least = std::min(least, way.p_value);
-  return std::min(1.0, least * static_cast<double>(ways.size()));
+  return ways.empty() ? 1.0 : std::min(1.0, least * static_cast<double>(ways.size()));
 }
 
 std::vector<Unexplained> unexplained_by(const Conditions& conditions, const SetFitter& fitter,

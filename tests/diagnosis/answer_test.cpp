@@ -64,6 +64,11 @@ TEST(Answer, SaysWhatNothingExplains) {
 TEST(Answer, SaysWhereNamesLeaveMoreThanChance) {
   auto d = with_two_effects();
   EXPECT_THAT(answer(d), Not(HasSubstr("besides or instead")));
+  d.unexplained = {{"time", 0.3}, {"spectrum", 0.01}};
+  EXPECT_THAT(answer(d), Not(HasSubstr("besides or instead")));
+  d.unexplained.back().p_value = 0.001;
+  EXPECT_THAT(answer(d), HasSubstr("still misses the recording by more than chance"));
+  d.unexplained.clear();
   d.p_after = 0.001;
   EXPECT_THAT(answer(d), HasSubstr("still misses the recording by more than chance"));
 }
