@@ -74,7 +74,8 @@ Effect wandering_line_in(const Resonance& band, double radians) {
                       {"correlation_time_s", radians / (2.0 * std::numbers::pi * wander_hz)}});
 }
 
-/// In the place of a resonance: as its track says, or else the likelier of both, fitted.
+/// In the place of a resonance: as its track says where that tells it, or the likelier of both,
+/// fitted.
 Standing with_wandering_line(const SetBench& bench, const Standing& standing, std::size_t at,
                              const LineTrack& track) {
   const auto band = band_of_line(standing.scenario.effects[at]);
@@ -94,6 +95,15 @@ Standing with_wandering_line(const SetBench& bench, const Standing& standing, st
       best = std::move(fit);
   }
   return best;
+}
+
+/// Of a line that wanders slowly the spectrum says where it was, not for how long: it has been
+/// through its band so many times, or its simulations would differ by where they begin.
+void hold_within(const Conditions& conditions, Effect& line) {
+  constexpr double times = 20.0;
+  double& memory_s = line.value(field_of(line, "correlation_time_s"));
+  memory_s =
+      std::min(memory_s, conditions.interval_s() * static_cast<double>(conditions.size()) / times);
 }
 
 /// In the place of a line that wanders, fitted.
@@ -223,7 +233,8 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
                                                 {"mean_duration_s", shape.on_s},
                                                 {"mean_interval_s", shape.off_s}});
     } else if (effect.id() != name) {
-      standing = with_wandering_line(bench, standing, k, tracks[k]);
+      const bool is_followed = tracks[k].over_band >= shape.wandering;
+      standing = with_wandering_line(bench, standing, k, is_followed ? tracks[k] : LineTrack{});
       effect = standing.scenario.effects[k];
       refitted = true;
     }
@@ -244,6 +255,8 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
     }
   }
   if (refitted) take_over(standing, found.scenario);
+  for (auto& effect : effects)
+    if (effect.id() == "wandering_line") hold_within(bench.conditions(), effect);
   one_name_each(found);
 }
 
