@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include <gyrostat/diagnosis/likelihood/block_powers.hpp>
