@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include <tbb/parallel_for.h>
+
 #include <gyrostat/core/values.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/evidence.hpp>
@@ -52,6 +54,14 @@ class CompassSearch {
   std::vector<Effect> in_other_form(std::vector<Effect> set, std::size_t at) const;
   /// Where iron and a lag are both there, what iron adds trails, too, or does not.
   std::vector<Effect> in_likelier_form(std::vector<Effect> set) const;
+  /// One effect more. What iron does depends on the heading that it sees: that of the sensor, or
+  /// one that trails; so it may stand at any place.
+  struct Trial {
+    const CauseType* cause;
+    Effect start;
+    std::size_t place;
+  };
+  std::vector<Trial> trials_beside(const std::vector<Effect>& set) const;
   /// With one effect after another, as long as each pays.
   std::vector<Effect> grown(std::vector<Effect> set, Bursts bursts);
   /// Log-likelihood of all means, bursts or not, less what the set costs.
@@ -119,10 +129,13 @@ std::vector<Effect> CompassSearch::starts(const CauseType& cause,
 }
 
 std::vector<Effect> CompassSearch::polished(std::vector<Effect> set) const {
+  auto law = law_of(set);
   for (int pass = 0; pass < 4; ++pass) {
     auto better = compass_step(errors_, conditions_, hidden_, set);
-    if (law_of(better).gain_on(law_of(set)) <= 0.0) break;
+    const auto its_law = law_of(better);
+    if (its_law.gain_on(law) <= 0.0) break;
     set = std::move(better);
+    law = its_law;
   }
   return set;
 }
@@ -142,31 +155,47 @@ std::vector<Effect> CompassSearch::in_likelier_form(std::vector<Effect> set) con
   return in_other_form(std::move(set), static_cast<std::size_t>(lag - set.begin()));
 }
 
+std::vector<CompassSearch::Trial> CompassSearch::trials_beside(
+    const std::vector<Effect>& set) const {
+  std::vector<std::vector<Effect>> each(candidates_.size());
+  tbb::parallel_for(std::size_t{0}, candidates_.size(), [&](std::size_t k) {
+    const auto* cause = candidates_[k];
+    if (std::none_of(set.begin(), set.end(), [&](const auto& e) { return e.id() == cause->id; }))
+      each[k] = starts(*cause, set);
+  });
+  std::vector<Trial> trials;
+  for (std::size_t k = 0; k < candidates_.size(); ++k)
+    for (const auto& start : each[k])
+      for (std::size_t place = 0; place <= set.size(); ++place)
+        trials.push_back({candidates_[k], start, place});
+  return trials;
+}
+
 std::vector<Effect> CompassSearch::grown(std::vector<Effect> set, Bursts bursts) {
   double clearest = set.empty() ? 0.0 : law_of(set).gain_on(law_of({}));
   for (std::size_t step = set.size(); step <= candidates_.size(); ++step) {
     if (bursts == Bursts::hidden) find_bursts(set);
     const CompassErrors::Law before = law_of(set);
+    const auto trials = trials_beside(set);
+    std::vector<double> gains(trials.size(), -1e300);
+    std::vector<std::vector<Effect>> fitted(trials.size());
+    tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t k) {
+      const auto& [cause, start, place] = trials[k];
+      auto trial = set;
+      trial.insert(trial.begin() + static_cast<std::ptrdiff_t>(place), start);
+      trial = in_likelier_form(polished(trial));
+      if (!cause->is_what_it_is_called(trial[place], conditions_)) return;
+      gains[k] = law_of(trial).gain_on(before) - cost(start);
+      fitted[k] = std::move(trial);
+    });
     std::vector<Effect> best;
     // Nature's form of what is there differs from ours by as much.
     double most = share_of_clearest * clearest;
-    for (const auto* cause : candidates_) {
-      if (std::any_of(set.begin(), set.end(), [&](const auto& e) { return e.id() == cause->id; }))
-        continue;
-      // What iron does depends on the heading that it sees: that of the sensor, or one that trails.
-      for (const auto& start : starts(*cause, set))
-        for (std::size_t place = 0; place <= set.size(); ++place) {
-          auto trial = set;
-          trial.insert(trial.begin() + static_cast<std::ptrdiff_t>(place), start);
-          trial = in_likelier_form(polished(trial));
-          if (!cause->is_what_it_is_called(trial[place], conditions_)) continue;
-          const double gain = law_of(trial).gain_on(before) - cost(start);
-          if (gain > most) {
-            most = gain;
-            best = trial;
-          }
-        }
-    }
+    for (std::size_t k = 0; k < trials.size(); ++k)
+      if (gains[k] > most) {
+        most = gains[k];
+        best = fitted[k];
+      }
     if (best.empty()) break;
     clearest = std::max(clearest, most);
     set = best;
