@@ -81,8 +81,11 @@ struct Noise {
   NoiseTape* tape = nullptr;             ///< hears of every deviate; for one thread
   const NoiseTape* shift = nullptr;      ///< added to deviates that are mixed by shares
   std::string_view place{};              ///< before the names of streams, in tape and shift
+  std::size_t twins = 0;                 ///< effects of the same kind before the one that it is for
 
   NormalStream stream(std::string_view name) const {
+    std::string own;
+    if (twins > 0) name = own = std::string(name) + ' ' + std::to_string(twins + 1);
     if (shares.empty() && tape == nullptr) return {seed, trial, name};
     const auto key = std::string(place).append(name);
     std::span<const double> added;

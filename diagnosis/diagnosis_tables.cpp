@@ -57,9 +57,13 @@ std::vector<Table> diagnosis_tables(const Diagnosis& d, const std::string& name)
                            {"gap after", "spreads"},
                            {"closed", "1"},
                            {"parameters", ""}}};
-  for (const auto& c : d.causes)
+  for (const auto& c : d.causes) {
+    std::vector<std::string> parameters;  // several where it is there several times
+    for (const auto& effect : c.scenario.effects)
+      if (effect.id() == c.effect) parameters.push_back(parameters_in_words(effect));
     causes.rows.push_back({c.effect, c.probability, c.log_score, c.recovered, c.gap_after, c.closed,
-                           parameters_in_words(c.scenario.effects.back())});
+                           fmt::format("{}", fmt::join(parameters, "; "))});
+  }
   if (!d.causes.empty())
     causes.notes.push_back(
         "posterior probability: of being what the recording has and the simulator lacks; the "

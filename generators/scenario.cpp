@@ -11,9 +11,16 @@
 namespace gyrostat {
 namespace {
 
+/// That of one of several effects: two of a kind do not share theirs.
+Noise own_noise(const std::vector<Effect>& effects, const Effect& of, Noise noise) {
+  for (const Effect* other = effects.data(); other != &of; ++other)
+    if (other->id() == of.id()) ++noise.twins;
+  return noise;
+}
+
 void apply_stage(Stage stage, const Scenario& scenario, const Noise& noise, Series& series) {
   for (const auto& effect : scenario.effects)
-    if (effect.stage() == stage) effect.apply(series, noise);
+    if (effect.stage() == stage) effect.apply(series, own_noise(scenario.effects, effect, noise));
 }
 
 void linear_drift(const ThermalDrift<double>& drift, Series& series) {
@@ -125,17 +132,17 @@ std::vector<Effect> effects_on_gyro(const Scenario& scenario) {
 void apply_in_order(const std::vector<Effect>& on_gyro, const Noise& noise, Series& series) {
   const auto responds = [](const Effect& effect) { return effect.is_response(); };
   if (std::none_of(on_gyro.begin(), on_gyro.end(), responds)) {
-    for (const auto& effect : on_gyro) effect.apply(series, noise);
+    for (const auto& effect : on_gyro) effect.apply(series, own_noise(on_gyro, effect, noise));
     return;
   }
   const auto reference = series.rate_ref_dps;
   for (const auto& effect : on_gyro) {
     if (!effect.is_response()) {
-      effect.apply(series, noise);
+      effect.apply(series, own_noise(on_gyro, effect, noise));
       continue;
     }
     const auto before = series.gyro_dps;
-    effect.apply(series, noise);
+    effect.apply(series, own_noise(on_gyro, effect, noise));
     for (std::size_t i = 0; i < std::min(before.size(), series.rate_ref_dps.size()); ++i)
       series.rate_ref_dps[i] += series.gyro_dps[i] - before[i];
   }

@@ -1,103 +1,161 @@
 #include <gyrostat/diagnosis/likelihood/outlier_mixture.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
+#include <map>
 #include <utility>
 
 namespace gyrostat::gap {
-
-double OutlierMixture::log_odds(double square) const {
-  const double along = size * std::sqrt(square) / wide;
-  return std::log(share / (1.0 - share)) + 0.5 * std::log(narrow / wide) + 0.5 * square / narrow -
-         0.5 * (square + size * size) / wide + along + std::log1p(std::exp(-2.0 * along)) -
-         std::log(2.0);
-}
-
 namespace {
 
-/// With the likelihood gained by both components.
-OutlierMixture weighed(OutlierMixture m, const std::vector<double>& squares) {
-  const auto n = static_cast<double>(squares.size());
-  double mixed = 0.0;
+constexpr double least_share = 1e-6, most_share = 0.5;
+constexpr double most_of_all = 0.75;  ///< the narrow one has the rest
+
+/// Of a component about +size or -size, but for a constant.
+double log_density(double square, double variance, double size) {
+  const double along = size * std::sqrt(square) / variance;
+  return -0.5 * std::log(variance) - 0.5 * (square + size * size) / variance + along +
+         std::log1p(std::exp(-2.0 * along)) - std::log(2.0);
+}
+
+double log_of_sum(double a, double b) {
+  return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b)));
+}
+
+/// Squares that differ by half a percent count as one.
+struct Alike {
+  double square = 0.0, count = 0.0;
+};
+
+std::vector<Alike> gathered(const std::vector<double>& squares, double narrow) {
+  constexpr double ratio = 0.005, least = 1e-4;
+  std::map<int, Alike> bins;
   for (const double s : squares) {
-    const double odds = m.log_odds(s);
-    mixed += std::max(odds, 0.0) + std::log1p(std::exp(-std::abs(odds))) - 0.5 * s / m.narrow;
+    auto& bin = bins[static_cast<int>(std::log(std::max(s / narrow, least) / least) / ratio)];
+    bin.square += s;
+    bin.count += 1.0;
   }
-  mixed += n * (std::log(1.0 - m.share) - 0.5 * std::log(m.narrow));
-  const double all = std::accumulate(squares.begin(), squares.end(), 0.0) / n;
-  m.gain = mixed + 0.5 * n * (std::log(all) + 1.0);
+  std::vector<Alike> alike;
+  for (const auto& [_, bin] : bins) alike.push_back({bin.square / bin.count, bin.count});
+  return alike;
+}
+
+double log_narrow(const OutlierMixture& m, double square) {
+  return std::log(1.0 - m.share()) + log_density(square, m.narrow, 0.0);
+}
+
+double log_wide(const OutlierMixture::Wide& w, double square) {
+  return std::log(w.share) + log_density(square, w.variance, w.size);
+}
+
+/// With the likelihood gained by the components.
+OutlierMixture weighed(OutlierMixture m, const std::vector<Alike>& alike) {
+  double n = 0.0, total = 0.0, mixed = 0.0;
+  for (const auto& [square, count] : alike) {
+    double log_sum = log_narrow(m, square);
+    for (const auto& w : m.wide) log_sum = log_of_sum(log_sum, log_wide(w, square));
+    n += count;
+    total += count * square;
+    mixed += count * log_sum;
+  }
+  m.gain = mixed + 0.5 * n * (std::log(total / n) + 1.0);
   return m;
 }
 
-constexpr double settled = 1e-5;
-
-OutlierMixture about_zero(const std::vector<double>& squares, double narrow) {
-  const auto n = static_cast<double>(squares.size());
-  double wide = 25.0 * narrow, share = 0.003;
-  for (int pass = 0; pass < 60; ++pass) {
-    const double log_odds = std::log(share / (1.0 - share)) + 0.5 * std::log(narrow / wide);
-    const double curve = 0.5 * (1.0 / narrow - 1.0 / wide);
-    double weight = 0.0, of_wide = 0.0, of_narrow = 0.0;
-    for (const double s : squares) {
-      const double hit = 1.0 / (1.0 + std::exp(-(log_odds + curve * s)));
-      weight += hit;
-      of_wide += hit * s;
-      of_narrow += (1.0 - hit) * s;
+/// One pass; whether it changed hardly anything.
+bool improve(OutlierMixture& m, const std::vector<Alike>& alike) {
+  constexpr double settled = 1e-5;
+  struct Sums {
+    double weight = 0.0, squares = 0.0, sizes = 0.0;
+  };
+  std::vector<Sums> sums(m.wide.size());
+  Sums narrow;
+  for (const auto& [square, count] : alike) {
+    std::array<double, 2> logs{};
+    const double of_narrow = log_narrow(m, square);
+    double log_sum = of_narrow;
+    for (std::size_t k = 0; k < m.wide.size(); ++k)
+      log_sum = log_of_sum(log_sum, logs[k] = log_wide(m.wide[k], square));
+    const double rest = count * std::exp(of_narrow - log_sum);
+    narrow.weight += rest;
+    narrow.squares += rest * square;
+    const double root = std::sqrt(square);
+    for (std::size_t k = 0; k < m.wide.size(); ++k) {
+      const double hit = count * std::exp(logs[k] - log_sum);
+      sums[k].weight += hit;
+      sums[k].squares += hit * square;
+      sums[k].sizes += hit * root * std::tanh(m.wide[k].size * root / m.wide[k].variance);
     }
-    const double share_before = std::exchange(share, std::clamp(weight / n, 1e-6, 0.5));
-    const double wide_before = wide;
-    narrow = of_narrow / std::max(1.0, n - weight);
-    wide = std::max(of_wide / std::max(1e-9, weight), 2.0 * narrow);
-    if (std::abs(share - share_before) < settled * share &&
-        std::abs(wide - wide_before) < settled * wide)
-      break;
   }
-  return {share, narrow, wide};
+  double n = narrow.weight;
+  for (const auto& s : sums) n += s.weight;
+  m.narrow = narrow.squares / std::max(1.0, narrow.weight);
+  bool is_settled = true;
+  for (std::size_t k = 0; k < m.wide.size(); ++k) {
+    auto& w = m.wide[k];
+    const auto before = std::exchange(
+        w, {std::clamp(sums[k].weight / n, least_share, most_share), w.variance, w.size});
+    const double weight = std::max(1e-9, sums[k].weight);
+    w.size = sums[k].sizes / weight;
+    // About zero it is the noise's, if it is not clearly wider.
+    w.variance = std::max(sums[k].squares / weight - w.size * w.size,
+                          w.size > 0.0 ? m.narrow : 2.0 * m.narrow);
+    const auto is_near = [](double a, double b) {
+      return std::abs(a - b) <= settled * std::abs(a);
+    };
+    is_settled = is_settled && is_near(w.share, before.share) &&
+                 is_near(w.variance, before.variance) && is_near(w.size, before.size);
+  }
+  if (const double all = m.share(); all > most_of_all)
+    for (auto& w : m.wide) w.share *= most_of_all / all;
+  return is_settled;
 }
 
-/// Likewise; small squares are all the narrow one's.
-OutlierMixture about_a_size(const std::vector<double>& squares, const OutlierMixture& about_zero) {
-  const auto n = static_cast<double>(squares.size());
-  OutlierMixture m = about_zero;
-  const double total = std::accumulate(squares.begin(), squares.end(), 0.0);
-  std::vector<double> large;
-  for (const double s : squares)
-    if (s > 4.0 * m.narrow) large.push_back(s);
-  m.size = std::sqrt(0.8 * about_zero.wide);
-  m.wide = std::max(0.2 * about_zero.wide, m.narrow);
-  for (int pass = 0; pass < 200; ++pass) {
-    double weight = 0.0, sizes = 0.0, hits = 0.0;
-    for (const double s : large) {
-      const double hit = 1.0 / (1.0 + std::exp(-m.log_odds(s)));
-      const double root = std::sqrt(s);
-      weight += hit;
-      sizes += hit * root * std::tanh(m.size * root / m.wide);
-      hits += hit * s;
-    }
-    if (weight < 1.0) return about_zero;
-    const OutlierMixture before = m;
-    m.share = std::clamp(weight / n, 1e-6, 0.5);
-    m.narrow = (total - hits) / (n - weight);
-    m.size = sizes / weight;
-    m.wide = std::max(hits / weight - m.size * m.size, m.narrow);
-    if (std::abs(m.share - before.share) < settled * m.share &&
-        std::abs(m.size - before.size) < settled * m.size &&
-        std::abs(m.wide - before.wide) < settled * m.wide)
-      break;
-  }
-  return m;
+OutlierMixture fitted(OutlierMixture m, const std::vector<Alike>& alike) {
+  constexpr int most_passes = 300;
+  for (int pass = 0; pass < most_passes; ++pass)
+    if (improve(m, alike)) break;
+  return weighed(std::move(m), alike);
 }
 
 }  // namespace
 
+double OutlierMixture::share() const {
+  double sum = 0.0;
+  for (const auto& w : wide) sum += w.share;
+  return sum;
+}
+
+double OutlierMixture::log_odds(double square) const {
+  double log_sum = -1e300;
+  for (const auto& w : wide) log_sum = log_of_sum(log_sum, log_wide(w, square));
+  return log_sum - log_narrow(*this, square);
+}
+
 OutlierMixture outlier_mixture(const std::vector<double>& squares, double narrow) {
-  const OutlierMixture plain = weighed(about_zero(squares, narrow), squares);
-  // Too few to have a size, or none.
-  const double value = 0.5 * std::log(static_cast<double>(squares.size()));
-  if (plain.share * static_cast<double>(squares.size()) < 10.0 || plain.gain < value) return plain;
-  const OutlierMixture sized = weighed(about_a_size(squares, plain), squares);
-  return sized.gain > plain.gain + value ? sized : plain;
+  const auto n = static_cast<double>(squares.size());
+  const auto alike = gathered(squares, narrow);
+  auto best = fitted({.narrow = narrow, .wide = {{0.003, 25.0 * narrow}}}, alike);
+  // Too few to have a form, or none.
+  const double value = 0.5 * std::log(n);
+  const auto plain = best.wide.front();
+  if (plain.share * n < 10.0 || best.gain < value) return best;
+  const auto consider = [&, from = best.narrow](std::vector<OutlierMixture::Wide> wide,
+                                                double values) {
+    auto other = fitted({.narrow = from, .wide = std::move(wide)}, alike);
+    other.gain -= values * value;
+    if (other.gain > best.gain) best = std::move(other);
+  };
+  consider(
+      {{plain.share, std::max(0.2 * plain.variance, best.narrow), std::sqrt(0.8 * plain.variance)}},
+      1.0);
+  // The common ones, and rare ones that are larger yet.
+  for (const double common : {1.0, 3.0})
+    consider({{std::min(most_share, common * plain.share), plain.variance / common},
+              {std::max(0.05 * plain.share, 3.0 / n), 4.0 * plain.variance}},
+             2.0);
+  return best;
 }
 
 }  // namespace gyrostat::gap

@@ -110,6 +110,7 @@ Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::st
   if (auto other = bench_.beside_noise(rate.effects); other.score > fit.score)
     fit = std::move(other);
   some.random_error = fit.scenario.random_error;
+  if (is_in("outliers")) take_out_outliers(some.random_error);
   return some;
 }
 
@@ -121,6 +122,9 @@ std::vector<Nameless> SetSearcher::nameless_beside(const Scenario& set) const {
     parts.insert(parts.begin(),
                  {*response_, "a response to the motion without a name, within four samples",
                   end_->scenario.random_error});
+  if (has(set, "outliers"))
+    for (auto& part : parts)
+      if (part.beside) take_out_outliers(*part.beside);
   return parts;
 }
 

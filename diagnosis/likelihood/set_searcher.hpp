@@ -110,6 +110,8 @@ class SetSearcher {
   /// What the innovations say of outliers and of noise over temperature, beside the set.
   void judge_tails(const Standing& standing);
   void add_tails(FoundSet& found) const;
+  /// Of noise fitted to samples that are not far off: without the outliers among them.
+  void take_out_outliers(Arima111<double>& fitted) const;
   void add_nameless_tails(FoundSet& found) const;
   /// The set, and what only the sizes of innovations say, in turn.
   Standing searched_beside_tails(Standing standing);

@@ -130,12 +130,15 @@ Standing SetSearcher::searched_beside_tails(Standing standing) {
   return standing;
 }
 
+void SetSearcher::take_out_outliers(Arima111<double>& fitted) const {
+  fitted.measurement_noise_std_dps *= tails_.quiet;
+}
+
 void SetSearcher::add_tails(FoundSet& found) const {
   if (has_outliers_) {
-    found.scenario.effects.push_back(
-        with_values("outliers", {{"probability", tails_.outlier_probability},
-                                 {"std_dps", tails_.outlier_std_dps},
-                                 {"mean_size_dps", tails_.outlier_size_dps}}));
+    take_out_outliers(found.scenario.random_error);
+    for (const auto& population : tails_.populations)
+      found.scenario.effects.emplace_back(population);
     found.members.push_back({"outliers", tails_.outlier_gain - feigned_.tails - 10.0});
   }
   if (has_warm_noise_) {

@@ -80,7 +80,7 @@ OutlierMixture of_the_scattered(const std::vector<std::size_t>& samples,
         const std::size_t block = samples[first] / length;
         for (; last < samples.size() && samples[last] / length == block; ++last)
           hits += mixture.is_wide(squares[last]) ? 1.0 : 0.0;
-        const double mean = mixture.share * static_cast<double>(last - first);
+        const double mean = mixture.share() * static_cast<double>(last - first);
         if (hits > 1.0 && poisson_upper_tail(hits, mean) < rare)
           std::fill(crowded.begin() + static_cast<std::ptrdiff_t>(first),
                     crowded.begin() + static_cast<std::ptrdiff_t>(last), char{1});
@@ -117,7 +117,6 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
   if (w.innovations.size() < 500) return tails;
   double deviation = robust_deviation(w.innovations);
   const auto n = static_cast<double>(w.innovations.size());
-  tails.white_std_dps = deviation;
 
   std::vector<double> relative(w.innovations.size(), 1.0);
   if (temperature) {
@@ -146,11 +145,19 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
   const auto mixture = of_the_scattered(w.samples, squares, deviation * deviation);
   const double narrow = mixture.narrow;
   tails.outlier_gain = mixture.gain;
-  tails.outlier_probability = mixture.share;
-  tails.outlier_std_dps = std::sqrt(std::max(mixture.wide - narrow, 0.0));
-  tails.outlier_size_dps = mixture.size;
-  tails.white_std_dps = std::sqrt(narrow);
+  // Each hits by itself: the last, which are widest, those that the others hit, too.
+  double missed = 1.0;
+  for (auto wide = mixture.wide.rbegin(); wide != mixture.wide.rend(); ++wide) {
+    tails.populations.push_back({.probability = wide->share / missed,
+                                 .std_dps = std::sqrt(std::max(wide->variance - narrow, 0.0)),
+                                 .mean_size_dps = wide->size});
+    missed -= wide->share;
+  }
   const double odd = 4.5 * std::sqrt(narrow);
+  double sum = 0.0, count = 0.0;
+  for (const double s : squares)
+    if (s < odd * odd) sum += s, count += 1.0;
+  tails.quiet = std::min(1.0, std::sqrt(narrow * count / sum));
   for (const Part part : both_parts)
     for (const auto& span : conditions.spans(part))
       for (std::size_t i = span.first; i < span.last; ++i) {

@@ -3,17 +3,18 @@
 #include <vector>
 
 #include <gyrostat/diagnosis/gap/conditions.hpp>
+#include <gyrostat/generators/effects/outliers.hpp>
 
 namespace gyrostat::gap {
 
 /// What the sizes of innovations say; of outliers, only where they come one by one.
 struct Tails {
-  double outlier_probability = 0.0, outlier_std_dps = 0.0, outlier_size_dps = 0.0;
-  double outlier_gain = 0.0;  ///< log-likelihood beyond normal innovations
+  std::vector<effects::Outliers> populations;  ///< of outliers
+  double outlier_gain = 0.0;                   ///< log-likelihood beyond normal innovations
   double noise_per_C = 0.0, noise_per_C2 = 0.0, reference_C = 0.0;
   double temperature_gain = 0.0;  ///< log-likelihood beyond even noise
-  double white_std_dps = 0.0;     ///< of innovations that are not outliers, at the reference
-  std::vector<char> outliers;     ///< a flag a sample, of all samples
+  std::vector<char> outliers;     ///< a flag a sample, of all samples: far off
+  double quiet = 1.0;  ///< of the deviation of samples without a flag, what is no outliers'
 };
 
 /// Innovations of an autoregression fitted to the train part of `left_dps` (NaN: unknown): what a

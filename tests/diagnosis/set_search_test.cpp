@@ -394,6 +394,36 @@ TEST(SetSearch, OutliersMayHaveASize) {
   EXPECT_NEAR(outliers.probability, 0.01, 5.0 * std::sqrt(0.01 / 24000.0));
 }
 
+/// White noise, a common kind of errors and a rare one. Deviations are known to one over the root
+/// of twice the samples that have them, times at most 1.5 for not knowing which; 5 times that is
+/// allowed. At least half the samples are of the part that is fitted.
+TEST(SetSearch, OutliersMayBeOfTwoKinds) {
+  Scenario s = still();
+  const effects::Outliers common{.probability = 0.4, .std_dps = 0.2},
+      rare{.probability = 0.002, .std_dps = 2.0};
+  s.effects = {common, rare};
+  const auto series = recorded(s, 82, false);
+  const Simulator simulator(series, 1);
+  const auto found = find_set(simulator, series, {});
+  ASSERT_EQ(found.members.size(), 1);
+  ASSERT_EQ(found.members[0].effect, "outliers");
+  ASSERT_EQ(found.scenario.effects.size(), 2);
+  const double counted = 0.5 * static_cast<double>(series.size());
+  const auto share_known = [&](double share) { return 7.5 / std::sqrt(2.0 * share * counted); };
+  const double white = s.random_error.measurement_noise_std_dps;
+  // The level of some seconds, which is taken out, has of the errors, too.
+  constexpr double of_the_level = 0.05;
+  EXPECT_NEAR(found.scenario.random_error.measurement_noise_std_dps / white, 1.0,
+              of_the_level + share_known(1.0 - common.probability));
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto& truth = k == 0 ? rare : common;
+    const auto& seen = *found.scenario.effects[k].as<effects::Outliers>();
+    EXPECT_NEAR(seen.std_dps / truth.std_dps, 1.0, share_known(truth.probability));
+    EXPECT_NEAR(seen.probability / truth.probability, 1.0,
+                7.5 / std::sqrt(truth.probability * counted));
+  }
+}
+
 /// Rounded to 1.7 of its standard deviations, noise goes with where the level is between two
 /// values, and temperature moves the level; that it grows with temperature shows all the same.
 TEST(SetSearch, NoiseThatWarmsAndOutliersAreSeenThroughACoarseGrid) {

@@ -105,6 +105,26 @@ TEST(Synthesise, TrialsAndSeedsAreDifferentSignals) {
   EXPECT_NE(synthesised(busy(), {1, 0}).gyro_dps, synthesised(busy(), {2, 0}).gyro_dps);
 }
 
+/// Two errors of the same law that were the same would have four times the square of one. Each has
+/// the variance 1; its sum over n samples is known to sqrt(2 / n), times two here, and 5 times that
+/// is allowed.
+TEST(Synthesise, TwoEffectsOfAKindAreNotTheSame) {
+  Scenario s;
+  s.sampling = {.duration_s = 120.0, .rate_hz = 20.0};
+  s.random_error = {
+      .phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.0};
+  s.effects = {effects::Outliers{.probability = 1.0, .std_dps = 1.0},
+               effects::Outliers{.probability = 1.0, .std_dps = 1.0}};
+  const auto series = synthesised(s, {3, 0});
+  double squares = 0.0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const double error = series.gyro_dps[i] - series.rate_ref_dps[i] - series.thermal_bias_dps[i];
+    squares += error * error;
+  }
+  const auto n = static_cast<double>(series.size());
+  EXPECT_NEAR(squares / n, 2.0, 5.0 * 2.0 * std::sqrt(2.0 / n));
+}
+
 TEST(Synthesise, ADisturbanceOfTheCompassMovesNothingElse) {
   auto scenario = busy();
   const auto before = synthesised(scenario);
