@@ -7,40 +7,50 @@
 
 namespace gyrostat {
 
-LowPassSystem::LowPassSystem(double cycles_a_sample, std::size_t count, bool maximally_flat) {
-  const auto order = static_cast<Eigen::Index>(count);
+LowPassSystem::LowPassSystem(Eigen::Index order)
+    : A(Eigen::MatrixXd::Zero(order, order)), b(Eigen::VectorXd::Zero(order)) {}
+
+// One section after the other: y' = w v, v' = w (u - y - 2 damping v), or y' = w (u - y).
+void LowPassSystem::add_pair(double w, double damping_ratio) {
+  const auto y = static_cast<Eigen::Index>(poles.size()), v = y + 1;
+  if (poles.empty())
+    b[v] = w;
+  else
+    A(v, output) = w;
+  A(y, v) = w;
+  A(v, y) = -w;
+  A(v, v) = -2.0 * damping_ratio * w;
+  output = y;
+  const auto apart = std::sqrt(std::complex<double>(damping_ratio * damping_ratio - 1.0));
+  for (const double sign : {1.0, -1.0}) poles.push_back(w * (sign * apart - damping_ratio));
+}
+
+LowPassSystem::LowPassSystem(double cycles_a_sample, std::size_t count, bool maximally_flat)
+    : LowPassSystem(static_cast<Eigen::Index>(count)) {
   const double w = 2.0 * std::numbers::pi * cycles_a_sample;
-  A = Eigen::MatrixXd::Zero(order, order);
-  b = Eigen::VectorXd::Zero(order);
-  b[maximally_flat && order > 1 ? 1 : 0] = w;
-  // One section after the other: y' = w (u - y), or y' = w v, v' = w (u - y - damping v).
-  const auto take = [&](Eigen::Index into) {
-    if (into > 1 || output > 0 || !poles.empty()) A(into, output) = w;
-  };
-  const Eigen::Index pairs = maximally_flat ? order / 2 : 0;
-  for (Eigen::Index k = 0; k < pairs; ++k) {
-    const double angle = std::numbers::pi * (2.0 * static_cast<double>(k) + 1.0) /
-                         (2.0 * static_cast<double>(order));
-    const Eigen::Index y = 2 * k, v = y + 1;
-    take(v);
-    A(y, v) = w;
-    A(v, y) = -w;
-    A(v, v) = -2.0 * std::sin(angle) * w;
-    output = y;
-    for (const double sign : {1.0, -1.0})
-      poles.emplace_back(-w * std::sin(angle), sign * w * std::cos(angle));
-  }
-  for (Eigen::Index y = 2 * pairs; y < order; ++y) {
-    take(y);
+  const std::size_t pairs = maximally_flat ? count / 2 : 0;
+  for (std::size_t k = 0; k < pairs; ++k)
+    add_pair(w, std::sin(std::numbers::pi * (2.0 * static_cast<double>(k) + 1.0) /
+                         (2.0 * static_cast<double>(count))));
+  while (poles.size() < count) {
+    const auto y = static_cast<Eigen::Index>(poles.size());
+    if (poles.empty())
+      b[y] = w;
+    else
+      A(y, output) = w;
     A(y, y) = -w;
     output = y;
     poles.emplace_back(-w, 0.0);
   }
 }
 
-ContinuousLowPass::ContinuousLowPass(double cycles_a_sample, std::size_t poles,
-                                     bool maximally_flat) {
-  const LowPassSystem filter(cycles_a_sample, poles, maximally_flat);
+LowPassSystem LowPassSystem::of_second_order(double cycles_a_sample, double damping_ratio) {
+  LowPassSystem system(Eigen::Index{2});
+  system.add_pair(2.0 * std::numbers::pi * cycles_a_sample, damping_ratio);
+  return system;
+}
+
+ContinuousLowPass::ContinuousLowPass(const LowPassSystem& filter) {
   constexpr Eigen::Index derivatives = 4;
   const Eigen::Index order = filter.A.rows();
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(order + derivatives, order + derivatives);

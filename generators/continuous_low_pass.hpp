@@ -9,14 +9,21 @@
 namespace gyrostat {
 
 /// A low-pass filter of continuous time, x' = A x + b u with the output x[output], time in samples:
-/// equal poles, each with its half power at the cutoff, or Butterworth's.
+/// equal poles, each with its half power at the cutoff, or Butterworth's, or two poles of that
+/// natural frequency.
 struct LowPassSystem {
   LowPassSystem(double cycles_a_sample, std::size_t poles, bool maximally_flat);
+  static LowPassSystem of_second_order(double cycles_a_sample, double damping_ratio);
 
   std::vector<std::complex<double>> poles;
   Eigen::MatrixXd A;
   Eigen::VectorXd b;
   Eigen::Index output = 0;
+
+ private:
+  explicit LowPassSystem(Eigen::Index order);
+  /// A pair of poles of the angular frequency, after what there is.
+  void add_pair(double w, double damping_ratio);
 };
 
 /// The same of a rate that is a cubic from one sample to the next, over which the linear system of
@@ -24,7 +31,7 @@ struct LowPassSystem {
 /// involving the matrix exponential", IEEE Trans. Automatic Control 23, 1978). It begins at rest.
 class ContinuousLowPass {
  public:
-  ContinuousLowPass(double cycles_a_sample, std::size_t poles, bool maximally_flat);
+  explicit ContinuousLowPass(const LowPassSystem& filter);
 
   /// The output at the end of an interval. Slopes of the input are by the sample.
   double operator()(double from, double to, double slope_from, double slope_to);

@@ -11,15 +11,18 @@
 namespace gyrostat::gap {
 
 /// The rate through a low-pass filter of one or two poles, of continuous time or over samples, or a
-/// mean, each a start of its own.
+/// mean, each a start of its own; two poles of any damping from Butterworth's.
 template <>
 struct Diagnosed<effects::SensorBandwidth> {
   static constexpr auto signature = Signature::repeated;
-  static constexpr std::array free_parameters = {&effects::SensorBandwidth::cutoff_hz};
+  static constexpr std::array free_parameters = {&effects::SensorBandwidth::cutoff_hz,
+                                                 &effects::SensorBandwidth::damping_ratio};
 
   /// One pole is what else would be expected: another form is chosen.
   static std::size_t chosen_parameters(const effects::SensorBandwidth& effect) {
-    return effect.averages > 0.5 || effect.maximally_flat > 0.5 || effect.poles > 1.5 ? 1 : 0;
+    const bool is_other =
+        effect.averages > 0.5 || effect.maximally_flat > 0.5 || effect.poles > 1.5;
+    return is_other && effect.damping_ratio == 0.0 ? 1 : 0;
   }
 
   static std::vector<effects::SensorBandwidth> starts(const Evidence& e) {
@@ -30,8 +33,12 @@ struct Diagnosed<effects::SensorBandwidth> {
           effects::SensorBandwidth{.averages = 1.0}, effects::SensorBandwidth{.continuous = 1.0},
           effects::SensorBandwidth{.poles = 2.0, .continuous = 1.0},
           effects::SensorBandwidth{.poles = 2.0, .maximally_flat = 1.0, .continuous = 1.0}})
-      all.push_back(shaped(e, Trace::rate, form, &effects::SensorBandwidth::cutoff_hz,
-                           0.002 * rate_hz, highest_hz(form, rate_hz)));
+      all.push_back(of_better_course(e, form, [&](const effects::SensorBandwidth& there) {
+        return shaped(e, Trace::rate, there, &effects::SensorBandwidth::cutoff_hz, 0.002 * rate_hz,
+                      highest_hz(form, rate_hz));
+      }));
+    all.push_back(of_better_course(e, all.back(),
+                                   [&](const auto& there) { return of_any_damping(e, there); }));
     return all;
   }
 
@@ -42,15 +49,17 @@ struct Diagnosed<effects::SensorBandwidth> {
     constexpr double of_pole = 0.5 / std::numbers::pi,
                      of_butterworth = of_pole * std::numbers::sqrt2,
                      of_mean = 0.5 * effects::SensorBandwidth::half_power_of_mean;
-    const bool is_mean = effect.averages > 0.5, is_flat = !is_mean && effect.maximally_flat > 0.5;
-    const double delay_s = (is_mean   ? of_mean
+    const bool is_damped = effect.damping_ratio > 0.0, is_mean = effect.averages > 0.5,
+               is_flat = !is_mean && !is_damped && effect.maximally_flat > 0.5;
+    const double delay_s = (is_damped ? 2.0 * of_pole * effect.damping_ratio
+                            : is_mean ? of_mean
                             : is_flat ? of_butterworth
                                       : of_pole * effect.poles) /
                            effect.cutoff_hz;
     std::vector<effects::SensorBandwidth> all;
     if (!is_mean) all.push_back({.cutoff_hz = of_mean / delay_s, .averages = 1.0});
-    for (const double continuous : {0.0, 1.0}) {
-      const bool is_other_time = is_mean || effect.continuous != continuous;
+    for (const double continuous : {0.0, 1.0, 2.0}) {
+      const bool is_other_time = is_mean || is_damped || effect.continuous != continuous;
       const auto add = [&](effects::SensorBandwidth form) {
         form.continuous = continuous;
         form.cutoff_hz = std::min(form.cutoff_hz, highest_hz(form, c.rate_hz()));
@@ -61,6 +70,50 @@ struct Diagnosed<effects::SensorBandwidth> {
         add({.cutoff_hz = of_butterworth / delay_s, .poles = 2.0, .maximally_flat = 1.0});
     }
     return all;
+  }
+
+  /// What `fitted` makes of the form, the rate between samples curved or straight: what leaves
+  /// less.
+  template <class Fit>
+  static effects::SensorBandwidth of_better_course(const Evidence& e, effects::SensorBandwidth form,
+                                                   const Fit& fitted) {
+    if (form.continuous < 0.5) return fitted(form);
+    form.continuous = 1.0;
+    const auto curved = fitted(form);
+    form.continuous = 2.0;
+    const auto straight = fitted(form);
+    const auto both = signatures(e, Trace::rate, {curved, straight});
+    const auto seen = trace_of(e, Trace::rate);
+    return (seen - both.col(1)).squaredNorm() < (seen - both.col(0)).squaredNorm() ? straight
+                                                                                   : curved;
+  }
+
+  /// From Butterworth's two poles, by Gauss and Newton.
+  static effects::SensorBandwidth of_any_damping(const Evidence& e,
+                                                 const effects::SensorBandwidth& butterworth) {
+    constexpr int most_steps = 8;
+    constexpr double step = 1e-3, furthest = 0.3;
+    const auto seen = trace_of(e, Trace::rate);
+    effects::SensorBandwidth best{.cutoff_hz = butterworth.cutoff_hz,
+                                  .continuous = butterworth.continuous,
+                                  .damping_ratio = 0.5 * std::numbers::sqrt2};
+    double least = -1.0;
+    effects::SensorBandwidth trial = best;
+    for (int k = 0; k < most_steps; ++k) {
+      auto faster = trial, damped = trial;
+      faster.cutoff_hz *= 1.0 + step;
+      damped.damping_ratio *= 1.0 + step;
+      auto columns = signatures(e, Trace::rate, {trial, faster, damped});
+      const Eigen::VectorXd left = seen - columns.col(0);
+      if (least >= 0.0 && !(left.squaredNorm() < least)) break;
+      least = left.squaredNorm();
+      best = trial;
+      for (const Eigen::Index c : {1, 2}) columns.col(c) -= columns.col(0);
+      const Eigen::VectorXd by = step * match(columns.rightCols(2), left).amplitudes;
+      trial.cutoff_hz *= std::exp(std::clamp(by[0], -furthest, furthest));
+      trial.damping_ratio *= std::exp(std::clamp(by[1], -furthest, furthest));
+    }
+    return best;
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

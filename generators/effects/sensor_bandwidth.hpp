@@ -19,16 +19,17 @@ namespace gyrostat::effects {
 /// The sensor follows the rate through a low-pass filter at its bandwidth (IEEE Std 1554,
 /// bandwidth): equal poles, a rate being held over the interval before its sample, or
 /// Butterworth's, by recursion as simulators do; either as a sensor does, to which the rate goes on
-/// between its samples; or the mean over the time before a sample, the rate being straight between
-/// samples, which takes 3 dB where the product of time and frequency is 0.443 (Oppenheim and
-/// Schafer, "Discrete-Time Signal Processing", 3rd ed., 2.6). At the first sample it has come to
-/// rest.
+/// between its samples, or two poles of any damping; or the mean over the time before a sample, the
+/// rate being straight between samples, which takes 3 dB where the product of time and frequency is
+/// 0.443 (Oppenheim and Schafer, "Discrete-Time Signal Processing", 3rd ed., 2.6). At the first
+/// sample it has come to rest.
 struct SensorBandwidth {
   double cutoff_hz = 5.0;
   double poles = 1.0;
   double maximally_flat = 0.0;
   double averages = 0.0;
   double continuous = 0.0;
+  double damping_ratio = 0.0;
 
   static constexpr int most_poles = 8;
   /// Cutoff times averaging time: sin(pi x) / (pi x) = 1 / sqrt(2).
@@ -49,8 +50,12 @@ struct SensorBandwidth {
               "1: Butterworth's poles; 0: equal ones"},
         Field{"averages", &P::averages, "1", Range{.from = 0, .to = 1, .whole = true},
               "1: a moving average instead of poles"},
-        Field{"continuous", &P::continuous, "1", Range{.from = 0, .to = 1, .whole = true},
-              "1: rate and filter go on between samples; 0: a recursion over samples"},
+        Field{"continuous", &P::continuous, "1", Range{.from = 0, .to = 2, .whole = true},
+              "1: rate and filter go on between samples; 2: the rate straight; 0: a recursion over "
+              "samples"},
+        Field{"damping_ratio", &P::damping_ratio, "1", ranges::non_negative,
+              "of a system of second order, going on between samples, whose natural frequency is "
+              "the cutoff; 0: of the poles that are said"},
     };
   }
 
@@ -77,7 +82,10 @@ struct SensorBandwidth {
     const auto& rate = series.rate_ref_dps;
     const double cycles = cutoff_hz * (series.t_s[last - 1] - series.t_s[first]) /
                           static_cast<double>(last - 1 - first);
-    if (continuous > 0.5) return run_on(series, first, last, {cycles, count, maximally_flat > 0.5});
+    if (damping_ratio > 0.0)
+      return run_on(series, first, last, LowPassSystem::of_second_order(cycles, damping_ratio));
+    if (continuous > 0.5)
+      return run_on(series, first, last, LowPassSystem(cycles, count, maximally_flat > 0.5));
     if (maximally_flat > 0.5) {
       Butterworth sensed(cycles, count);
       for (std::size_t i = first; i < last; ++i)
@@ -95,17 +103,21 @@ struct SensorBandwidth {
     }
   }
 
-  /// Between samples a cubic with the slopes of their neighbours, as in TimeOffset.
-  static void run_on(Series& series, std::size_t first, std::size_t last,
-                     ContinuousLowPass sensed) {
+  /// Between samples straight, or a cubic with the slopes of their neighbours, as in TimeOffset.
+  void run_on(Series& series, std::size_t first, std::size_t last,
+              const LowPassSystem& filter) const {
+    ContinuousLowPass sensed(filter);
     const auto& rate = series.rate_ref_dps;
-    const auto slope = [&](std::size_t i) {
+    const auto slope = [&](std::size_t i, double rise) {
+      if (continuous > 1.5) return rise;
       return 0.5 * (rate[std::min(i + 1, last - 1)] - rate[std::max(i, first + 1) - 1]);
     };
-    for (std::size_t i = first + 1; i < last; ++i)
-      series.gyro_dps[i] +=
-          rate[first] - rate[i] +
-          sensed(rate[i - 1] - rate[first], rate[i] - rate[first], slope(i - 1), slope(i));
+    for (std::size_t i = first + 1; i < last; ++i) {
+      const double rise = rate[i] - rate[i - 1];
+      series.gyro_dps[i] += rate[first] - rate[i] +
+                            sensed(rate[i - 1] - rate[first], rate[i] - rate[first],
+                                   slope(i - 1, rise), slope(i, rise));
+    }
   }
 
   void average(Series& series, std::size_t first, std::size_t last) const {

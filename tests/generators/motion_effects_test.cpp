@@ -132,6 +132,42 @@ TEST(SensorBandwidth, OfContinuousTimeHasTheResponseOfItsPoles) {
       }
 }
 
+/// Two poles of any damping; a cubic as close to its sine as above.
+TEST(SensorBandwidth, OfSecondOrderHasTheResponseOfItsDamping) {
+  using namespace std::complex_literals;
+  for (const double damping : {0.4, 0.7, 1.0, 1.8})
+    for (const double hz : {0.5, 2.0, 5.0}) {
+      constexpr double natural_hz = 3.0;
+      std::vector<double> sine;
+      for (int i = 0; i < 2000; ++i)
+        sine.push_back(std::sin(2.0 * std::numbers::pi * hz * 0.01 * i));
+      const auto z =
+          sensed(effects::SensorBandwidth{.cutoff_hz = natural_hz, .damping_ratio = damping}, sine);
+      const std::complex<double> s = 1i * hz / natural_hz,
+                                 response = 1.0 / (s * s + 2.0 * damping * s + 1.0);
+      for (std::size_t i = 1500; i < 1990; ++i) {
+        const auto turning =
+            std::polar(1.0, 2.0 * std::numbers::pi * hz * 0.01 * static_cast<double>(i));
+        ASSERT_NEAR(z[i], (response * turning).imag(), 1e-3) << damping << ' ' << hz << ' ' << i;
+      }
+    }
+}
+
+/// From the corner at which a rate begins to grow, one pole follows it as t - T (1 - exp(-t / T)):
+/// exactly where the rate is straight between samples, and not where it is a cubic about them.
+TEST(SensorBandwidth, OfAStraightRateFollowsACornerExactly) {
+  std::vector<double> ramp;
+  for (int i = 0; i < 200; ++i) ramp.push_back(std::max(0.0, 0.3 * (i - 100)));
+  const auto straight = sensed(effects::SensorBandwidth{.cutoff_hz = 8.0, .continuous = 2.0}, ramp);
+  const auto curved = sensed(effects::SensorBandwidth{.cutoff_hz = 8.0, .continuous = 1.0}, ramp);
+  constexpr double T = 1.0 / (2.0 * std::numbers::pi * 8.0);
+  for (std::size_t i = 100; i < 200; ++i) {
+    const double t = 0.01 * (static_cast<double>(i) - 100.0);
+    EXPECT_NEAR(straight[i], 30.0 * (t - T * -std::expm1(-t / T)), 1e-10);
+  }
+  EXPECT_GT(std::abs(curved[101] - straight[101]), 1e-3);
+}
+
 /// A ramp is late by 1 / w a pole, exactly; a rate that rests is as it is.
 TEST(SensorBandwidth, OfContinuousTimeIsLateByItsPoles) {
   std::vector<double> ramp;
