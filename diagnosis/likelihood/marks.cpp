@@ -111,10 +111,16 @@ Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<doubl
   const auto& reference = conditions.series().rate_ref_dps;
   Apart apart;
   if (reference.empty()) return apart;
+  // A filter's output has not yet begun to move where its input has.
+  constexpr std::size_t around = 4;
+  const auto follows = [&](std::size_t i) {
+    const std::size_t from = i - 1 - around, to = i + around;
+    return 2.0 * std::abs(z[to] - z[from]) >= std::abs(reference[to] - reference[from]);
+  };
   const auto each = [&](const auto& look) {
     for (const auto& span : conditions.spans(Part::train))
-      for (std::size_t i = span.first + 1; i < span.last; ++i)
-        if (!is_missing(z[i]) && !is_missing(z[i - 1]) &&
+      for (std::size_t i = span.first + 1 + around; i + around < span.last; ++i)
+        if (!is_missing(z[i]) && !is_missing(z[i - 1]) && follows(i) &&
             (marks.limit_dps == 0.0 || std::abs(z[i]) < marks.limit_at(z[i])))
           look(z[i], z[i] - z[i - 1], reference[i] - reference[i - 1]);
   };

@@ -2,6 +2,8 @@
 
 #include <gyrostat/diagnosis/likelihood/marks.hpp>
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <gyrostat/generators/effects/list.hpp>
@@ -62,6 +64,27 @@ TEST(Marks, AGyroThatLagsRepeatsNothing) {
   series.gyro_dps.insert(series.gyro_dps.begin(), series.gyro_dps.front());
   series.gyro_dps.pop_back();
   EXPECT_EQ(marks_in(series).stale_probability, 0.0);
+}
+
+/// Ramps of 60 dps and rests; the sensor follows with a pole of eight samples. At the start of a
+/// ramp it has not moved yet, and equals by chance; repeated it is only where it moves.
+TEST(Marks, AFilterThatHasNotBegunToMoveRepeatsNothing) {
+  for (const double probability : {0.0, 0.05}) {
+    Series series = recorded(still(), 43, false);
+    double rate_dps = 0.0, seen_dps = 0.0;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      const std::size_t ramp = i / 400;
+      if (i % 400 < 100) rate_dps += ramp % 2 == 0 ? 0.6 : -0.6;
+      seen_dps += (rate_dps - seen_dps) * -std::expm1(-1.0 / 8.0);
+      series.rate_ref_dps.push_back(rate_dps);
+      series.gyro_dps[i] += seen_dps;
+    }
+    effects::Quantization{0.07}.apply(series, {1, 0});
+    effects::StaleSamples{probability, 1.0}.apply(series, {1, 0});
+    // 18000 samples of the part that is read: 5 standard errors.
+    EXPECT_NEAR(marks_in(series).stale_probability, probability,
+                5.0 * std::sqrt(probability / (0.25 * 18000.0)));
+  }
 }
 
 }  // namespace
