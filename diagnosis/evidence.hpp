@@ -9,7 +9,7 @@ struct Evidence {
   const Simulator& simulator;
   const Series& recording;
   Scene scene;
-  Scenario baseline;  ///< fitted to the recording
+  Scenario baseline;  ///< fitted to the recording, with what gives its rate a response
   /// Of the train part's cluster means under the set, at the clusters; 0 elsewhere.
   std::vector<double> slow_innovations = {};
 

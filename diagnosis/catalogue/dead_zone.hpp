@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/motion.hpp>
@@ -16,13 +18,14 @@ struct Diagnosed<effects::DeadZone> {
                                                  &effects::DeadZone::lost_beyond};
 
   static std::vector<effects::DeadZone> starts(const Evidence& e) {
+    // Narrower than the noise it does not show.
+    const double narrowest_dps =
+        std::min(0.001 * fastest_dps(e), e.baseline.random_error.measurement_noise_std_dps);
     std::vector<effects::DeadZone> found;
-    for (const double lost : {0.0, 1.0}) {
-      const auto effect =
-          shaped(e, Trace::rate, effects::DeadZone{.lost_beyond = lost},
-                 &effects::DeadZone::half_width_dps, 0.001 * fastest_dps(e), 0.5 * fastest_dps(e));
-      found.push_back(effect);
-    }
+    for (const double lost : {0.0, 1.0})
+      found.push_back(shaped(e, Trace::rate, effects::DeadZone{.lost_beyond = lost},
+                             &effects::DeadZone::half_width_dps, narrowest_dps,
+                             0.5 * fastest_dps(e)));
     return found;
   }
 

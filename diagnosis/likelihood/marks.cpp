@@ -42,7 +42,7 @@ double grid_step(const Simulator& simulator, const std::vector<double>& z) {
     if (sorted[i] - sorted[i - 1] > least) gaps.push_back(sorted[i] - sorted[i - 1]);
   if (gaps.size() < 2) return 0.0;
   const double step = quantile(gaps, 0.2);
-  constexpr double small_to_noise = 0.3;
+  constexpr double small_to_noise = 0.1;
   if (gaps.size() > sorted.size() / 5 &&
       (gaps.size() > sorted.size() / 2 ||
        step < small_to_noise * noise_of(simulator.conditions(), z)))

@@ -138,7 +138,9 @@ Evidence SetBench::evidence_of(const Standing& standing) const {
   Series left = recording_;
   left.gyro_dps = gyro_beside(standing.scenario);
   Evidence evidence{simulator_, recording_, Scene(conditions_, left), standing.scenario};
-  evidence.baseline.effects.clear();
+  // A further effect sees the rate as those have it sensed.
+  std::erase_if(evidence.baseline.effects, [](const auto& e) { return !e.is_response(); });
+  if (response_) evidence.baseline.effects.push_back(*response_);
   const auto& points = standing.fitter->reduced().slow(Part::train).points;
   const auto innovations =
       standing.fitter->terms(standing.fit.scenario, Jumping::no).slow.innovations;

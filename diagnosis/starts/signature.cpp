@@ -46,11 +46,13 @@ Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
                            const std::vector<Effect>& effects) {
   Scenario quiet = quiet_scenario(evidence);
   const auto& conditions = evidence.conditions().series();
+  if (trace == Trace::rate) quiet.effects = evidence.baseline.effects;
   const auto nothing = trace_of(quiet, trace, conditions);
   Eigen::MatrixXd columns;
   for (std::size_t k = 0; k < effects.size(); ++k) {
-    quiet.effects = {effects[k]};
-    auto added = trace_of(quiet, trace, conditions);
+    Scenario with = quiet;
+    with.effects.push_back(effects[k]);
+    auto added = trace_of(with, trace, conditions);
     for (std::size_t i = 0; i < added.size(); ++i)
       added[i] =
           trace == Trace::heading ? wrap_degrees(added[i] - nothing[i]) : added[i] - nothing[i];

@@ -179,6 +179,21 @@ TEST(SetSearch, AButterworthSensorIsOneOfContinuousTime) {
   EXPECT_NEAR(filter->cutoff_hz, 5.0, 0.1);
 }
 
+/// The zone is where the shifted rate passes zero, five widths of it from where the rate does.
+TEST(SetSearch, ADeadZoneIsFoundWhereTheRateIsSensed) {
+  Scenario s = moving();
+  s.effects = {effects::TimeOffset{.offset_s = 0.4},
+               effects::DeadZone{.half_width_dps = 0.6, .lost_beyond = 0.0}};
+  const auto series = recorded(s, 83, true);
+  const Simulator simulator(series, 1);
+  const auto found = find_set(simulator, series, {});
+  const auto zone = std::find_if(found.scenario.effects.begin(), found.scenario.effects.end(),
+                                 [](const auto& effect) { return effect.id() == "dead_zone"; });
+  ASSERT_NE(zone, found.scenario.effects.end());
+  EXPECT_NEAR(zone->template as<effects::DeadZone>()->half_width_dps, 0.6, 0.1);
+  EXPECT_EQ(found.members.size(), 2U);
+}
+
 /// Both parameters are of the motion, which is hundreds of times the noise: what limits them is how
 /// well the rate between samples is known.
 TEST(SetSearch, ASensorOfSecondOrderIsFoundWithItsDamping) {
