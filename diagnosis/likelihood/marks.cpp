@@ -141,6 +141,29 @@ Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<doubl
   return apart;
 }
 
+/// Whether flags begin at distances that are alike: by chance they would spread as far as their
+/// mean.
+bool come_regularly(const Conditions& conditions, const std::vector<char>& flags) {
+  double count = 0.0, sum = 0.0, squares = 0.0;
+  for (const auto& span : conditions.spans(Part::train)) {
+    std::size_t last = span.last;
+    for (std::size_t i = span.first + 1; i < span.last; ++i) {
+      if (flags[i] == 0 || flags[i - 1] != 0) continue;
+      if (last < i) {
+        const auto distance = static_cast<double>(i - last);
+        count += 1.0;
+        sum += distance;
+        squares += distance * distance;
+      }
+      last = i;
+    }
+  }
+  constexpr double fewest = 20.0, alike = 0.3;
+  if (count < fewest) return false;
+  const double mean = sum / count;
+  return squares / count - mean * mean < alike * alike * mean * mean;
+}
+
 /// Standard deviation of white noise of which a sample equals the one before with this probability
 /// once both are rounded: a difference d is rounded to nothing with that of 1 - |d| / lsb.
 double white_under_grid(double lsb_dps, double equal) {
@@ -224,10 +247,12 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
   const double share = std::clamp(twice / std::max(equal, 1.0), 0.0, 0.95);
   const double base = count > 0.0 ? equal / count : 0.0;
   marks.stale_run = share > 1.5 * base ? 1.0 / (1.0 - share) : 1.0;
-  marks.stale_probability = std::clamp(beyond / marks.stale_run / count, 1e-6, 1.0);
+  const double repeated = std::clamp(beyond / count, 1e-6, 0.99);
+  marks.stale_probability = std::min(1.0, repeated / (marks.stale_run * (1.0 - repeated)));
   marks.repeats.assign(z.size(), 0);
   for (std::size_t i = 1; i < z.size(); ++i)
     marks.repeats[i] = z[i] == z[i - 1] && z[i] != low && z[i] != high && !is_silent(i) ? 1 : 0;
+  marks.stale_is_regular = come_regularly(simulator.conditions(), marks.repeats);
   return marks;
 }
 

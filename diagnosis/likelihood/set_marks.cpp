@@ -47,7 +47,9 @@ std::vector<Effect> SetSearcher::read_off(const Marks& marks, FoundSet& found) {
     add(with_values("quantization", {{"lsb_dps", marks.lsb_dps}}));
   if (marks.stale_probability > 0.0 && bench_.is_allowed("stale_samples")) {
     add(with_values("stale_samples",
-                    {{"probability", marks.stale_probability}, {"mean_run", marks.stale_run}}));
+                    {{"probability", marks.stale_probability},
+                     {"mean_run", marks.stale_run},
+                     {"regular", marks.stale_is_regular ? 1.0 : 0.0}}));
     bench_.mask_too(marks.repeats);
   }
   if (marks.limit_dps > 0.0 && bench_.is_allowed("saturation")) {

@@ -26,13 +26,16 @@ struct Whitened {
   std::vector<double> innovations;
 };
 
+/// Where few samples have all before them, those that are missing are as if they were zero.
 Whitened whiten(const Conditions& conditions, const std::vector<double>& left, Part part,
-                const std::vector<double>& coefficients) {
+                const std::vector<double>& coefficients, bool bridges) {
   Whitened w;
   for (const auto& span : conditions.spans(part))
     for (std::size_t i = span.first + order; i < span.last; ++i) {
       double e = left[i];
-      for (std::size_t j = 0; j < order; ++j) e += coefficients[j] * left[i - 1 - j];
+      for (std::size_t j = 0; j < order; ++j)
+        if (const double before = left[i - 1 - j]; !bridges || !is_missing(before))
+          e += coefficients[j] * before;
       if (is_missing(e)) continue;
       w.samples.push_back(i);
       w.innovations.push_back(e);
@@ -111,7 +114,9 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
   std::vector<double> left = given;
   for (double& v : left)
     if (!is_missing(v)) v = std::clamp(v, -limit, limit);
-  auto w = whiten(conditions, left, Part::train, coefficients);
+  auto w = whiten(conditions, left, Part::train, coefficients, false);
+  if (2 * w.samples.size() < present.size())
+    w = whiten(conditions, left, Part::train, coefficients, true);
   for (std::size_t k = 0; k < w.samples.size(); ++k)
     w.innovations[k] += given[w.samples[k]] - left[w.samples[k]];
   if (w.innovations.size() < 500) return tails;

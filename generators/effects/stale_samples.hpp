@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
@@ -12,10 +13,12 @@ namespace gyrostat::effects {
 
 /// The recorder repeats its last value where a new one came too late. Repeats last a geometric
 /// number of samples and a fresh one follows each, so that the share of repeated samples is p m /
-/// (1 + p m) with p = probability and m = mean run.
+/// (1 + p m) with p = probability and m = mean run. Or they come at even distances, as where the
+/// sensor's clock is slower than the recorder's: each 1 / p + m samples one begins.
 struct StaleSamples {
   double probability = 0.01;
   double mean_run = 1.0;
+  double regular = 0.0;
 
   static constexpr std::string_view title = "values are repeated";
   static constexpr Stage stage = Stage::transport;
@@ -28,6 +31,8 @@ struct StaleSamples {
               "chance that a repeat begins at a sample"},
         Field{"mean_run", &P::mean_run, "samples", Range{.from = 1, .to = 1e6},
               "mean length of a repeat"},
+        Field{"regular", &P::regular, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: repeats begin at even distances; 0: by chance"},
     };
   }
 
@@ -37,9 +42,17 @@ struct StaleSamples {
     if (probability == 0.0) return;
     const auto begins = noise.stream("stale_samples/begins");
     const auto goes_on = noise.stream("stale_samples/goes_on");
+    const double turn = noise.stream("stale_samples/first").uniform(0);
+    const double distance = 1.0 / probability + mean_run;
+    const auto round_of = [&](std::size_t i) {
+      return std::floor(turn + static_cast<double>(i) / distance);
+    };
+    const auto is_begun = [&](std::size_t i) {
+      return regular > 0.5 ? round_of(i) > round_of(i - 1) : begins.uniform(i) < probability;
+    };
     bool stale = false;
     for (std::size_t i = 1, n = samples_with(series, needs); i < n; ++i) {
-      stale = stale ? goes_on.uniform(i) < 1.0 - 1.0 / mean_run : begins.uniform(i) < probability;
+      stale = stale ? goes_on.uniform(i) < 1.0 - 1.0 / mean_run : is_begun(i);
       if (stale) series.gyro_dps[i] = series.gyro_dps[i - 1];
     }
   }

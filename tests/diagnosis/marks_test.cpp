@@ -2,10 +2,12 @@
 
 #include <gyrostat/diagnosis/likelihood/marks.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include <gyrostat/diagnosis/likelihood/set_search.hpp>
 #include <gyrostat/generators/effects/list.hpp>
 #include <gyrostat/tests/diagnosis/known_recordings.hpp>
 
@@ -84,6 +86,24 @@ TEST(Marks, AFilterThatHasNotBegunToMoveRepeatsNothing) {
     // 18000 samples of the part that is read: 5 standard errors.
     EXPECT_NEAR(marks_in(series).stale_probability, probability,
                 5.0 * std::sqrt(probability / (0.25 * 18000.0)));
+  }
+}
+
+/// A sensor whose clock is slower than the recorder's: a repeat each 1 / p + 1 samples, and between
+/// them no two samples are 16 away from any. By chance, distances spread as far as their mean: of
+/// hundreds, never a third of it.
+TEST(Marks, RepeatsAtEvenDistancesAreTold) {
+  for (const double regular : {0.0, 1.0}) {
+    Scenario s = still();
+    s.effects = {effects::StaleSamples{0.075, 1.0, regular}, effects::Outliers{0.01, 0.5}};
+    const auto series = recorded(s, 44, false);
+    const auto marks = marks_in(series);
+    EXPECT_EQ(marks.stale_is_regular, regular > 0.5);
+    EXPECT_NEAR(marks.stale_probability, 0.075, 5.0 * std::sqrt(0.075 / 18000.0));
+    const Simulator simulator(series, 1);
+    const auto found = find_set(simulator, series, {});
+    EXPECT_TRUE(std::any_of(found.members.begin(), found.members.end(),
+                            [](const auto& member) { return member.effect == "outliers"; }));
   }
 }
 

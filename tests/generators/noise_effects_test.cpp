@@ -431,5 +431,19 @@ TEST(StaleSamples, RepeatTheirShareInRunsOfTheirMeanLength) {
   }
 }
 
+/// Distances are 1 / p + 1 samples, 12 or 13 of them here, and no others.
+TEST(StaleSamples, OfASlowerClockComeAtEvenDistances) {
+  auto series = noisy(20000, 100.0);
+  effects::StaleSamples{.probability = 1.0 / 11.4, .mean_run = 1.0, .regular = 1.0}.apply(series,
+                                                                                          {1, 0});
+  std::vector<std::size_t> at;
+  for (std::size_t i = 1; i < series.size(); ++i)
+    if (series.gyro_dps[i] == series.gyro_dps[i - 1]) at.push_back(i);
+  EXPECT_NEAR(static_cast<double>(at.size()), 20000.0 / 12.4, 1.0);
+  for (std::size_t k = 1; k < at.size(); ++k)
+    EXPECT_EQ((at[k] - at[k - 1]) / 12, 1U) << at[k] - at[k - 1];
+  for (std::size_t k = 1; k < at.size(); ++k) EXPECT_LE(at[k] - at[k - 1], 13U);
+}
+
 }  // namespace
 }  // namespace gyrostat::noise_effects_test
