@@ -22,7 +22,7 @@ struct Diagnosed<effects::VibrationRectification> {
   static std::vector<effects::VibrationRectification> guesses(const Beside& beside) {
     const double least_s = 2.0 * beside.conditions.interval_s();
     std::vector<effects::VibrationRectification> all;
-    for (const double averaged_s : {0.1, 0.5, 2.0})
+    for (const double averaged_s : {0.1, 0.5, 1.0, 2.0, 4.0, 8.0})
       all.push_back({1.0, std::max(averaged_s, least_s)});
     for (const double averaged_s : {0.1, 2.0})
       all.push_back({1.0, std::max(averaged_s, least_s), 1.0});
