@@ -46,14 +46,14 @@ std::vector<Effect> SetSearcher::read_off(const Marks& marks, FoundSet& found) {
   if (marks.lsb_dps > 0.0 && bench_.is_allowed("quantization"))
     add(with_values("quantization", {{"lsb_dps", marks.lsb_dps}}));
   if (marks.stale_probability > 0.0 && bench_.is_allowed("stale_samples")) {
-    add(with_values("stale_samples",
-                    {{"probability", marks.stale_probability},
-                     {"mean_run", marks.stale_run},
-                     {"regular", marks.stale_is_regular ? 1.0 : 0.0}}));
+    add(with_values("stale_samples", {{"probability", marks.stale_probability},
+                                      {"mean_run", marks.stale_run},
+                                      {"regular", marks.stale_is_regular ? 1.0 : 0.0}}));
     bench_.mask_too(marks.repeats);
   }
   if (marks.limit_dps > 0.0 && bench_.is_allowed("saturation")) {
-    add(with_values("saturation", {{"limit_dps", marks.limit_dps}, {"below_dps", marks.below_dps}}));
+    add(with_values("saturation",
+                    {{"limit_dps", marks.limit_dps}, {"below_dps", marks.below_dps}}));
     bench_.mark_saturation();
     bench_.mask_too(near_the_limit(marks));
   }
