@@ -6,9 +6,10 @@
 namespace gyrostat::gap {
 
 double Beside::slow_std_dps() const {
-  return std::sqrt(slow_law(fitter.reduced(), law_of(fit.scenario, conditions.interval_s()),
-                            conditions.cluster())
-                       .white);
+  const auto law = slow_law(fitter.reduced(), law_of(fit.scenario, conditions.interval_s()),
+                            conditions.cluster());
+  // Beside a walk that is larger the white noise of means may be less than none.
+  return std::sqrt(std::max(law.white, law.walk));
 }
 
 std::vector<double> Beside::memories_s() const {

@@ -12,7 +12,7 @@ struct Beside {
   const SetFitter& fitter;
   const SetFit& fit;
 
-  /// Standard deviation of a cluster mean that the set leaves.
+  /// Standard deviation of a cluster mean that the set leaves, or of its step to the next.
   double slow_std_dps() const;
   /// From a few clusters to a sixth of the recording, four times apart.
   std::vector<double> memories_s() const;

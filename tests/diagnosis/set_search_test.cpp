@@ -179,6 +179,17 @@ TEST(SetSearch, AButterworthSensorIsOneOfContinuousTime) {
   EXPECT_NEAR(filter->cutoff_hz, 5.0, 0.1);
 }
 
+/// Means of 120 samples, of which the noise is a sixth of the error's: beside a walk in the error's
+/// place there was less than no noise left to guess a size from.
+TEST(SetSearch, AnErrorFarAboveTheNoiseOfMeansIsFound) {
+  Scenario s = still();
+  s.sampling = {3600.0, 100.0};
+  s.random_error = {
+      .phi = 0.0, .delta1_dps = 1e-6, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.05};
+  s.effects = {effects::GaussMarkov{0.03, 2.3}};
+  EXPECT_EQ(found_in(recorded(s, 84, false)), std::set<std::string>{"gauss_markov"});
+}
+
 /// The zone is where the shifted rate passes zero, five widths of it from where the rate does.
 TEST(SetSearch, ADeadZoneIsFoundWhereTheRateIsSensed) {
   Scenario s = moving();
