@@ -107,6 +107,10 @@ Scenario Diagnosing::with_drift(Scenario scenario, const Series& recording) cons
     left.gyro_dps[i] -= with.gyro_dps[i] - bare.gyro_dps[i];
   left.heading_deg.clear();
   scenario.thermal_drift = fit_drift(conditions, Scene(conditions, left, train_alone));
+  // The mean of rounded values is not what was rounded.
+  if (found_.level_on_grid_dps && has(scenario, "quantization"))
+    scenario.thermal_drift = {
+        .a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = *found_.level_on_grid_dps};
   return scenario;
 }
 

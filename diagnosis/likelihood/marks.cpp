@@ -1,4 +1,5 @@
 #include <gyrostat/diagnosis/likelihood/marks.hpp>
+#include <gyrostat/diagnosis/likelihood/resting_noise.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +41,7 @@ double grid_step(const Simulator& simulator, const std::vector<double>& z) {
   const double least = std::max(1.5 * simulator.resolution_dps(), 1e-12);
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i] - sorted[i - 1] > least) gaps.push_back(sorted[i] - sorted[i - 1]);
-  if (gaps.size() < 2) return 0.0;
+  if (gaps.empty()) return 0.0;
   const double step = quantile(gaps, 0.2);
   constexpr double small_to_noise = 0.1;
   if (gaps.size() > sorted.size() / 5 &&
@@ -225,6 +226,10 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
   // Of a motion, neighbours are not equal whatever the noise.
   if (marks.lsb_dps > 0.0 && at_rest > 0.0)
     marks.white_under_grid_dps = white_under_grid(marks.lsb_dps, equal_at_rest / at_rest);
+  if (const auto resting = resting_noise(simulator.conditions(), z, marks.lsb_dps)) {
+    marks.level_on_grid_dps = resting->level_dps;
+    marks.white_under_grid_dps = resting->std_dps;
+  }
   double by_chance = 0.0;
   if (marks.lsb_dps > 0.0)
     by_chance = equal_by_chance(differences, marks.lsb_dps);

@@ -13,13 +13,15 @@ struct Marks {
   double lsb_dps = 0.0;               ///< step of the grid that the values lie on; 0: none
   bool turns_through_grid = false;    ///< a motion takes most samples from one step to others
   double white_under_grid_dps = 0.0;  ///< white noise that moves as many samples across the grid
-  double stale_probability = 0.0;     ///< chance that a repeat begins at a sample; 0: no repeats
-  double stale_run = 1.0;             ///< mean length of a repeat
-  bool stale_is_regular = false;      ///< whether repeats begin at even distances
-  double limit_dps = 0.0;             ///< beyond which the output is clipped; 0: none is
-  double below_dps = 0.0;             ///< as far below zero; 0: as above
-  std::vector<char> clipped;          ///< a flag a sample, where there is a limit
-  SilentZone silent;                  ///< where the output is written as 0
+  /// Where the output rests on two or three values: what the noise is about.
+  std::optional<double> level_on_grid_dps;
+  double stale_probability = 0.0;  ///< chance that a repeat begins at a sample; 0: no repeats
+  double stale_run = 1.0;          ///< mean length of a repeat
+  bool stale_is_regular = false;   ///< whether repeats begin at even distances
+  double limit_dps = 0.0;          ///< beyond which the output is clipped; 0: none is
+  double below_dps = 0.0;          ///< as far below zero; 0: as above
+  std::vector<char> clipped;       ///< a flag a sample, where there is a limit
+  SilentZone silent;               ///< where the output is written as 0
   std::vector<char> repeats;  ///< a flag a sample: repeats the one before, where there are such
 
   /// On a value's side of zero.

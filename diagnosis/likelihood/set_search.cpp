@@ -30,7 +30,9 @@ FoundSet SetSearcher::run() {
   // Rounding to more than the noise is no longer noise, unless a motion dithers it: what it does to
   // the fast part and to slow noise has no law here.
   constexpr double coarsest = 2.2;
-  const double lsb_of_noise = marks.lsb_dps / white_with_rounding(begun.scenario);
+  const double lsb_of_noise =
+      marks.lsb_dps /
+      (marks.level_on_grid_dps ? marks.white_under_grid_dps : white_with_rounding(begun.scenario));
   const bool coarse = lsb_of_noise > coarsest && !marks.turns_through_grid;
   if (coarse)
     feigned_ = {.warmth = 1e300, .tails = 1e300};
@@ -61,6 +63,8 @@ FoundSet SetSearcher::run() {
   tell("looking for what has no name", 1);
   found.gain = standing.score - begun.score;
   found.unexplained = unexplained_by(conditions_, *standing.fitter, standing.scenario);
+  // What rounding to more than the noise leaves has another spectrum than the noise.
+  if (coarse) std::erase_if(found.unexplained, [](const auto& u) { return u.what == "spectrum"; });
   add_nameless_tails(found);
   found.screening = screening_;
   found.scenario = standing.scenario;
@@ -75,7 +79,11 @@ FoundSet SetSearcher::run() {
     for (std::size_t i = 0; i < unseen.size(); ++i)
       if (tails_.outliers[i] != 0) unseen[i] = 1;
   name_lines(bench_, standing, unseen, found);
-  if (coarse) found.scenario.random_error.measurement_noise_std_dps = marks.white_under_grid_dps;
+  if (coarse) {
+    white_under_grid_dps_ = marks.white_under_grid_dps;
+    found.scenario.random_error.measurement_noise_std_dps = marks.white_under_grid_dps;
+    found.level_on_grid_dps = marks.level_on_grid_dps;
+  }
   auto& drift = found.scenario.thermal_drift;
   const auto& coefficients = standing.fit.drift;
   drift = {.a_dps_per_C = coefficients.size() > 0 ? coefficients[0] : 0.0,
@@ -111,6 +119,8 @@ Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::st
     fit = std::move(other);
   some.random_error = fit.scenario.random_error;
   if (is_in("outliers")) take_out_outliers(some.random_error);
+  if (white_under_grid_dps_ && is_in("quantization"))
+    some.random_error.measurement_noise_std_dps = *white_under_grid_dps_;
   return some;
 }
 

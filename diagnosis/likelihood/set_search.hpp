@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,8 @@ struct FoundSet {
   std::vector<ParameterInterval>
       intervals{};                         ///< of parameters of `scenario`, where they are known
   std::vector<Unexplained> unexplained{};  ///< beside the set
+  /// What rounds to it, where a grid is coarser than the noise that rests on it.
+  std::optional<double> level_on_grid_dps{};
   double gain = 0.0;  ///< log-likelihood of the rate's set, less its cost, beyond the baseline's
   /// What each effect would have gained at each step of the search.
   std::vector<std::pair<std::string, double>> screening{};

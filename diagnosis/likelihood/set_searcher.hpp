@@ -128,6 +128,7 @@ class SetSearcher {
   Tails tails_;
   OfGrid feigned_;
   bool has_outliers_ = false, has_warm_noise_ = false;
+  std::optional<double> white_under_grid_dps_;  ///< where the grid is coarse
   std::vector<const CauseType*> candidates_;
   std::size_t rounds_ = 0;  ///< in which every candidate was tried
   std::size_t left_ = 1;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gyrostat/diagnosis/diagnosis.hpp>
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
 #include <gyrostat/generators/effects/list.hpp>
 #include <gyrostat/tests/diagnosis/known_recordings.hpp>
@@ -104,6 +105,49 @@ TEST(Marks, RepeatsAtEvenDistancesAreTold) {
     const auto found = find_set(simulator, series, {});
     EXPECT_TRUE(std::any_of(found.members.begin(), found.members.end(),
                             [](const auto& member) { return member.effect == "outliers"; }));
+  }
+}
+
+/// A level that rests, and noise, in grids: of 18000 samples.
+Series resting(double level, double deviation, std::uint64_t seed) {
+  constexpr double lsb_dps = 0.25;
+  Scenario s;
+  s.sampling = {1200.0, 20.0};
+  s.random_error = {.phi = 0.0,
+                    .delta1_dps = 0.0,
+                    .delta2_dps = 0.0,
+                    .measurement_noise_std_dps = lsb_dps * deviation};
+  s.thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = lsb_dps * level};
+  s.effects = {effects::Quantization{lsb_dps}};
+  Series series = recorded(s, seed, false);
+  series.temperature_C.clear();
+  series.heading_deg.clear();
+  return series;
+}
+
+/// One in 260 samples has the rarest of three values: its place among normal ones, 2.7, is known to
+/// 1 / (2.7 sqrt(68)), which is 0.045 of it, and 5 times that is allowed of both. Two values hold
+/// the noise below a bound.
+TEST(Marks, NoiseUnderAGridIsReadOffItsFewValues) {
+  const auto three = marks_in(resting(0.3, 0.3, 45));
+  ASSERT_TRUE(three.level_on_grid_dps.has_value());
+  EXPECT_NEAR(three.white_under_grid_dps, 0.25 * 0.3, 0.25 * 5.0 * 0.045 * 0.3);
+  EXPECT_NEAR(*three.level_on_grid_dps, 0.25 * 0.3, 0.25 * 5.0 * 0.045 * 0.3);
+  const auto two = marks_in(resting(0.4, 0.1, 46));
+  EXPECT_EQ(two.lsb_dps, 0.25);
+  ASSERT_TRUE(two.level_on_grid_dps.has_value());
+  EXPECT_LT(two.white_under_grid_dps, 0.25 * 0.4);
+  EXPECT_GE(two.white_under_grid_dps, 0.25 * 0.1);
+}
+
+/// At five deviations of the noise: whatever of a step the level is from a value, rounding explains
+/// the recording, and nothing else is named.
+TEST(Marks, RoundingToFarMoreThanTheNoiseClosesTheGap) {
+  for (const double level : {0.05, 0.3, 0.45}) {
+    const auto found = diagnose(resting(level, 0.2, 47), {});
+    EXPECT_EQ(found.verdict.text(), "quantization") << level;
+    EXPECT_GT(found.closed, 0.9) << level;
+    EXPECT_EQ(found.effects.size(), 1U) << level;
   }
 }
 

@@ -1,0 +1,99 @@
+#include <gyrostat/diagnosis/likelihood/resting_noise.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include <gyrostat/core/step.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+/// In grids, as everything below.
+double mean_of_rounded(const std::map<long, double>& counts) {
+  double sum = 0.0, all = 0.0;
+  for (const auto& [value, count] : counts) {
+    sum += count * static_cast<double>(value);
+    all += count;
+  }
+  return sum / all;
+}
+
+double below(double edge, double level, double deviation) {
+  return 0.5 * std::erfc((level - edge) / (deviation * std::numbers::sqrt2));
+}
+
+double share_of(long value, double level, double deviation) {
+  const double at = static_cast<double>(value);
+  return below(at + 0.5, level, deviation) - below(at - 0.5, level, deviation);
+}
+
+/// The level whose rounded noise has that mean.
+double level_of(double mean, double deviation) {
+  double low = mean - 1.0, high = mean + 1.0;
+  for (int k = 0; k < 60; ++k) {
+    const double level = 0.5 * (low + high);
+    double rounded = 0.0;
+    const long middle = std::lround(level);
+    for (long value = middle - 6; value <= middle + 6; ++value)
+      rounded += static_cast<double>(value) * share_of(value, level, deviation);
+    (rounded < mean ? low : high) = level;
+  }
+  return 0.5 * (low + high);
+}
+
+double log_likelihood(const std::map<long, double>& counts, double level, double deviation) {
+  double sum = 0.0;
+  for (const auto& [value, count] : counts)
+    sum += count * std::log(std::max(share_of(value, level, deviation), 1e-300));
+  return sum;
+}
+
+}  // namespace
+
+std::optional<RestingNoise> resting_noise(const Conditions& conditions,
+                                          const std::vector<double>& gyro_dps, double lsb_dps) {
+  if (!(lsb_dps > 0.0) || conditions.has_motion()) return std::nullopt;
+  constexpr std::size_t blocks = 20, most_values = 5;
+  constexpr double few = 1e-3, still = 0.1;
+  std::map<long, double> counts;
+  std::vector<double> values;
+  for (const auto& span : conditions.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (!is_missing(gyro_dps[i])) {
+        values.push_back(gyro_dps[i] / lsb_dps);
+        counts[std::lround(values.back())] += 1.0;
+        // A grid that does not pass through zero is none of rounding alone.
+        if (std::abs(values.back() - std::nearbyint(values.back())) > 0.01) return std::nullopt;
+        if (counts.size() > most_values) return std::nullopt;
+      }
+  if (values.size() < 50 * blocks || counts.size() < 2) return std::nullopt;
+  const auto n = static_cast<double>(values.size());
+  const auto common = std::count_if(counts.begin(), counts.end(),
+                                    [&](const auto& c) { return c.second > few * n; });
+  if (common > 3) return std::nullopt;
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t k = b * values.size() / blocks; k < (b + 1) * values.size() / blocks; ++k)
+      sum += values[k], count += 1.0;
+    lowest = std::min(lowest, sum / count);
+    highest = std::max(highest, sum / count);
+  }
+  if (highest - lowest > still) return std::nullopt;
+
+  const double mean = mean_of_rounded(counts);
+  constexpr double smallest = 0.05, largest = 1.0, step = 1.01, as_likely = 0.5;
+  double best = -std::numeric_limits<double>::infinity();
+  for (double deviation = smallest; deviation < largest; deviation *= step)
+    best = std::max(best, log_likelihood(counts, level_of(mean, deviation), deviation));
+  double found = smallest;
+  for (double deviation = smallest; deviation < largest; deviation *= step)
+    if (log_likelihood(counts, level_of(mean, deviation), deviation) > best - as_likely)
+      found = deviation;
+  return RestingNoise{lsb_dps * level_of(mean, found), lsb_dps * found};
+}
+
+}  // namespace gyrostat::gap
