@@ -229,6 +229,7 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
   if (const auto resting = resting_noise(simulator.conditions(), z, marks.lsb_dps)) {
     marks.level_on_grid_dps = resting->level_dps;
     marks.white_under_grid_dps = resting->std_dps;
+    marks.grid_offset_dps = resting->offset_dps;
   }
   double by_chance = 0.0;
   if (marks.lsb_dps > 0.0)

@@ -57,17 +57,20 @@ std::optional<RestingNoise> resting_noise(const Conditions& conditions,
                                           const std::vector<double>& gyro_dps, double lsb_dps) {
   if (!(lsb_dps > 0.0) || conditions.has_motion()) return std::nullopt;
   constexpr std::size_t blocks = 20, most_values = 5;
-  constexpr double few = 1e-3, still = 0.1;
+  constexpr double few = 1e-3, still = 0.1, alike = 0.01;
   std::map<long, double> counts;
   std::vector<double> values;
+  double offset = 0.0;
   for (const auto& span : conditions.spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i)
       if (!is_missing(gyro_dps[i])) {
-        values.push_back(gyro_dps[i] / lsb_dps);
+        const double value = gyro_dps[i] / lsb_dps;
+        if (values.empty()) offset = value - std::nearbyint(value);
+        values.push_back(value - offset);
         counts[std::lround(values.back())] += 1.0;
-        // A grid that does not pass through zero is none of rounding alone.
-        if (std::abs(values.back() - std::nearbyint(values.back())) > 0.01) return std::nullopt;
-        if (counts.size() > most_values) return std::nullopt;
+        if (std::abs(values.back() - std::nearbyint(values.back())) > alike ||
+            counts.size() > most_values)
+          return std::nullopt;
       }
   if (values.size() < 50 * blocks || counts.size() < 2) return std::nullopt;
   const auto n = static_cast<double>(values.size());
@@ -93,7 +96,11 @@ std::optional<RestingNoise> resting_noise(const Conditions& conditions,
   for (double deviation = smallest; deviation < largest; deviation *= step)
     if (log_likelihood(counts, level_of(mean, deviation), deviation) > best - as_likely)
       found = deviation;
-  return RestingNoise{lsb_dps * level_of(mean, found), lsb_dps * found};
+  // A grid through zero has no offset but that of decimals.
+  if (std::abs(offset) < alike) offset = 0.0;
+  return RestingNoise{.level_dps = lsb_dps * (offset + level_of(mean, found)),
+                      .std_dps = lsb_dps * found,
+                      .offset_dps = lsb_dps * offset};
 }
 
 }  // namespace gyrostat::gap

@@ -44,7 +44,8 @@ std::vector<Effect> SetSearcher::read_off(const Marks& marks, FoundSet& found) {
     effects.push_back(std::move(effect));
   };
   if (marks.lsb_dps > 0.0 && bench_.is_allowed("quantization"))
-    add(with_values("quantization", {{"lsb_dps", marks.lsb_dps}}));
+    add(with_values("quantization",
+                    {{"lsb_dps", marks.lsb_dps}, {"offset_dps", marks.grid_offset_dps}}));
   if (marks.stale_probability > 0.0 && bench_.is_allowed("stale_samples")) {
     add(with_values("stale_samples", {{"probability", marks.stale_probability},
                                       {"mean_run", marks.stale_run},

@@ -12,9 +12,11 @@
 namespace gyrostat::effects {
 
 /// The converter's grid: each value becomes the nearest multiple of the least significant bit
-/// (IEEE Std 952 annex C, quantization noise; variance lsb^2 / 12).
+/// (IEEE Std 952 annex C, quantization noise; variance lsb^2 / 12), or of a grid that a bias taken
+/// out after the converter has moved.
 struct Quantization {
   double lsb_dps = 0.05;
+  double offset_dps = 0.0;
 
   static constexpr std::string_view title = "values lie on a grid";
   static constexpr Stage stage = Stage::conversion;
@@ -26,6 +28,7 @@ struct Quantization {
     return std::array{
         Field{"lsb_dps", &P::lsb_dps, "dps", ranges::non_negative,
               "least significant bit; 0 leaves the values as they are"},
+        Field{"offset_dps", &P::offset_dps, "dps", ranges::any, "a value of the grid"},
     };
   }
 
@@ -33,7 +36,11 @@ struct Quantization {
 
   void apply(Series& series, const Noise& /*noise*/) const {
     if (lsb_dps == 0.0) return;
-    for (double& z : series.gyro_dps) z = lsb_dps * std::nearbyint(z / lsb_dps);
+    if (offset_dps == 0.0)
+      for (double& z : series.gyro_dps) z = lsb_dps * std::nearbyint(z / lsb_dps);
+    else
+      for (double& z : series.gyro_dps)
+        z = offset_dps + lsb_dps * std::nearbyint((z - offset_dps) / lsb_dps);
   }
 };
 
