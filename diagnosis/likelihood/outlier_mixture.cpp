@@ -29,7 +29,8 @@ struct Alike {
 };
 
 std::vector<Alike> gathered(const std::vector<double>& squares, double narrow) {
-  constexpr double ratio = 0.005, least = 1e-4;
+  constexpr double ratio = 0.005, least = 1e-4, smallest = 1e-300;
+  narrow = std::max(narrow, smallest);
   std::map<int, Alike> bins;
   for (const double s : squares) {
     auto& bin = bins[static_cast<int>(std::log(std::max(s / narrow, least) / least) / ratio)];

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include <gyrostat/core/step.hpp>
 
@@ -89,13 +90,15 @@ std::optional<RestingNoise> resting_noise(const Conditions& conditions,
 
   const double mean = mean_of_rounded(counts);
   constexpr double smallest = 0.05, largest = 1.0, step = 1.01, as_likely = 0.5;
+  std::vector<std::pair<double, double>> tried;  // deviations, with their log-likelihoods
   double best = -std::numeric_limits<double>::infinity();
-  for (double deviation = smallest; deviation < largest; deviation *= step)
-    best = std::max(best, log_likelihood(counts, level_of(mean, deviation), deviation));
+  for (double deviation = smallest; deviation < largest; deviation *= step) {
+    tried.emplace_back(deviation, log_likelihood(counts, level_of(mean, deviation), deviation));
+    best = std::max(best, tried.back().second);
+  }
   double found = smallest;
-  for (double deviation = smallest; deviation < largest; deviation *= step)
-    if (log_likelihood(counts, level_of(mean, deviation), deviation) > best - as_likely)
-      found = deviation;
+  for (const auto& [deviation, likelihood] : tried)
+    if (likelihood > best - as_likely) found = deviation;
   // A grid through zero has no offset but that of decimals.
   if (std::abs(offset) < alike) offset = 0.0;
   return RestingNoise{.level_dps = lsb_dps * (offset + level_of(mean, found)),
