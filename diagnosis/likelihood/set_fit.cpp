@@ -130,17 +130,18 @@ NoiseLaw SetFitter::law_for(const Scenario& scenario, Jumping jumping) const {
   return jumping == Jumping::yes ? law : law.without_jumps();
 }
 
-SlowTerms SetFitter::slow_terms_of(const SlowLaw& law, const Regressors& regressors) const {
+SlowTerms SetFitter::slow_terms_of(const SlowLaw& law, const Regressors& regressors,
+                                   const SlowTerms* near) const {
   constexpr double drift_prior = 3.0;  // drifts are larger than what is found beside them
   Eigen::VectorXd prior_std = Eigen::VectorXd::Constant(regressors.columns.cols(), amplitude_dps_);
   prior_std.head(drift_.cols()) *= drift_prior;
-  return slow_terms(*reduced_, law, regressors.columns, prior_std);
+  return slow_terms(*reduced_, law, regressors.columns, prior_std, near);
 }
 
-RateTerms SetFitter::terms(const Scenario& scenario, Jumping jumping) const {
+RateTerms SetFitter::terms(const Scenario& scenario, Jumping jumping, const SlowTerms* near) const {
   interrupt_.check();
   RateTerms terms{.bands = rate_bands(*reduced_, law_for(scenario, jumping)), .slow = {}};
-  terms.slow = slow_terms_of(terms.bands.slow, regressors_of(scenario));
+  terms.slow = slow_terms_of(terms.bands.slow, regressors_of(scenario), near);
   terms.log_likelihood = terms.slow.log_likelihood + terms.bands.fast.log_likelihood;
   return terms;
 }

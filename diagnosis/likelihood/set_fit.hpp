@@ -68,7 +68,9 @@ class SetFitter {
   Amplitude amplitude_of(const Scenario& scenario, std::size_t effect) const;
   /// With as much white noise as the fast part calls for, all else as it is.
   Scenario with_white_noise_scaled(Scenario scenario) const;
-  RateTerms terms(const Scenario& scenario, Jumping jumping = Jumping::yes) const;
+  /// From the terms of a scenario `near` this one, where there is one (slow_terms).
+  RateTerms terms(const Scenario& scenario, Jumping jumping = Jumping::yes,
+                  const SlowTerms* near = nullptr) const;
 
  private:
   SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
@@ -83,17 +85,22 @@ class SetFitter {
     Eigen::MatrixXd columns;
     std::vector<double> spreads;  ///< that they had
   };
-  /// Derivatives of what a likelihood is made of, a dial each; their products are its information.
-  Eigen::MatrixXd slopes_of(const Scenario& scenario, const std::vector<Dial>& dials,
-                            const RateTerms& here, Jumping jumping,
-                            Eigen::VectorXd* gradient) const;
+  /// Derivatives by each dial: of what a likelihood is made of, whose products are its information
+  /// from cluster means and from what is faster, and of both parts' logarithms.
+  struct Slopes {
+    Eigen::MatrixXd slow, fast;
+    Eigen::VectorXd slow_gradient, fast_gradient;
+  };
+  Slopes slopes_of(const Scenario& scenario, const std::vector<Dial>& dials, const RateTerms& here,
+                   Jumping jumping) const;
   /// Mean and standard deviation of the regressors' coefficients over what the walk may be: a
   /// small one is hardly seen, and spreads them all the same. Its prior is flat in its size.
   std::pair<Eigen::VectorXd, Eigen::VectorXd> coefficients_over_walks(
       const Scenario& scenario) const;
   Regressors regressors_of(const Scenario& scenario) const;
   NoiseLaw law_for(const Scenario& scenario, Jumping jumping) const;
-  SlowTerms slow_terms_of(const SlowLaw& law, const Regressors& regressors) const;
+  SlowTerms slow_terms_of(const SlowLaw& law, const Regressors& regressors,
+                          const SlowTerms* near = nullptr) const;
   Eigen::VectorXd fixed_signature(const Scenario& alone) const;
   void take_coefficients(const RateTerms& terms, SetFit& fit) const;
 

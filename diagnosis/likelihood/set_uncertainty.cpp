@@ -55,8 +55,9 @@ std::vector<ParameterInterval> SetFitter::intervals(const SetFit& fit) const {
   std::vector<ParameterInterval> found;
   const auto dials = dials_of(fit.scenario);
   const auto here = terms(fit.scenario, Jumping::no);
-  const auto slopes = slopes_of(fit.scenario, dials, here, Jumping::no, nullptr);
-  Eigen::MatrixXd information = slopes.transpose() * slopes;
+  const auto slopes = slopes_of(fit.scenario, dials, here, Jumping::no);
+  Eigen::MatrixXd information =
+      slopes.slow.transpose() * slopes.slow + slopes.fast.transpose() * slopes.fast;
   information.diagonal().array() += 1e-6;  // what nothing is known of has an interval, too
   const Eigen::MatrixXd covariance = invert_symmetric(information).inverse;
   for (std::size_t d = 0; d < dials.size(); ++d) {

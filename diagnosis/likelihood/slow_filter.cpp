@@ -1,5 +1,6 @@
 #include <gyrostat/diagnosis/likelihood/slow_filter.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -24,10 +25,11 @@ SlowLaw without_jumps(SlowLaw law) {
   return law;
 }
 
+/// `jumps_by`, where there are any, is the variance that the level gains before each value besides.
 template <int N>
 SlowTerms gaussian_terms(const SlowLaw& law, std::span<const std::size_t> points,
                          const Eigen::VectorXd& values, const Eigen::MatrixXd& regressors,
-                         const Eigen::VectorXd& prior_std) {
+                         const Eigen::VectorXd& prior_std, std::span<const double> jumps_by) {
   const auto count = static_cast<std::size_t>(values.size());
   const auto columns = static_cast<std::size_t>(regressors.cols());
   SlowRecursion<N> recursion(law);
@@ -43,6 +45,7 @@ SlowTerms gaussian_terms(const SlowLaw& law, std::span<const std::size_t> points
     if (k > 0) {
       const std::size_t steps = points[k] - points[k - 1];
       recursion.predict(steps);
+      if (!jumps_by.empty()) recursion.jump(jumps_by[k]);
       if (steps != 1) left_of_states = recursion.motion().decays(steps);
       for (auto& e : estimates)
         e.predict(steps == 1 ? left_in_one : left_of_states, recursion.states());
@@ -82,20 +85,29 @@ SlowTerms gaussian_terms(const SlowLaw& law, std::span<const std::size_t> points
   return terms;
 }
 
+/// The histories of a law's jumps on values, and what they say of each.
+struct Jumped {
+  double log_likelihood;
+  std::vector<double> said;
+};
+
 template <int N>
-double jump_log_likelihood(const SlowLaw& law, std::span<const std::size_t> points,
-                           const Eigen::VectorXd& values) {
+Jumped followed(const SlowLaw& law, std::span<const std::size_t> points,
+                const Eigen::VectorXd& values) {
   SlowLaw still = law;
   still.jumps.reset();
-  JumpHistories<N> histories(still, *law.jumps);
-  double total = 0.0;
+  typename JumpHistories<N>::Trail trail;
+  JumpHistories<N> histories(still, *law.jumps, trail);
+  Jumped found{.log_likelihood = 0.0, .said = {}};
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (k > 0) histories.predict(points[k] - points[k - 1]);
     const double log_density = histories.update(values[static_cast<Eigen::Index>(k)]);
-    if (k > 0) total += log_density;
+    if (k > 0) found.log_likelihood += log_density;
     histories.reduce();
+    histories.settle(k + 1 == points.size());
   }
-  return total;
+  found.said = trail.settled();
+  return found;
 }
 
 /// Calls with the least number of states (std::integral_constant) that the law's recursion needs.
@@ -109,21 +121,78 @@ auto with_room_for(const SlowLaw& law, Call&& call) {
   }
 }
 
+SlowTerms gaussian_terms_of(const SlowLaw& law, std::span<const std::size_t> points,
+                            const Eigen::VectorXd& values, const Eigen::MatrixXd& regressors,
+                            const Eigen::VectorXd& prior_std,
+                            std::span<const double> jumps_by = {}) {
+  return with_room_for(law, [&](auto states) {
+    return gaussian_terms<states.value>(law, points, values, regressors, prior_std, jumps_by);
+  });
+}
+
+Jumped followed_of(const SlowLaw& law, std::span<const std::size_t> points,
+                   const Eigen::VectorXd& values) {
+  return with_room_for(law,
+                       [&](auto states) { return followed<states.value>(law, points, values); });
+}
+
+/// Variance of a settled innovation of a level that walks (Harvey 1989, 4.1.2).
+double settled_variance(const SlowLaw& law) {
+  const double root = std::sqrt(std::max(0.0, law.walk * (law.walk + 4.0 * law.white)));
+  return law.white + 0.5 * (law.walk + root);
+}
+
+/// The coefficients with what not knowing them costs, given what histories say. A level that has
+/// jumped with probability p is known as well as histories know it on average: their precisions
+/// are averaged, not their variances, or many unlikely jumps would spread a level that none moved.
+SlowTerms beside_jumps(const SlowLaw& law, const std::vector<double>& said,
+                       std::span<const std::size_t> points, const Eigen::VectorXd& values,
+                       const Eigen::MatrixXd& regressors, const Eigen::VectorXd& prior_std) {
+  const double size = law.jumps->size_dps;
+  SlowLaw still = law;
+  still.jumps.reset();
+  if (law.jumps->to == Jumps::To::another_level) {
+    const double knows = 1.0 / settled_variance(still), knew = 1.0 / (1.0 / knows + size * size);
+    std::vector<double> by;
+    by.reserve(said.size());
+    for (const double p : said) by.push_back(1.0 / (knows + p * (knew - knows)) - 1.0 / knows);
+    return gaussian_terms_of(still, points, values, regressors, prior_std, by);
+  }
+  // Of two levels, what is known of them is taken away, and what is not stays noise.
+  double unknown = 0.0;
+  for (const double level : said) unknown += 1.0 - level * level;
+  unknown /= static_cast<double>(said.size());
+  Eigen::VectorXd rest = values;
+  for (std::size_t k = 0; k < said.size(); ++k)
+    rest[static_cast<Eigen::Index>(k)] -= (1.0 - unknown) * size * said[k];
+  SlowLaw faint = law;
+  faint.jumps->size_dps *= std::sqrt(unknown);
+  return gaussian_terms_of(without_jumps(faint), points, rest, regressors, prior_std);
+}
+
 }  // namespace
 
 SlowTerms slow_terms(const SlowLaw& law, std::span<const std::size_t> points,
                      const Eigen::VectorXd& values, const Eigen::MatrixXd& regressors,
-                     const Eigen::VectorXd& prior_std) {
-  const SlowLaw gaussian = without_jumps(law);
-  auto terms = with_room_for(gaussian, [&](auto states) {
-    return gaussian_terms<states.value>(gaussian, points, values, regressors, prior_std);
-  });
+                     const Eigen::VectorXd& prior_std, const SlowTerms* near) {
+  const bool goes_on = law.jumps && near != nullptr && !near->said.empty();
+  auto terms = goes_on
+                   ? beside_jumps(law, near->said, points, values, regressors, prior_std)
+                   : gaussian_terms_of(without_jumps(law), points, values, regressors, prior_std);
   if (!law.jumps) return terms;
-  Eigen::VectorXd left = values;
-  if (regressors.cols() > 0) left -= regressors * terms.coefficients;
-  terms.log_likelihood = with_room_for(
-      law, [&](auto states) { return jump_log_likelihood<states.value>(law, points, left); });
-  terms.log_likelihood -= terms.cost_of_coefficients;
+  const auto follow = [&] {
+    Eigen::VectorXd left = values;
+    if (regressors.cols() > 0) left -= regressors * terms.coefficients;
+    return followed_of(law, points, left);
+  };
+  auto histories = follow();
+  constexpr int passes = 3;
+  for (int pass = 0; pass < passes && regressors.cols() > 0 && !goes_on; ++pass) {
+    terms = beside_jumps(law, histories.said, points, values, regressors, prior_std);
+    histories = follow();
+  }
+  terms.log_likelihood = histories.log_likelihood - terms.cost_of_coefficients;
+  terms.said = std::move(histories.said);
   return terms;
 }
 

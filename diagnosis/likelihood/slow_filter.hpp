@@ -36,6 +36,9 @@ struct SlowTerms {
   double cost_of_coefficients = 0.0;  ///< log-likelihood lost by not knowing them
   std::vector<double> log_variances;  ///< of the innovations but the first
   std::vector<double> innovations;    ///< in units of their standard deviation
+  /// What histories of jumps say of each value: which of two levels it is on (-1 to 1), or else the
+  /// probability that the level has jumped before it.
+  std::vector<double> said;
 };
 
 /// Exact likelihood by the Kalman filter with a diffuse level (Harvey, "Forecasting, Structural
@@ -43,9 +46,11 @@ struct SlowTerms {
 /// `points`. The coefficients of `regressors` (points x any) are integrated out, with normal priors
 /// of the standard deviations `prior_std` (Harvey 1989, 3.4.4, where they are infinite). Jumps,
 /// where the law has them, are followed by a Gaussian sum of their histories (Alspach and Sorenson,
-/// IEEE Trans. AC-17, 1972), with the coefficients of the Gaussian law of the same covariance.
+/// IEEE Trans. AC-17, 1972). Coefficients beside jumps are integrated out about their maximum
+/// (Laplace), given what the histories say: in a few passes, or in one from what those of a law
+/// `near` this one say.
 SlowTerms slow_terms(const SlowLaw& law, std::span<const std::size_t> points,
                      const Eigen::VectorXd& values, const Eigen::MatrixXd& regressors,
-                     const Eigen::VectorXd& prior_std);
+                     const Eigen::VectorXd& prior_std, const SlowTerms* near = nullptr);
 
 }  // namespace gyrostat::gap

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include <gyrostat/diagnosis/likelihood/jump_trail.hpp>
 #include <gyrostat/diagnosis/likelihood/slow_recursion.hpp>
 
 namespace gyrostat::gap {
@@ -21,14 +22,22 @@ class JumpHistories {
   /// Two levels have a child each.
   static constexpr std::size_t lanes = most_kept + 2;
   using Lanes = std::array<double, lanes>;
+  using Trail = JumpTrail<lanes>;
 
-  JumpHistories(const SlowLaw& still, const Jumps& jumps)
-      : motion_(still), jumps_(jumps), interval_s_(still.interval_s), size_(is_of_two() ? 2 : 1) {
+  /// Writes down in `trail` which of two levels each value is on (-1 or 1), or else where the level
+  /// jumps (0 or 1).
+  JumpHistories(const SlowLaw& still, const Jumps& jumps, Trail& trail)
+      : motion_(still),
+        jumps_(jumps),
+        trail_(trail),
+        interval_s_(still.interval_s),
+        size_(is_of_two() ? 2 : 1) {
     for (std::size_t h = 0; h < size_; ++h) {
       weight_[h] = 1.0 / static_cast<double>(size_);
       if (is_of_two()) level_[h] = h == 0 ? -jumps.size_dps : jumps.size_dps;
       for (int i = 0; i < states(); ++i) at(i, i)[h] = motion_.first_variance[i];
     }
+    trail_.begin(said_by_level());
   }
 
   void predict(std::size_t steps) {
@@ -73,6 +82,13 @@ class JumpHistories {
       if (weight_[h] > 0.0) total += weight_[h] *= std::exp(exponent[h] - most);
     for (std::size_t h = 0; h < size_; ++h) weight_[h] /= total;
     return most + std::log(total) - 0.5 * log_two_pi;
+  }
+
+  /// Writes down what is old enough to be known, or, at the end, all.
+  void settle(bool at_the_end) {
+    Lanes weights{};
+    for (std::size_t h = 0; h < size_; ++h) weights[h] = weight_[h];
+    trail_.settle(weights, at_the_end);
   }
 
   /// Leaves most_kept of them.
@@ -141,6 +157,15 @@ class JumpHistories {
     else
       bear(parents, 0.0);
     for (std::size_t h = 0; h < parents; ++h) weight_[h] *= 1.0 - jump_;
+    Lanes said = said_by_level();
+    if (!is_of_two()) said[parents] = 1.0;
+    trail_.step(said);
+  }
+  /// Where the level has not jumped.
+  Lanes said_by_level() const {
+    Lanes said{};
+    for (std::size_t h = 0; h < lanes && is_of_two(); ++h) said[h] = level_[h] < 0.0 ? -1.0 : 1.0;
+    return said;
   }
   /// The child of those of the parents that are on a level, of their mean and covariance.
   void bear(std::size_t parents, double level) {
@@ -169,6 +194,7 @@ class JumpHistories {
         at(i, j)[child] = sum(both);
       }
     }
+    trail_.bear(share, child);
     weight_[child] = total * jump_;
     level_[child] = -level;
     if (!is_of_two()) at(0, 0)[child] += jumps_.size_dps * jumps_.size_dps;
@@ -195,6 +221,7 @@ class JumpHistories {
     expected_[into] += share * (expected_[from] - expected_[into]);
     variance_[into] += share * (variance_[from] - variance_[into]);
     weight_[into] = both;
+    trail_.join(from, into, share);
   }
 
   void copy(std::size_t from, std::size_t to) {
@@ -206,10 +233,12 @@ class JumpHistories {
       state_[i][to] = state_[i][from];
       for (int j = 0; j <= i; ++j) at(i, j)[to] = at(i, j)[from];
     }
+    trail_.copy(from, to);
   }
 
   SlowMotion<N> motion_;
   Jumps jumps_;
+  Trail& trail_;
   double interval_s_, jump_ = 0.0;
   std::size_t size_, steps_ = 0;
   std::array<double, N> left_{}, gained_{};

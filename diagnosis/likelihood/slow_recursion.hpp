@@ -82,6 +82,11 @@ class SlowRecursion {
     for (int i = 0; i < states(); ++i) at(i, i) += gained[i];
     one_step_ = steps == 1;
   }
+  /// The level gains a variance besides.
+  void jump(double variance) {
+    at(0, 0) += variance;
+    settled_ = one_step_ = false;
+  }
   void update() {
     if (settled_) return;
     double innovation = motion_.white;
