@@ -81,9 +81,9 @@ template <Diagnosable E>
 CauseType describe_cause() {
   using D = Diagnosed<E>;
   std::vector<std::string_view> free;
-  for (const auto& field : E::fields())
-    if (std::ranges::find(D::free_parameters, field.member) != D::free_parameters.end())
-      free.push_back(field.name);
+  for (const auto member : D::free_parameters)
+    for (const auto& field : E::fields())
+      if (field.member == member) free.push_back(field.name);
   return {.id = effect_types().of(typeid(E)).id,
           .signature = D::signature,
           .free_parameters = std::move(free),

@@ -10,22 +10,28 @@
 
 namespace gyrostat::gap {
 
-/// Small rates are lost, with or without their share of larger ones.
+/// Small rates are lost, with or without their share of larger ones, at a threshold or about it.
 template <>
 struct Diagnosed<effects::DeadZone> {
   static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::DeadZone::half_width_dps,
-                                                 &effects::DeadZone::lost_beyond};
+                                                 &effects::DeadZone::lost_beyond,
+                                                 &effects::DeadZone::dither};
+
+  static std::size_t chosen_parameters(const effects::DeadZone& effect) {
+    return effect.dither != 0.0 ? 1 : 0;
+  }
 
   static std::vector<effects::DeadZone> starts(const Evidence& e) {
-    // Narrower than the noise it does not show.
+    // That of a play adds up far below the noise, by the direction of the rate.
     const double narrowest_dps =
-        std::min(0.001 * fastest_dps(e), e.baseline.random_error.measurement_noise_std_dps);
+        std::min(0.001 * fastest_dps(e), 0.01 * e.baseline.random_error.measurement_noise_std_dps);
     std::vector<effects::DeadZone> found;
-    for (const double lost : {0.0, 1.0})
-      found.push_back(shaped(e, Trace::rate, effects::DeadZone{.lost_beyond = lost},
-                             &effects::DeadZone::half_width_dps, narrowest_dps,
-                             0.5 * fastest_dps(e)));
+    for (const double dither : {0.0, 0.3})
+      for (const double lost : {0.0, 1.0})
+        found.push_back(
+            shaped(e, Trace::rate, effects::DeadZone{.lost_beyond = lost, .dither = dither},
+                   &effects::DeadZone::half_width_dps, narrowest_dps, 0.5 * fastest_dps(e)));
     return found;
   }
 

@@ -19,8 +19,14 @@ struct Diagnosed<effects::GSensitivity> {
                                                  &effects::GSensitivity::z_dps_per_mps2};
 
   static constexpr std::size_t amplitudes = 3;
+  /// Of all axes, or of one.
   static std::vector<effects::GSensitivity> guesses(const Beside& /*beside*/) {
-    return {{1.0, 1.0, 1.0}};
+    return {{1.0, 1.0, 1.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+  }
+
+  static std::size_t chosen_parameters(const effects::GSensitivity& effect) {
+    const bool of_all = effect.x_dps_per_mps2 != 0.0 && effect.y_dps_per_mps2 != 0.0;
+    return of_all ? 0 : 1;
   }
 
   static std::string why_not_assessable(const Conditions& c) {

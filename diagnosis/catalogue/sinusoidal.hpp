@@ -19,8 +19,8 @@
 
 namespace gyrostat::gap {
 
-/// The highest peaks of the spectrum; of each its frequency, sharpened, is that of the largest
-/// amplitude over the train part.
+/// The highest peaks of the spectrum, and of the periodogram of all samples; of each its frequency,
+/// sharpened, is that of the largest amplitude over the train part.
 template <>
 struct Diagnosed<effects::Sinusoidal> {
   static constexpr auto signature = Signature::repeated;
@@ -32,23 +32,37 @@ struct Diagnosed<effects::Sinusoidal> {
     const auto& conditions = e.conditions();
     std::vector<effects::Sinusoidal> found;
     const auto& fast = e.scene.spectra[0];
+    const auto& means = e.scene.slow_spectra[0];
+    struct Near {
+      double frequency_hz, reach_hz;
+      bool slow;
+    };
+    const double of_fast = 1.5 * fast.resolution_hz;
     const auto highest = highest_peak(fast), narrow = highest_peak(fast, 1);
-    std::vector<std::pair<SpectralPeak, bool>> peaks{{highest, false},
-                                                     {highest_peak(e.scene.slow_spectra[0]), true}};
+    std::vector<Near> peaks{{highest.frequency_hz, of_fast, false},
+                            {highest_peak(means).frequency_hz, 1.5 * means.resolution_hz, true}};
+    const auto is_new = [&](double frequency_hz) {
+      return std::none_of(peaks.begin(), peaks.end(), [&](const Near& near) {
+        return std::abs(near.frequency_hz - frequency_hz) < of_fast;
+      });
+    };
     // A line beside a hump that is higher, as of one that wanders.
-    if (std::abs(narrow.frequency_hz - highest.frequency_hz) > 2.0 * fast.resolution_hz)
-      peaks.emplace_back(narrow, false);
-    for (const auto& [peak, slow] : peaks) {
-      if (peak.frequency_hz <= 0.0) continue;
+    if (is_new(narrow.frequency_hz)) peaks.push_back({narrow.frequency_hz, of_fast, false});
+    // One that no bin of the spectrum shows, in those of all samples.
+    constexpr std::size_t around = 500;
+    if (const double faint =
+            clearest_line_hz(of_train(conditions, e.scene.rate_error_dps), conditions.interval_s(),
+                             around, 0.25 / conditions.slow_interval_s());
+        is_new(faint))
+      peaks.push_back({faint, 1.0 / duration_s_of(conditions), false});
+    for (const auto& [frequency_hz, reach, slow] : peaks) {
+      if (frequency_hz <= 0.0) continue;
       const auto& values = slow ? e.scene.slow_dps : e.scene.rate_error_dps;
       const auto& spans = slow ? conditions.slow_spans(Part::train) : conditions.spans(Part::train);
       const double interval_s = slow ? conditions.slow_interval_s() : conditions.interval_s();
-      const double duration_s = interval_s * static_cast<double>(values.size());
-      const NearLine near(values, spans, peak.frequency_hz, interval_s);
-      const double resolution =
-          slow ? e.scene.slow_spectra[0].resolution_hz : e.scene.spectra[0].resolution_hz;
-      const double reach = 1.5 * resolution, step = std::max(0.3 / duration_s, resolution / 400.0);
-      double best = near.clearest_hz(peak.frequency_hz - reach, peak.frequency_hz + reach, step);
+      const NearLine near(values, spans, frequency_hz, interval_s);
+      const double step = std::max(0.3 / duration_s_of(conditions), reach / 600.0);
+      double best = near.clearest_hz(frequency_hz - reach, frequency_hz + reach, step);
       double largest = std::abs(near.at(best));
       const double centre = best;
       for (double f = std::max(centre - step, 0.125 * step); f <= centre + step; f += 0.125 * step)
@@ -72,6 +86,23 @@ struct Diagnosed<effects::Sinusoidal> {
   }
 
  private:
+  static double duration_s_of(const Conditions& conditions) {
+    return conditions.interval_s() * static_cast<double>(conditions.size());
+  }
+  /// Without the mean of each span; 0 elsewhere.
+  static std::vector<double> of_train(const Conditions& conditions,
+                                      const std::vector<double>& values) {
+    std::vector<double> kept(values.size(), 0.0);
+    for (const auto& span : conditions.spans(Part::train)) {
+      double sum = 0.0, count = 0.0;
+      for (std::size_t i = span.first; i < span.last; ++i)
+        if (!is_missing(values[i])) sum += values[i], count += 1.0;
+      for (std::size_t i = span.first; i < span.last; ++i)
+        if (!is_missing(values[i])) kept[i] = values[i] - sum / count;
+    }
+    return kept;
+  }
+
   static void keep(const Evidence& e, const effects::Sinusoidal& sine,
                    std::vector<effects::Sinusoidal>& in) {
     if (!follows_motion(e, sine) && !is_line_beside(e.conditions(), sine.frequency_hz))

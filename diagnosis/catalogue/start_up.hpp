@@ -21,9 +21,9 @@ struct Diagnosed<effects::StartUp> {
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
-  /// It has settled: else it were a ramp.
+  /// It has settled to 5 %: else it were a ramp.
   static bool is_what_it_is_called(const effects::StartUp& effect, const Conditions& c) {
-    return effect.settling_time_s < 0.25 * duration_s(c);
+    return 3.0 * effect.settling_time_s < duration_s(c);
   }
 
  private:

@@ -14,8 +14,11 @@ namespace gyrostat::gap {
 template <>
 struct Diagnosed<effects::ThermalHysteresis> {
   static constexpr auto signature = Signature::slow;
-  static constexpr std::array free_parameters = {&effects::ThermalHysteresis::amplitude_dps,
-                                                 &effects::ThermalHysteresis::width_C};
+  static constexpr std::array free_parameters = {
+      &effects::ThermalHysteresis::amplitude_dps,
+      &effects::ThermalHysteresis::of_three_quarters_dps, &effects::ThermalHysteresis::of_half_dps,
+      &effects::ThermalHysteresis::of_quarter_dps, &effects::ThermalHysteresis::width_C};
+  static constexpr std::size_t amplitudes = 4;
 
   static std::size_t chosen_parameters(const effects::ThermalHysteresis& effect) {
     return std::size_t{effect.gradual != 0.0} + std::size_t{effect.first_branch != 0.0};
@@ -28,6 +31,9 @@ struct Diagnosed<effects::ThermalHysteresis> {
       for (const double gradual : {0.0, 1.0})
         for (const double share : {0.003, 0.01, 0.03, 0.08, 0.2, 0.4})
           all.push_back({1.0, share * span_C, gradual, first});
+    for (const double first : {0.0, 1.0, -1.0})
+      for (const double share : {0.1, 0.2, 0.4})
+        all.push_back({1.0, share * span_C, 0.0, first, 1.0, 1.0, 1.0});
     return all;
   }
 

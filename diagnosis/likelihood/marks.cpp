@@ -31,7 +31,7 @@ double noise_of(const Conditions& conditions, const std::vector<double>& z) {
 
 /// The step of the values' grid, where so few values are used that they repeat, or where a motion
 /// spreads values over many steps that are not small to the noise.
-double grid_step(const Simulator& simulator, const std::vector<double>& z) {
+double grid_step(const Simulator& simulator, const std::vector<double>& z, double noise_dps) {
   std::vector<double> sorted;
   for (const auto& span : simulator.conditions().spans(Part::train))
     for (std::size_t i = span.first; i < span.last && sorted.size() < values_inspected; ++i)
@@ -45,8 +45,7 @@ double grid_step(const Simulator& simulator, const std::vector<double>& z) {
   const double step = quantile(gaps, 0.2);
   constexpr double small_to_noise = 0.1;
   if (gaps.size() > sorted.size() / 5 &&
-      (gaps.size() > sorted.size() / 2 ||
-       step < small_to_noise * noise_of(simulator.conditions(), z)))
+      (gaps.size() > sorted.size() / 2 || step < small_to_noise * noise_dps))
     return 0.0;
   double whole = 0.0;
   for (const double g : gaps)
@@ -184,7 +183,8 @@ double white_under_grid(double lsb_dps, double equal) {
 Marks marks_of(const Simulator& simulator, const Series& recording) {
   Marks marks;
   const auto& z = recording.gyro_dps;
-  marks.lsb_dps = grid_step(simulator, z);
+  marks.noise_of_steps_dps = noise_of(simulator.conditions(), z);
+  marks.lsb_dps = grid_step(simulator, z, marks.noise_of_steps_dps);
   marks.silent = silent_zone(simulator.conditions(), z, marks.lsb_dps);
   const auto is_silent = [&](std::size_t i) {
     return !marks.silent.samples.empty() && z[i] == 0.0;
@@ -238,6 +238,9 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
     by_chance = equal_by_chance(differences, simulator.resolution_dps());
   if (by_chance < 0.0)
     by_chance = simulator.resolution_dps() > 0.0 && marks.lsb_dps == 0.0 ? 0.0 : equal;
+  // Nor where the rates between which a motion rests lie between the values of a coarse grid.
+  constexpr double coarse = 2.0;
+  if (!reference.empty() && marks.lsb_dps > coarse * marks.white_under_grid_dps) by_chance = equal;
   double beyond = equal - by_chance;
   // So many pairs say that there are none, too.
   constexpr double enough_pairs = 1000.0;

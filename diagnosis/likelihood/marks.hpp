@@ -11,6 +11,7 @@ namespace gyrostat::gap {
 /// What the values of a recording show beyond doubt, before anything is fitted.
 struct Marks {
   double lsb_dps = 0.0;               ///< step of the grid that the values lie on; 0: none
+  double noise_of_steps_dps = 0.0;    ///< of what changes from sample to sample, robustly
   bool turns_through_grid = false;    ///< a motion takes most samples from one step to others
   double white_under_grid_dps = 0.0;  ///< white noise that moves as many samples across the grid
   /// Where the output rests on two or three values: what the noise is about.

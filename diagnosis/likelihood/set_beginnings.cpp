@@ -33,8 +33,6 @@ Standing SetSearcher::coloured_anew(const Standing& standing) {
   Scenario plain = standing.scenario;
   std::erase_if(plain.effects,
                 [&](const auto& effect) { return colours(effect.id()) && !is_a_line(effect); });
-  const auto all = candidates_;
-  std::erase_if(candidates_, [&](const auto* cause) { return !colours(cause->id); });
   // Not fitted: what is slow would take up what filters explain.
   const auto rest =
       bench_.fitted(standing.fitter->with_white_noise_scaled(std::move(plain)), standing.fitter, 0);
@@ -52,15 +50,44 @@ Standing SetSearcher::coloured_anew(const Standing& standing) {
     if (auto both = bench_.with(beside_angle, filter, nullptr); both.score > firsts.back().score)
       firsts.push_back(std::move(both));
   }
+  return best_from(standing, std::move(firsts), EffectBand::fast);
+}
+
+Standing SetSearcher::responding_anew(const Standing& standing) {
+  const bool filters = has(standing.scenario, "sensor_bandwidth");
+  const bool shifts = has(standing.scenario, "time_offset");
+  if (filters == shifts) return standing;
+  const std::string_view other = filters ? "time_offset" : "sensor_bandwidth";
+  if (!bench_.is_allowed(other)) return standing;
+  Scenario still = standing.scenario;
+  std::erase_if(still.effects, [&](const auto& effect) {
+    return !bench_.is_marked(effect.id()) && band_of(effect.id()) == EffectBand::motion;
+  });
+  const auto response = bench_.response();
+  bench_.take_out_response(std::nullopt);
+  const auto rest = bench_.refitted(still);
+  const auto left = bench_.evidence_of(rest);
+  auto best = best_from(standing, {bench_.with(rest, cause_types().named(other, "effects"), &left)},
+                        EffectBand::motion);
+  if (best.score <= standing.score) bench_.take_out_response(response);
+  return best;
+}
+
+Standing SetSearcher::best_from(const Standing& standing, std::vector<Standing> beginnings,
+                                EffectBand band) {
+  const auto all = candidates_;
+  std::erase_if(candidates_, [&](const auto* cause) {
+    return bench_.is_marked(cause->id) || band_of(cause->id) != band;
+  });
   const auto gains = gains_;
   auto gains_of_best = gains_;
-  const double least = least_gain(standing, EffectBand::fast);
+  const double least = least_gain(standing, band);
   Standing best = standing;
   double most = standing.score;
-  for (const auto& first : firsts) {
-    if (first.score < -1e299) continue;
+  for (const auto& beginning : beginnings) {
+    if (beginning.score < -1e299) continue;
     gains_ = gains;
-    auto other = searched(first);
+    auto other = searched(beginning);
     double worth = other.score;
     for (const auto& effect : other.scenario.effects)
       if (!has(standing.scenario, effect.id())) worth -= least;

@@ -67,7 +67,8 @@ double SetBench::price_of(const Scenario& scenario) const {
   constexpr double beyond_any = 1e300;
   if (!has_white_noise(scenario)) return beyond_any;
   const double values = static_cast<double>(conditions_.train_points().size());
-  double sum = scenario.random_error.phi != 0.0 ? prior + 2.0 * of_a_parameter : 0.0;
+  // What an ARIMA remembers, two effects would.
+  double sum = scenario.random_error.phi != 0.0 ? 2.0 * (prior + of_a_parameter) : 0.0;
   for (const auto& effect : scenario.effects) {
     const auto* cause = cause_types().find(effect.id());
     if (cause == nullptr) continue;
@@ -81,7 +82,8 @@ double SetBench::price_of(const Scenario& scenario) const {
                                                              ? 0
                                                              : cause->chosen_parameters(effect)));
     if (passes_the_noise_filter(effect, scenario)) sum -= prior;
-    if (effect.id() == "sinusoidal") sum += std::log(static_cast<double>(conditions_.size()));
+    // The highest of as many peaks, sought between bins besides.
+    if (effect.id() == "sinusoidal") sum += 1.2 * std::log(static_cast<double>(conditions_.size()));
     if (effect.id() == "vibration" || effect.id() == "wandering_line")
       sum += 0.5 * std::log(values);
   }

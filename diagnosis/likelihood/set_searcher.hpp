@@ -81,6 +81,12 @@ class SetSearcher {
   /// Where several effects colour the noise, these found anew beside its lines, a filter first:
   /// what stands in for that and an angle's errors holds its place against every single exchange.
   Standing coloured_anew(const Standing& standing);
+  /// Where the motion is sensed late, its effects found anew from the other way of being late: what
+  /// stands in for one of them has moved all others.
+  Standing responding_anew(const Standing& standing);
+  /// Of sets found from each of some beginnings, with all effects `of` a kind as candidates, the
+  /// best where it is better than what stands by what its further effects have to gain.
+  Standing best_from(const Standing& standing, std::vector<Standing> beginnings, EffectBand band);
   /// With an ARIMA(1,1,1) that remembers, beside what is there or in place of what colours the
   /// noise.
   Standing beside_memory(const Standing& standing) const;

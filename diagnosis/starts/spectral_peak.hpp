@@ -16,8 +16,10 @@ struct SpectralPeak {
 /// Of peaks of at most `widest` bins to either side.
 SpectralPeak highest_peak(const Spectrum& spectrum, std::size_t widest = 64);
 
-/// Frequency of the highest line in the periodogram of `white`, to a quarter of what its length
-/// resolves; 0 where that is too short.
-double clearest_line_hz(const std::vector<double>& white, double interval_s);
+/// Frequency of the highest line in the periodogram of `values`, to half of what their length
+/// resolves, over the median of as many resolved frequencies `around` it (0: over all alike), above
+/// `lowest_hz`; 0 where they are too few.
+double clearest_line_hz(const std::vector<double>& values, double interval_s,
+                        std::size_t around = 0, double lowest_hz = 0.0);
 
 }  // namespace gyrostat::gap

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
@@ -13,12 +14,14 @@ namespace gyrostat::effects {
 
 /// Rates about zero are not sensed (IEEE Std 528, dead band): up to the half width the rate is 0.
 /// Beyond it is the rate itself, as behind a threshold, or the rate less the half width, as behind
-/// a mechanical play, or between. Drivers do the same to what the sensor says, bias and noise
-/// included.
+/// a mechanical play, or between. What moves the element besides, as a dither does, rounds the
+/// corners: sensed is the mean over its normal distribution. Drivers do the same to what the sensor
+/// says, bias and noise included.
 struct DeadZone {
   double half_width_dps = 0.5;
   double lost_beyond = 0.0;
   double of_output = 0.0;
+  double dither = 0.0;
 
   static constexpr std::string_view title = "small rates are not sensed";
   static constexpr Stage stage = Stage::electronics;
@@ -34,6 +37,8 @@ struct DeadZone {
               "share of the half width that larger rates lose"},
         Field{"of_output", &P::of_output, "1", Range{.from = 0, .to = 1, .whole = true},
               "1: what is written is 0 where it would be small; 0: the rate is not sensed"},
+        Field{"dither", &P::dither, "1", ranges::fraction,
+              "standard deviation of what moves the element besides, over the half width"},
     };
   }
 
@@ -44,10 +49,22 @@ struct DeadZone {
   void apply(Series& series, const Noise& /*noise*/) const {
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
       const double rate = of_output < 0.5 ? series.rate_ref_dps[i] : series.gyro_dps[i];
-      series.gyro_dps[i] -= std::abs(rate) <= half_width_dps
-                                ? rate
-                                : std::copysign(lost_beyond * half_width_dps, rate);
+      series.gyro_dps[i] -= lost(rate);
     }
+  }
+
+ private:
+  double lost(double rate_dps) const {
+    const double width = half_width_dps, spread = dither * half_width_dps;
+    if (spread == 0.0)
+      return std::abs(rate_dps) <= width ? rate_dps : std::copysign(lost_beyond * width, rate_dps);
+    const double low = (-width - rate_dps) / spread, high = (width - rate_dps) / spread;
+    const auto below = [](double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); };
+    const auto density = [](double z) {
+      return std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
+    };
+    return rate_dps * (below(high) - below(low)) + spread * (density(low) - density(high)) +
+           lost_beyond * width * (below(-high) - below(low));
   }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
@@ -15,7 +16,8 @@ namespace gyrostat::effects {
 /// Bias that differs between rising and falling temperature: the play (backlash) operator
 /// y <- clamp(y, T - width, T + width), B += amplitude (T - y) / width, so that a temperature
 /// moving one way for more than 2 width sits on the branch +amplitude or -amplitude.
-/// (Krasnosel'skii and Pokrovskii, Systems with Hysteresis, 1989, ch. 1.) Or the branch is
+/// (Krasnosel'skii and Pokrovskii, Systems with Hysteresis, 1989, ch. 1.) Plays of three
+/// narrower widths may be added, which makes a loop of any convex course. Or the branch is
 /// approached the slower, the nearer it is: B += amplitude z, dz = (dT - |dT| z) / width (Dahl,
 /// AIAA Journal 14, 1976).
 struct ThermalHysteresis {
@@ -23,6 +25,7 @@ struct ThermalHysteresis {
   double width_C = 3.0;
   double gradual = 0.0;
   double first_branch = 0.0;
+  double of_three_quarters_dps = 0.0, of_half_dps = 0.0, of_quarter_dps = 0.0;
 
   static constexpr std::string_view title = "bias depends on the direction of temperature";
   static constexpr Stage stage = Stage::sensing;
@@ -40,6 +43,10 @@ struct ThermalHysteresis {
         Field{
             "first_branch", &P::first_branch, "1", Range{.from = -1, .to = 1},
             "where the first sample is: 1 on the branch of a rising temperature, -1 on the other"},
+        Field{"of_three_quarters_dps", &P::of_three_quarters_dps, "dps", ranges::any,
+              "amplitude of a play of three quarters of the width besides"},
+        Field{"of_half_dps", &P::of_half_dps, "dps", ranges::any, "of half the width"},
+        Field{"of_quarter_dps", &P::of_quarter_dps, "dps", ranges::any, "of a quarter"},
     };
   }
 
@@ -48,15 +55,22 @@ struct ThermalHysteresis {
   void apply(Series& series, const Noise& /*noise*/) const {
     if (series.temperature_C.empty()) return;
     if (gradual > 0.5) return approach(series);
-    double play_C = series.temperature_C.front() - first_branch * width_C;
-    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
-      const double T = series.temperature_C[i];
-      play_C = std::clamp(play_C, T - width_C, T + width_C);
-      series.thermal_bias_dps[i] += amplitude_dps * (T - play_C) / width_C;
-    }
+    play(series, width_C, amplitude_dps);
+    for (const auto& [share, narrower_dps] :
+         {std::pair{0.75, of_three_quarters_dps}, {0.5, of_half_dps}, {0.25, of_quarter_dps}})
+      if (narrower_dps != 0.0) play(series, share * width_C, narrower_dps);
   }
 
  private:
+  void play(Series& series, double half_C, double branch_dps) const {
+    double play_C = series.temperature_C.front() - first_branch * half_C;
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
+      const double T = series.temperature_C[i];
+      play_C = std::clamp(play_C, T - half_C, T + half_C);
+      series.thermal_bias_dps[i] += branch_dps * (T - play_C) / half_C;
+    }
+  }
+
   /// From one temperature to the next, monotonically, in closed form.
   void approach(Series& series) const {
     double share = first_branch, before_C = series.temperature_C.front();

@@ -501,13 +501,65 @@ TEST(SetSearch, ACompassThatDelaysHasALagAlone) {
   }
 }
 
-/// A scale that changes with temperature is right at 25 °C: not at the middle of what was recorded,
-/// and still no scale factor besides.
-TEST(SetSearch, AScaleThatIsRightAt25DegreesIsOneEffect) {
+/// A scale that changes with temperature is right at some temperature that was met, at 25 °C or
+/// another, and still no scale factor besides.
+TEST(SetSearch, AScaleThatIsRightAtATemperatureMetIsOneEffect) {
   Scenario s = moving();
   s.temperature = temperature::Cycle{23.0, 57.0, 800.0};
-  s.effects = {effects::ScaleTemperature{5e-4, 25.0}};
-  EXPECT_EQ(found_in(recorded(s, 22, true)), std::set<std::string>{"scale_temperature"});
+  for (const double right_C : {25.0, 32.0}) {
+    s.effects = {effects::ScaleTemperature{5e-4, right_C}};
+    EXPECT_EQ(found_in(recorded(s, 22, true)), std::set<std::string>{"scale_temperature"})
+        << right_C;
+  }
+}
+
+/// A loop of another course than one play's, and a lag that begins off the temperature, had steps
+/// beside them.
+TEST(SetSearch, ThermalErrorsOfOtherFormsAreOneEffect) {
+  Scenario s = still();
+  s.sampling = {2400.0, 20.0};
+  s.effects = {effects::ThermalHysteresis{
+      .amplitude_dps = 0.05, .width_C = 12.0, .of_half_dps = 0.05, .of_quarter_dps = 0.08}};
+  EXPECT_EQ(found_in(recorded(s, 41, false)), std::set<std::string>{"thermal_hysteresis"});
+  s.effects = {effects::ThermalLag{
+      .sensitivity_dps_per_C = 0.01, .time_constant_s = 120.0, .start_dps = -0.1}};
+  s.temperature = temperature::RampAndCooling{};
+  EXPECT_EQ(found_in(recorded(s, 42, false)), std::set<std::string>{"thermal_lag"});
+}
+
+/// The rounded corners of a dead zone, two of its widths wide, are no other scale.
+TEST(SetSearch, ADeadZoneUnderADitherIsOneEffect) {
+  Scenario s = moving();
+  s.motion = motion::Sinusoidal{8.0, 0.031};
+  s.effects = {effects::DeadZone{.half_width_dps = 0.6, .lost_beyond = 1.0, .dither = 0.5}};
+  EXPECT_EQ(found_in(recorded(s, 43, true)), std::set<std::string>{"dead_zone"});
+}
+
+/// A line of 36 nats in the train part is in no bin of the averaged spectrum.
+TEST(SetSearch, AFaintSineIsFoundAmongAllSamples) {
+  Scenario s = still();
+  s.sampling = {3600.0, 50.0};
+  s.effects = {effects::Sinusoidal{.amplitude_dps = 2e-3, .frequency_hz = 7.3131}};
+  EXPECT_EQ(found_in(recorded(s, 44, false)), std::set<std::string>{"sinusoidal"});
+}
+
+/// Of a damped filter half of what the motion shows is the delay: it stood for both, tens of
+/// thousands of nats below.
+TEST(SetSearch, AShiftBesideAScaleIsNoFilter) {
+  Scenario s = moving();
+  s.effects = {effects::ScaleFactor{0.02}, effects::TimeOffset{.offset_s = 0.12}};
+  EXPECT_EQ(found_in(recorded(s, 45, true)),
+            (std::set<std::string>{"scale_factor", "time_offset"}));
+}
+
+/// Under a motion that is not yet explained a walk stands in for the noise, and a grid that is
+/// small to it looked coarse: nothing was sought in the noise.
+TEST(SetSearch, AGridBelowTheNoiseIsNotCoarseUnderAMotion) {
+  Scenario s = moving();
+  s.effects = {effects::ScaleFactor{0.05}, effects::Quantization{0.02},
+               effects::NoiseBandwidth{.cutoff_hz = 4.0}};
+  EXPECT_EQ(found_in(recorded(s, 46, true)),
+            (std::set<std::string>{"noise_bandwidth", "quantization", "scale_factor"}));
 }
 
 /// Noise that belongs in R is there, for quantised and for coloured sensors alike.

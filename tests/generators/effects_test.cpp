@@ -77,6 +77,24 @@ TEST(ThermalHysteresis, LeadsFromBranchToBranchOverTwiceItsWidth) {
   EXPECT_DOUBLE_EQ(drift(hysteresis, moves({20.0, 40.0, 34.0})).back(), -0.01);
 }
 
+TEST(ThermalHysteresis, AddsPlaysOfNarrowerWidths) {
+  const std::vector<double> T = moves({20.0, 40.0, 33.0, 38.0, 25.0});
+  ThermalHysteresis all{.amplitude_dps = 0.01, .width_C = 4.0, .first_branch = 1.0};
+  const auto whole = drift(all, T);
+  const auto three =
+      drift(ThermalHysteresis{.amplitude_dps = 0.02, .width_C = 3.0, .first_branch = 1.0}, T);
+  const auto half =
+      drift(ThermalHysteresis{.amplitude_dps = -0.03, .width_C = 2.0, .first_branch = 1.0}, T);
+  const auto quarter =
+      drift(ThermalHysteresis{.amplitude_dps = 0.04, .width_C = 1.0, .first_branch = 1.0}, T);
+  all.of_three_quarters_dps = 0.02;
+  all.of_half_dps = -0.03;
+  all.of_quarter_dps = 0.04;
+  const auto sum = drift(all, T);
+  for (std::size_t k = 0; k < T.size(); ++k)
+    EXPECT_NEAR(sum[k], whole[k] + three[k] + half[k] + quarter[k], 1e-15) << k;
+}
+
 TEST(ThermalHysteresis, ClosesItsLoop) {
   const ThermalHysteresis hysteresis{.amplitude_dps = 0.01, .width_C = 3.0};
   for (const double low : {25.0, 36.0, 39.0}) {

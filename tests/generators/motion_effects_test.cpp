@@ -276,6 +276,30 @@ TEST(DeadZone, MayTakeItsHalfWidthFromLargerRates) {
       (std::vector{0.0, 0.0, 0.25, -7.5}));
 }
 
+/// The mean over a normal dither, by the midpoint rule.
+TEST(DeadZone, IsRoundedByADither) {
+  constexpr int steps = 20000;
+  constexpr double reach = 8.0;
+  for (const double lost : {0.0, 0.4, 1.0}) {
+    const effects::DeadZone sharp{.half_width_dps = 0.5, .lost_beyond = lost};
+    auto rounded = sharp;
+    rounded.dither = 0.3;
+    for (const double rate : {0.0, 0.2, -0.45, 0.6, -3.0}) {
+      std::vector<double> moved;
+      for (int k = 0; k < steps; ++k)
+        moved.push_back(rate + 0.15 * reach * ((2.0 * k + 1.0) / steps - 1.0));
+      const auto each = sensed(sharp, moved);
+      double mean = 0.0;
+      for (std::size_t k = 0; k < each.size(); ++k) {
+        const double z = (moved[k] - rate) / 0.15;
+        mean += each[k] * std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi) * 2.0 * reach /
+                steps;
+      }
+      EXPECT_NEAR(sensed(rounded, {rate})[0], mean, 1e-4) << lost << ' ' << rate;
+    }
+  }
+}
+
 TEST(DeadZone, LeavesBiasAndNoiseWhereTheyWere) {
   auto series = silent(even_times(2, 100.0));
   series.rate_ref_dps = {0.25, 0.0};
@@ -490,6 +514,22 @@ TEST(ThermalLag, OfTwoPolesAddsTheirTimeConstants) {
   for (std::size_t k = 1; k < step.size(); ++k) {
     const auto n = static_cast<double>(k);
     EXPECT_NEAR(bias[k], -0.1 * std::pow(r, n) * (1.0 + n * (1.0 - r)), 1e-14) << k;
+  }
+}
+
+/// At a constant temperature, of which the masses know nothing at first.
+TEST(ThermalLag, MayBeginAwayFromItsTemperature) {
+  const std::vector<double> even(61, 30.0);
+  const auto one =
+      lag({.sensitivity_dps_per_C = 0.0, .time_constant_s = 20.0, .start_dps = 0.02}, even);
+  const auto two =
+      lag({.sensitivity_dps_per_C = 0.0, .time_constant_s = 40.0, .poles = 2.0, .start_dps = 0.02},
+          even);
+  const double r = std::exp(-1.0 / 20.0);
+  for (std::size_t k = 0; k < even.size(); ++k) {
+    const auto n = static_cast<double>(k);
+    EXPECT_NEAR(one[k], 0.02 * std::pow(r, n), 1e-15) << k;
+    EXPECT_NEAR(two[k], 0.02 * std::pow(r, n) * (1.0 + n * (1.0 - r)), 1e-15) << k;
   }
 }
 
