@@ -174,8 +174,8 @@ std::string evidence_in_words(const Diagnosis& d) {
     text += fmt::format("{}{} {:.2f}", k == 0 ? " Inclusion probability: " : ", ",
                         d.effects[k].effect, d.effects[k].inclusion);
   if (!d.effects.empty())
-    text +=
-        fmt::format(". The set recovers {:.0f} % of what a true one would.", 100.0 * d.recovered);
+    text += fmt::format(". The set recovers {:.0f} % of what a true one would.",
+                        100.0 * std::clamp(d.recovered, 0.0, 1.0));
   if (const auto others = rivals_in_words(d); !others.empty())
     text += fmt::format(" This recording cannot rule out: {}.", others);
   return text;

@@ -77,6 +77,7 @@ void Diagnosing::localise() {
   double most_odds = found_.nameless_log_odds;
   for (const auto& m : found_.members) most_odds = std::max(most_odds, m.log_odds);
   result_.unexplained = found_.unexplained;
+  result_.log_score_gained = found_.log_score_gained;
   constexpr double level_of_odds =
       1.0 - thresholds::level_of_lenses - thresholds::level_of_unexplained;
   result_.p_before =

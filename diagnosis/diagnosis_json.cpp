@@ -75,10 +75,13 @@ Json to_json(const Diagnosis& d) {
       {"parameters", parameters}};
   json["where"] = departures_json(d.where);
   json["where_after"] = departures_json(d.where_after);
-  json["gap"] = {
-      {"before", d.gap_before}, {"after", d.gap_after},
-      {"closed", d.closed},     {"closed_interval", Json::array({d.closed_low, d.closed_high})},
-      {"p_before", d.p_before}, {"p_after", d.p_after}};
+  json["gap"] = {{"before", d.gap_before},
+                 {"after", d.gap_after},
+                 {"closed", d.closed},
+                 {"closed_interval", Json::array({d.closed_low, d.closed_high})},
+                 {"p_before", d.p_before},
+                 {"p_after", d.p_after},
+                 {"log_score_gained", d.log_score_gained ? Json(*d.log_score_gained) : Json()}};
   json["causes"] = Json::array();
   for (const auto& c : d.causes)
     json["causes"].push_back({{"effect", c.effect},

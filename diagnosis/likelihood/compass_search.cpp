@@ -286,6 +286,12 @@ void CompassSearch::run(const SetSearchOptions& options) {
   found_.scenario.compass.initial_heading_deg = errors_.centre_deg();
   found_.baseline.compass.noise_std_deg = law_of({}).std_deg();
   found_.baseline.compass.initial_heading_deg = errors_.centre_deg();
+  if (found_.log_score_gained) {
+    *found_.log_score_gained += law.gain_on(law_of({}));
+    for (const auto& effect : set) *found_.log_score_gained -= cost(effect);
+    if (std::any_of(hidden_.begin(), hidden_.end(), [](char hidden) { return hidden != 0; }))
+      found_.log_score_gained.reset();
+  }
   const double odds_of_bursts = bursts_.gain - 3.0 * cost_of_a_value_ - prior_odds;
   if (!is_left_out("magnetic_bursts") && odds_of_bursts > 0.0) {
     set.push_back(with_values("magnetic_bursts", {{"bursts_per_hour", bursts_.per_hour},

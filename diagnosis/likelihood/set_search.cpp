@@ -20,7 +20,8 @@ FoundSet SetSearcher::run() {
   tell("reading values", 3);
   const auto marks = marks_of(simulator_, recording_);
   tell("fitting the baseline", 3);
-  found.baseline = bench_.beside_noise({}).scenario;
+  const auto bare = bench_.beside_noise({});
+  found.baseline = bare.scenario;
   const auto marked = read_off(marks, found);
   for (const auto& cause : cause_types())
     if (bench_.is_allowed(cause.id) && !is_compass(cause) && !bench_.is_marked(cause.id))
@@ -28,11 +29,13 @@ FoundSet SetSearcher::run() {
 
   const auto begun = bench_.beside_noise(marked);
   // Rounding to more than the noise is no longer noise, unless a motion dithers it: what it does to
-  // the fast part and to slow noise has no law here.
+  // the fast part and to slow noise has no law here. Beside a motion that is not explained, a walk
+  // stands in for noise that steps from sample to sample show.
   constexpr double coarsest = 2.2;
   const double lsb_of_noise =
-      marks.lsb_dps /
-      (marks.level_on_grid_dps ? marks.white_under_grid_dps : white_with_rounding(begun.scenario));
+      marks.lsb_dps / (marks.level_on_grid_dps ? marks.white_under_grid_dps
+                                               : std::max(white_with_rounding(begun.scenario),
+                                                          marks.noise_of_steps_dps));
   const bool coarse = lsb_of_noise > coarsest && !marks.turns_through_grid;
   if (coarse)
     feigned_ = {.warmth = 1e300, .tails = 1e300};
@@ -72,6 +75,9 @@ FoundSet SetSearcher::run() {
   if (!coarse) end_ = standing;
   response_ = bench_.response();
   masked_ = bench_.masked();
+  if (std::none_of(masked_.begin(), masked_.end(), [](char hidden) { return hidden != 0; }))
+    found.log_score_gained =
+        standing.score - bare.score + (has_warm_noise_ ? tails_.temperature_gain : 0.0);
   add_tails(found);
   auto unseen = edges_of_the_dead_zone(standing.scenario);
   for (std::size_t i = 0; i < unseen.size(); ++i) unseen[i] |= repeats_[i];

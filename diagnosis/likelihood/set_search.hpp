@@ -48,6 +48,9 @@ struct FoundSet {
   /// What rounds to it, where a grid is coarser than the noise that rests on it.
   std::optional<double> level_on_grid_dps{};
   double gain = 0.0;  ///< log-likelihood of the rate's set, less its cost, beyond the baseline's
+  /// Of all that was found, beyond white noise and a walk; none where samples do not count, as
+  /// repeats and outliers: what they would say is not known.
+  std::optional<double> log_score_gained{};
   /// What each effect would have gained at each step of the search.
   std::vector<std::pair<std::string, double>> screening{};
   /// The scenario with those effects of the set alone that have one of the names, its noise fitted

@@ -47,6 +47,8 @@ BlindAnswer read_answer(const std::filesystem::path& path) {
   }
   if (auto gap = object.child("gap")) {
     if (gap->has("closed")) answer.closed = gap->number("closed", 0.0, ranges::any, "");
+    if (gap->has("log_score_gained") && !json["gap"]["log_score_gained"].is_null())
+      answer.log_score_gained = gap->number("log_score_gained", 0.0, ranges::any, "");
     const auto ends = gap->list("closed_interval");
     if (ends.size() == 2) {
       const auto end = [&](std::size_t k) {

@@ -19,6 +19,7 @@ struct BlindAnswer {
   std::vector<Verdict> verdict_set;
   std::vector<std::pair<std::string, double>> inclusions;  ///< those that close most first
   std::optional<double> closed;
+  std::optional<double> log_score_gained;
   std::optional<std::pair<double, double>> closed_interval;
 
   /// Effects that are rather there than not.

@@ -25,6 +25,7 @@ struct Tally {
   double members = 0, unknown = 0, none = 0;
   std::vector<double> closed;
   Counts named, named_without;
+  std::vector<double> lost_by_a_name;  ///< log scores
 
   Tally& operator+=(const Tally& t) {
     detected += t.detected, first += t.first, all_named += t.all_named, covered += t.covered;
@@ -32,6 +33,7 @@ struct Tally {
     members += t.members, unknown += t.unknown, none += t.none;
     closed.insert(closed.end(), t.closed.begin(), t.closed.end());
     for (const auto& [name, times] : t.named_without) named_without[name] += times;
+    lost_by_a_name.insert(lost_by_a_name.end(), t.lost_by_a_name.begin(), t.lost_by_a_name.end());
     return *this;
   }
   double mean_members() const { return members / first.count; }
@@ -56,6 +58,11 @@ std::string in_words(const Counts& named, const std::string& but = "") {
   for (const auto& [name, times] : named)
     if (name != but) others.push_back(fmt::format("{} {:.0f}", name, times));
   return fmt::format("{}", fmt::join(others, ", "));
+}
+
+std::string in_order(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return fmt::format("{:.0f}", fmt::join(values, ", "));
 }
 
 /// "strong", "none", "two effects, strong".
@@ -83,7 +90,7 @@ class Score {
     scored_.push_back({label, without_own(read_answer(path), label)});
     add_answer(scored_.back(), t);
     if (const auto without = answer_of(label.number, true); fs::exists(without))
-      add_left_out(label, without_own(read_answer(without), label).verdict, t);
+      add_left_out(scored_.back(), without_own(read_answer(without), label), t);
     for (const auto& [name, times] : t.named) of_effect.named[name] += times;
     of_effect += t;
     by_kind_[kind_of(label)] += t;
@@ -112,7 +119,7 @@ class Score {
 
  private:
   void add_answer(const Scored& scored, Tally& t);
-  static void add_left_out(const BlindLabel& label, const Verdict& verdict, Tally& t);
+  static void add_left_out(const Scored& scored, const BlindAnswer& without, Tally& t);
   Table aims() const;
   Table by_scenario() const;
   Table effects() const;
@@ -159,12 +166,17 @@ void Score::add_answer(const Scored& scored, Tally& t) {
   power_[{name_of(label), label.strength, length}].add(right);
 }
 
-void Score::add_left_out(const BlindLabel& label, const Verdict& verdict, Tally& t) {
+void Score::add_left_out(const Scored& scored, const BlindAnswer& without, Tally& t) {
+  const auto& [label, whole] = scored;
+  const auto& verdict = without.verdict;
   // Of a set, what is left may be named.
   const bool right = label.effects.size() > 1 && is_right(verdict, label);
   t.abstained.add(right || verdict.is_unknown() || verdict.is_none());
   t.unknown_alone.add(right || verdict.is_unknown());
   t.named_without[verdict.text()] += 1;
+  if (!right && !verdict.is_unknown() && !verdict.is_none() && whole.log_score_gained &&
+      without.log_score_gained)
+    t.lost_by_a_name.push_back(*whole.log_score_gained - *without.log_score_gained);
 }
 
 Table Score::aims() const {
@@ -228,16 +240,23 @@ Table Score::effects() const {
 Table Score::left_out() const {
   Table table{
       .title = title_ + ": with the effect left out of the catalogue",
-      .columns = {{"effect", ""}, {"abstained", ""}, {"unknown alone", ""}, {"verdicts", ""}}};
+      .columns = {{"effect", ""},
+                  {"abstained", ""},
+                  {"unknown alone", ""},
+                  {"verdicts", ""},
+                  {"log score lost by a name", "nat"}},
+      .notes = {"what a name for it loses against the whole catalogue, where both count the same "
+                "samples: a few nats are no reason to abstain"}};
   Tally singles;
   for (const auto& [key, t] : by_effect_) {
     if (t.abstained.count == 0 || is_set(key.second)) continue;
-    table.rows.push_back(
-        {key.second, t.abstained.text(), t.unknown_alone.text(), in_words(t.named_without)});
+    table.rows.push_back({key.second, t.abstained.text(), t.unknown_alone.text(),
+                          in_words(t.named_without), in_order(t.lost_by_a_name)});
     singles += t;
   }
   if (singles.abstained.count > 0)
-    table.rows.push_back({"all", singles.abstained.text(), singles.unknown_alone.text(), ""});
+    table.rows.push_back({"all", singles.abstained.text(), singles.unknown_alone.text(), "",
+                          in_order(singles.lost_by_a_name)});
   return table;
 }
 
