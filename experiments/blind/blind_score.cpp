@@ -1,79 +1,20 @@
 #include <gyrostat/experiments/blind/blind_score.hpp>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <gyrostat/core/step.hpp>
-#include <gyrostat/experiments/blind/blind_answer.hpp>
-#include <gyrostat/experiments/blind/set_score.hpp>
-#include <gyrostat/experiments/blind/share.hpp>
+#include <gyrostat/experiments/blind/blind_tally.hpp>
 
 namespace gyrostat::gap {
 namespace {
 
 namespace fs = std::filesystem;
 
-using Counts = std::map<std::string, double>;
-
-struct Tally {
-  Share detected, first, all_named, covered, abstained, unknown_alone;
-  double members = 0, unknown = 0, none = 0;
-  std::vector<double> closed;
-  Counts named, named_without;
-  std::vector<double> lost_by_a_name;  ///< log scores
-
-  Tally& operator+=(const Tally& t) {
-    detected += t.detected, first += t.first, all_named += t.all_named, covered += t.covered;
-    abstained += t.abstained, unknown_alone += t.unknown_alone;
-    members += t.members, unknown += t.unknown, none += t.none;
-    closed.insert(closed.end(), t.closed.begin(), t.closed.end());
-    for (const auto& [name, times] : t.named_without) named_without[name] += times;
-    lost_by_a_name.insert(lost_by_a_name.end(), t.lost_by_a_name.begin(), t.lost_by_a_name.end());
-    return *this;
-  }
-  double mean_members() const { return members / first.count; }
-  TableCell median_closed() const {
-    auto sorted = closed;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted.empty() ? TableCell() : cell(sorted[sorted.size() / 2]);
-  }
-};
-
-/// "thermal_lag (second_order_lag)".
-std::string name_of(const BlindLabel& label) {
-  if (label.effects.empty()) return Verdict::none().text();
-  const auto names = fmt::format("{}", fmt::join(label.effects, " + "));
-  return label.form.empty() ? names : fmt::format("{} ({})", names, label.form);
-}
-
 bool is_set(const std::string& name) { return name.find(" + ") != std::string::npos; }
-
-std::string in_words(const Counts& named, const std::string& but = "") {
-  std::vector<std::string> others;
-  for (const auto& [name, times] : named)
-    if (name != but) others.push_back(fmt::format("{} {:.0f}", name, times));
-  return fmt::format("{}", fmt::join(others, ", "));
-}
-
-std::string in_order(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return fmt::format("{:.0f}", fmt::join(values, ", "));
-}
-
-/// "strong", "none", "two effects, strong".
-std::string kind_of(const BlindLabel& label) {
-  static constexpr std::array counts = {"no", "one", "two", "three", "four", "five", "six"};
-  const auto size = label.effects.size();
-  if (size == 0) return Verdict::none().text();
-  if (size == 1) return label.strength;
-  return fmt::format("{} effects, {}",
-                     size < counts.size() ? counts[size] : fmt::format("{}", size), label.strength);
-}
 
 class Score {
  public:
@@ -90,7 +31,7 @@ class Score {
     scored_.push_back({label, without_own(read_answer(path), label)});
     add_answer(scored_.back(), t);
     if (const auto without = answer_of(label.number, true); fs::exists(without))
-      add_left_out(scored_.back(), without_own(read_answer(without), label), t);
+      t.add_left_out(scored_.back(), without_own(read_answer(without), label));
     for (const auto& [name, times] : t.named) of_effect.named[name] += times;
     of_effect += t;
     by_kind_[kind_of(label)] += t;
@@ -119,7 +60,6 @@ class Score {
 
  private:
   void add_answer(const Scored& scored, Tally& t);
-  static void add_left_out(const Scored& scored, const BlindAnswer& without, Tally& t);
   Table aims() const;
   Table by_scenario() const;
   Table effects() const;
@@ -142,41 +82,13 @@ class Score {
 };
 
 void Score::add_answer(const Scored& scored, Tally& t) {
-  const auto& [label, answer] = scored;
-  const auto is_true = [&l = label](const Verdict& said) { return is_right(said, l); };
-  const bool right = is_true(answer.verdict);
-  const auto& set = answer.verdict_set;
-  t.detected.add(!answer.verdict.is_none());
-  t.first.add(right);
-  t.covered.add(right || std::any_of(set.begin(), set.end(), is_true));
-  t.named[answer.verdict.text()] += 1;
-  t.unknown += answer.verdict.is_unknown();
-  t.none += answer.verdict.is_none();
-  t.members += static_cast<double>(std::max<std::size_t>(set.size(), 1));
-  if (answer.closed) t.closed.push_back(*answer.closed);
-  if (label.effects.size() > 1) {
-    const auto named = answer.named();
-    t.all_named.add(std::all_of(label.effects.begin(), label.effects.end(),
-                                [&](const auto& effect) { return holds(named, effect); }));
-    return;
-  }
+  t.add(scored);
+  const auto& label = scored.label;
+  if (label.effects.size() > 1) return;
   const Length length{label.duration_s, label.rate_hz};
   samplings_.insert(length);
   strengths_.insert(label.strength);
-  power_[{name_of(label), label.strength, length}].add(right);
-}
-
-void Score::add_left_out(const Scored& scored, const BlindAnswer& without, Tally& t) {
-  const auto& [label, whole] = scored;
-  const auto& verdict = without.verdict;
-  // Of a set, what is left may be named.
-  const bool right = label.effects.size() > 1 && is_right(verdict, label);
-  t.abstained.add(right || verdict.is_unknown() || verdict.is_none());
-  t.unknown_alone.add(right || verdict.is_unknown());
-  t.named_without[verdict.text()] += 1;
-  if (!right && !verdict.is_unknown() && !verdict.is_none() && whole.log_score_gained &&
-      without.log_score_gained)
-    t.lost_by_a_name.push_back(*whole.log_score_gained - *without.log_score_gained);
+  power_[{name_of(label), label.strength, length}].add(is_right(scored.answer.verdict, label));
 }
 
 Table Score::aims() const {
