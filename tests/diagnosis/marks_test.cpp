@@ -44,6 +44,27 @@ TEST(Marks, RepeatsBesideAGridShowWhereTheMotionTurns) {
   EXPECT_GE(seen, recordings - 2);
 }
 
+/// A table that ramps from rest to rest, rounded to three standard deviations of the noise: between
+/// ramps neighbours are equal as often as the rate lies near a value, and within them steps of
+/// little more than the grid's are undone by noise.
+TEST(Marks, WhatRestsOnACoarseGridIsNoRepeat) {
+  constexpr double lsb_dps = 0.15, period_s = 30.0, ramp_s = 2.5;
+  for (std::uint64_t seed = 60; seed < 66; ++seed) {
+    Series series = recorded(still(), seed, false);
+    series.rate_ref_dps.resize(series.size());
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      const double periods = std::floor(series.t_s[i] / period_s);
+      const double into_s = series.t_s[i] - periods * period_s;
+      const auto rest_dps = [&](double number) { return 9.0 * std::sin(2.0 * number); };
+      const double from = rest_dps(periods), to = rest_dps(periods + 1.0);
+      series.rate_ref_dps[i] = from + (to - from) * std::min(into_s / ramp_s, 1.0);
+      series.gyro_dps[i] =
+          lsb_dps * std::nearbyint((series.gyro_dps[i] + series.rate_ref_dps[i]) / lsb_dps);
+    }
+    EXPECT_EQ(marks_in(series).stale_probability, 0.0) << seed;
+  }
+}
+
 /// A converter clips at both ends, of which a bias taken out afterwards makes two limits; an end
 /// that is not reached is none.
 TEST(Marks, BothLimitsAreReadOff) {
