@@ -12,6 +12,8 @@ struct Evidence {
   Scenario baseline;  ///< fitted to the recording, with what gives its rate a response
   /// Of the train part's cluster means under the set, at the clusters; 0 elsewhere.
   std::vector<double> slow_innovations = {};
+  /// Of the level that walks under the rate error, whatever it is that moves it (WalkingLevel).
+  double level_gain = 0.0;
 
   const Conditions& conditions() const { return simulator.conditions(); }
 };

@@ -9,6 +9,7 @@
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/starts/signature.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -138,6 +139,7 @@ Evidence SetBench::evidence_of(const Standing& standing) const {
   Series left = recording_;
   left.gyro_dps = gyro_beside(standing.scenario);
   Evidence evidence{simulator_, recording_, Scene(conditions_, left), standing.scenario};
+  evidence.level_gain = level_gain_of(conditions_, evidence.scene.rate_error_dps);
   // A further effect sees the rate as those have it sensed.
   std::erase_if(evidence.baseline.effects, [](const auto& e) { return !e.is_response(); });
   if (response_) evidence.baseline.effects.push_back(*response_);

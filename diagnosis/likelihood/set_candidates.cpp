@@ -35,6 +35,21 @@ std::vector<Effect> likeliest(const std::vector<Effect>& guesses, std::size_t co
   return first;
 }
 
+/// From one scenario through another as far again, times `further`, in what a fit to samples moves.
+Scenario beyond(const Scenario& from, const Scenario& through, double further) {
+  Scenario there = through;
+  for (std::size_t k = 0; k < there.effects.size(); ++k) {
+    auto& effect = there.effects[k];
+    if (!is_taken_out(effect)) continue;
+    for (const auto name : cause_types().named(effect.id(), "effects").free_parameters) {
+      const auto f = field_of(effect, name);
+      const double value = effect.value(f) + further * (effect.value(f) - from.effects[k].value(f));
+      if (effect.fields()[f].range.contains(value)) effect.value(f) = value;
+    }
+  }
+  return there;
+}
+
 }  // namespace
 
 Standing SetBench::with(const Standing& standing, const CauseType& cause,
@@ -128,7 +143,13 @@ Standing SetBench::polished(Standing standing) const {
   };
   Scenario scenario = standing.scenario;
   double here = likelihood(scenario);
-  for (int pass = 0; pass < 2; ++pass)
+  constexpr int fewest_passes = 2, most_passes = 6;
+  constexpr double little = 1.0;
+  double before_pass = here;
+  for (int pass = 0; pass < fewest_passes || (pass < most_passes && here > before_pass + little);
+       ++pass) {
+    before_pass = here;
+    const Scenario begun = scenario;
     for (std::size_t at = 0; at < scenario.effects.size(); ++at) {
       auto& effect = scenario.effects[at];
       if (!is_taken_out(effect)) continue;
@@ -163,6 +184,15 @@ Standing SetBench::polished(Standing standing) const {
           effect.value(f) = middle;
       }
     }
+    // Where parameters stand in for each other, a pass goes a little way of a long one.
+    for (double further = 1.0; here > before_pass + little; further *= 2.0) {
+      const Scenario trial = beyond(begun, scenario, further);
+      const double there = likelihood(trial);
+      if (there <= here) break;
+      scenario = trial;
+      here = there;
+    }
+  }
   return refitted(scenario, 8);
 }
 

@@ -3,18 +3,25 @@
 
 #include <cmath>
 
+#include <gyrostat/diagnosis/likelihood/walking_level.hpp>
+
 namespace gyrostat::gap {
 namespace {
 
-/// The train part, without its mean; what is missing is as if it were the mean.
-Eigen::VectorXd reduce(const Evidence& evidence, const std::vector<double>& values) {
+/// The train part, without its level or its mean; what is missing is as if it were that.
+Eigen::VectorXd reduce(const Evidence& evidence, Trace trace, const std::vector<double>& values) {
   std::vector<double> kept;
-  for (const auto& span : evidence.conditions().spans(Part::train))
+  for (const auto& span : evidence.conditions().spans(Part::train)) {
+    WalkingLevel level(evidence.level_gain);
     for (std::size_t i = span.first; i < span.last; ++i)
-      kept.push_back(is_missing(values[i]) ? 0.0 : values[i]);
+      if (is_missing(values[i]))
+        kept.push_back(0.0);
+      else
+        kept.push_back(trace == Trace::rate ? level.innovation(values[i]) : values[i]);
+  }
   Eigen::VectorXd reduced =
       Eigen::Map<Eigen::VectorXd>(kept.data(), static_cast<Eigen::Index>(kept.size()));
-  reduced.array() -= reduced.mean();
+  if (trace == Trace::heading) reduced.array() -= reduced.mean();
   return reduced;
 }
 
@@ -56,7 +63,7 @@ Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
     for (std::size_t i = 0; i < added.size(); ++i)
       added[i] =
           trace == Trace::heading ? wrap_degrees(added[i] - nothing[i]) : added[i] - nothing[i];
-    const Eigen::VectorXd column = reduce(evidence, added);
+    const Eigen::VectorXd column = reduce(evidence, trace, added);
     columns.conservativeResize(column.size(), static_cast<Eigen::Index>(k) + 1);
     columns.col(static_cast<Eigen::Index>(k)) = column;
   }
@@ -64,7 +71,28 @@ Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
 }
 
 Eigen::VectorXd trace_of(const Evidence& e, Trace trace) {
-  return reduce(e, trace == Trace::rate ? e.scene.rate_error_dps : e.scene.heading_error_deg);
+  return reduce(e, trace,
+                trace == Trace::rate ? e.scene.rate_error_dps : e.scene.heading_error_deg);
+}
+
+double level_gain_of(const Conditions& conditions, const std::vector<double>& rate_error_dps) {
+  double best = 0.0, most = -1e300;
+  for (const double gain : {0.0, 1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3}) {
+    double squares = 1e-300, count = 0.0, log_known = 0.0;
+    for (const auto& span : conditions.spans(Part::train)) {
+      WalkingLevel level(gain);
+      for (std::size_t i = span.first; i < span.last; ++i) {
+        if (is_missing(rate_error_dps[i])) continue;
+        const double innovation = level.innovation(rate_error_dps[i]);
+        squares += innovation * innovation;
+        count += 1.0;
+      }
+      log_known += level.log_known();
+    }
+    const double likelihood = 0.5 * log_known - 0.5 * count * std::log(squares);
+    if (likelihood > most) most = likelihood, best = gain;
+  }
+  return best;
 }
 
 Match match(const Eigen::MatrixXd& columns, const Eigen::VectorXd& trace) {

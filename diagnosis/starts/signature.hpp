@@ -11,11 +11,15 @@ namespace gyrostat::gap {
 enum class Trace { rate, heading };
 
 /// What effects without noise add to the trace of the train part, under the recording's conditions,
-/// as one column an effect, without their means.
+/// as one column an effect, without their means; of the rate, as innovations beside its level:
+/// what is slow would be taken for a motion that is slow, too.
 Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
                            const std::vector<Effect>& effects);
 /// The recording's own trace, treated alike.
 Eigen::VectorXd trace_of(const Evidence& evidence, Trace trace);
+
+/// The gain of a level under which the train part of a rate error is likeliest.
+double level_gain_of(const Conditions& conditions, const std::vector<double>& rate_error_dps);
 
 /// Least-squares amplitudes of `columns` in `trace` and the share of it that they leave.
 struct Match {
