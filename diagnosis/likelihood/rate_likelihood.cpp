@@ -114,14 +114,14 @@ RateBands rate_bands(const ReducedRate& reduced, const NoiseLaw& law) {
 
 SlowTerms slow_terms(const ReducedRate& reduced, const SlowLaw& law,
                      const Eigen::MatrixXd& regressors, const Eigen::VectorXd& prior_std,
-                     const SlowTerms* near) {
+                     const SlowTerms* near, bool is_the_last) {
   const auto& slow = reduced.slow(Part::train);
   if (slow.points.size() < 2) return {};
   Eigen::MatrixXd chosen(slow.means.size(), regressors.cols());
   for (Eigen::Index k = 0; k < chosen.rows() && chosen.cols() > 0; ++k)
     chosen.row(k) =
         regressors.row(static_cast<Eigen::Index>(slow.points[static_cast<std::size_t>(k)]));
-  return slow_terms(law, slow.points, slow.means, chosen, prior_std, near);
+  return slow_terms(law, slow.points, slow.means, chosen, prior_std, near, is_the_last);
 }
 
 }  // namespace gyrostat::gap

@@ -28,11 +28,11 @@ struct RateTerms {
   SlowTerms slow;
 };
 
-/// `regressors` (cluster x any) are of unknown size, but for their priors (SlowTerms); `near` as
-/// there.
+/// `regressors` (cluster x any) are of unknown size, but for their priors (SlowTerms); `near` and
+/// `is_the_last` as there.
 SlowTerms slow_terms(const ReducedRate& reduced, const SlowLaw& law,
                      const Eigen::MatrixXd& regressors, const Eigen::VectorXd& prior_std,
-                     const SlowTerms* near = nullptr);
+                     const SlowTerms* near = nullptr, bool is_the_last = false);
 
 /// Mean ratio of the train part's periodogram to the law at fast frequencies; 1 where there are
 /// none.

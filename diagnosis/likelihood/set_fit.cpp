@@ -131,11 +131,11 @@ NoiseLaw SetFitter::law_for(const Scenario& scenario, Jumping jumping) const {
 }
 
 SlowTerms SetFitter::slow_terms_of(const SlowLaw& law, const Regressors& regressors,
-                                   const SlowTerms* near) const {
+                                   const SlowTerms* near, bool is_the_last) const {
   constexpr double drift_prior = 3.0;  // drifts are larger than what is found beside them
   Eigen::VectorXd prior_std = Eigen::VectorXd::Constant(regressors.columns.cols(), amplitude_dps_);
   prior_std.head(drift_.cols()) *= drift_prior;
-  return slow_terms(*reduced_, law, regressors.columns, prior_std, near);
+  return slow_terms(*reduced_, law, regressors.columns, prior_std, near, is_the_last);
 }
 
 RateTerms SetFitter::terms(const Scenario& scenario, Jumping jumping, const SlowTerms* near) const {

@@ -100,7 +100,7 @@ class SetFitter {
   Regressors regressors_of(const Scenario& scenario) const;
   NoiseLaw law_for(const Scenario& scenario, Jumping jumping) const;
   SlowTerms slow_terms_of(const SlowLaw& law, const Regressors& regressors,
-                          const SlowTerms* near = nullptr) const;
+                          const SlowTerms* near = nullptr, bool is_the_last = false) const;
   Eigen::VectorXd fixed_signature(const Scenario& alone) const;
   void take_coefficients(const RateTerms& terms, SetFit& fit) const;
 

@@ -104,11 +104,12 @@ SetFitter::Slopes SetFitter::slopes_of(const Scenario& scenario, const std::vect
     if (!each[d].is_slow && d != whitest) return;
     filtered[d] = slow_terms_of(
         each[d].bands.slow, each[d].moves_regressors ? regressors_of(each[d].scenario) : regressors,
-        &here.slow);
+        &here.slow, true);
   });
   // Beside jumps each evaluation goes on from what histories say here: so does this one.
   const auto& jumps = here.bands.slow.jumps;
-  const auto slow_here = jumps ? slow_terms_of(here.bands.slow, regressors, &here.slow) : here.slow;
+  const auto slow_here =
+      jumps ? slow_terms_of(here.bands.slow, regressors, &here.slow, true) : here.slow;
   const auto rows = static_cast<Eigen::Index>(slow_here.innovations.size());
   const auto& log_density = here.bands.fast.log_density;
   const auto bins = static_cast<Eigen::Index>(log_density.size());

@@ -84,8 +84,8 @@ class SetSearcher {
   /// Where the motion is sensed late, its effects found anew from the other way of being late: what
   /// stands in for one of them has moved all others.
   Standing responding_anew(const Standing& standing);
-  /// Of sets found from each of some beginnings, with all effects `of` a kind as candidates, the
-  /// best where it is better than what stands by what its further effects have to gain.
+  /// Of sets found from each of some beginnings, with the effects of a band as candidates, the
+  /// best; what stands, where none is better by what its further effects have to gain.
   Standing best_from(const Standing& standing, std::vector<Standing> beginnings, EffectBand band);
   /// With an ARIMA(1,1,1) that remembers, beside what is there or in place of what colours the
   /// noise.

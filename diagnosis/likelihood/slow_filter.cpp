@@ -93,11 +93,11 @@ struct Jumped {
 
 template <int N>
 Jumped followed(const SlowLaw& law, std::span<const std::size_t> points,
-                const Eigen::VectorXd& values) {
+                const Eigen::VectorXd& values, bool with_trail) {
   SlowLaw still = law;
   still.jumps.reset();
   typename JumpHistories<N>::Trail trail;
-  JumpHistories<N> histories(still, *law.jumps, trail);
+  JumpHistories<N> histories(still, *law.jumps, with_trail ? &trail : nullptr);
   Jumped found{.log_likelihood = 0.0, .said = {}};
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (k > 0) histories.predict(points[k] - points[k - 1]);
@@ -131,9 +131,9 @@ SlowTerms gaussian_terms_of(const SlowLaw& law, std::span<const std::size_t> poi
 }
 
 Jumped followed_of(const SlowLaw& law, std::span<const std::size_t> points,
-                   const Eigen::VectorXd& values) {
-  return with_room_for(law,
-                       [&](auto states) { return followed<states.value>(law, points, values); });
+                   const Eigen::VectorXd& values, bool with_trail) {
+  return with_room_for(
+      law, [&](auto states) { return followed<states.value>(law, points, values, with_trail); });
 }
 
 /// Variance of a settled innovation of a level that walks (Harvey 1989, 4.1.2).
@@ -174,7 +174,7 @@ SlowTerms beside_jumps(const SlowLaw& law, const std::vector<double>& said,
 
 SlowTerms slow_terms(const SlowLaw& law, std::span<const std::size_t> points,
                      const Eigen::VectorXd& values, const Eigen::MatrixXd& regressors,
-                     const Eigen::VectorXd& prior_std, const SlowTerms* near) {
+                     const Eigen::VectorXd& prior_std, const SlowTerms* near, bool is_the_last) {
   const bool goes_on = law.jumps && near != nullptr && !near->said.empty();
   auto terms = goes_on
                    ? beside_jumps(law, near->said, points, values, regressors, prior_std)
@@ -183,7 +183,7 @@ SlowTerms slow_terms(const SlowLaw& law, std::span<const std::size_t> points,
   const auto follow = [&] {
     Eigen::VectorXd left = values;
     if (regressors.cols() > 0) left -= regressors * terms.coefficients;
-    return followed_of(law, points, left);
+    return followed_of(law, points, left, !is_the_last || !goes_on);
   };
   auto histories = follow();
   constexpr int passes = 3;

@@ -48,9 +48,10 @@ struct SlowTerms {
 /// where the law has them, are followed by a Gaussian sum of their histories (Alspach and Sorenson,
 /// IEEE Trans. AC-17, 1972). Coefficients beside jumps are integrated out about their maximum
 /// (Laplace), given what the histories say: in a few passes, or in one from what those of a law
-/// `near` this one say.
+/// `near` this one say. From terms that are `the_last`, none goes on.
 SlowTerms slow_terms(const SlowLaw& law, std::span<const std::size_t> points,
                      const Eigen::VectorXd& values, const Eigen::MatrixXd& regressors,
-                     const Eigen::VectorXd& prior_std, const SlowTerms* near = nullptr);
+                     const Eigen::VectorXd& prior_std, const SlowTerms* near = nullptr,
+                     bool is_the_last = false);
 
 }  // namespace gyrostat::gap

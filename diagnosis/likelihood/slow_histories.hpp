@@ -24,9 +24,9 @@ class JumpHistories {
   using Lanes = std::array<double, lanes>;
   using Trail = JumpTrail<lanes>;
 
-  /// Writes down in `trail` which of two levels each value is on (-1 or 1), or else where the level
-  /// jumps (0 or 1).
-  JumpHistories(const SlowLaw& still, const Jumps& jumps, Trail& trail)
+  /// Writes down in `trail`, where there is one, which of two levels each value is on (-1 or 1), or
+  /// else where the level jumps (0 or 1).
+  JumpHistories(const SlowLaw& still, const Jumps& jumps, Trail* trail = nullptr)
       : motion_(still),
         jumps_(jumps),
         trail_(trail),
@@ -37,7 +37,7 @@ class JumpHistories {
       if (is_of_two()) level_[h] = h == 0 ? -jumps.size_dps : jumps.size_dps;
       for (int i = 0; i < states(); ++i) at(i, i)[h] = motion_.first_variance[i];
     }
-    trail_.begin(said_by_level());
+    if (trail_ != nullptr) trail_->begin(said_by_level());
   }
 
   void predict(std::size_t steps) {
@@ -86,9 +86,10 @@ class JumpHistories {
 
   /// Writes down what is old enough to be known, or, at the end, all.
   void settle(bool at_the_end) {
+    if (trail_ == nullptr) return;
     Lanes weights{};
     for (std::size_t h = 0; h < size_; ++h) weights[h] = weight_[h];
-    trail_.settle(weights, at_the_end);
+    trail_->settle(weights, at_the_end);
   }
 
   /// Leaves most_kept of them.
@@ -157,9 +158,10 @@ class JumpHistories {
     else
       bear(parents, 0.0);
     for (std::size_t h = 0; h < parents; ++h) weight_[h] *= 1.0 - jump_;
+    if (trail_ == nullptr) return;
     Lanes said = said_by_level();
     if (!is_of_two()) said[parents] = 1.0;
-    trail_.step(said);
+    trail_->step(said);
   }
   /// Where the level has not jumped.
   Lanes said_by_level() const {
@@ -194,7 +196,7 @@ class JumpHistories {
         at(i, j)[child] = sum(both);
       }
     }
-    trail_.bear(share, child);
+    if (trail_ != nullptr) trail_->bear(share, child);
     weight_[child] = total * jump_;
     level_[child] = -level;
     if (!is_of_two()) at(0, 0)[child] += jumps_.size_dps * jumps_.size_dps;
@@ -221,7 +223,7 @@ class JumpHistories {
     expected_[into] += share * (expected_[from] - expected_[into]);
     variance_[into] += share * (variance_[from] - variance_[into]);
     weight_[into] = both;
-    trail_.join(from, into, share);
+    if (trail_ != nullptr) trail_->join(from, into, share);
   }
 
   void copy(std::size_t from, std::size_t to) {
@@ -233,12 +235,12 @@ class JumpHistories {
       state_[i][to] = state_[i][from];
       for (int j = 0; j <= i; ++j) at(i, j)[to] = at(i, j)[from];
     }
-    trail_.copy(from, to);
+    if (trail_ != nullptr) trail_->copy(from, to);
   }
 
   SlowMotion<N> motion_;
   Jumps jumps_;
-  Trail& trail_;
+  Trail* trail_;
   double interval_s_, jump_ = 0.0;
   std::size_t size_, steps_ = 0;
   std::array<double, N> left_{}, gained_{};

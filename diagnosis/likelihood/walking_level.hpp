@@ -11,13 +11,18 @@ namespace gyrostat::gap {
 /// state. At a gain of 0 the level stands still, and squares add up to those about the mean.
 class WalkingLevel {
  public:
-  explicit WalkingLevel(double gain) : gain_(gain) {}
+  explicit WalkingLevel(double gain)
+      : gain_(gain), root_known_(std::sqrt(1.0 - gain)), log_of_known_(std::log(1.0 - gain)) {}
 
   /// 0 of the first value.
   double innovation(double value) {
     const double gain = std::max(gain_, 1.0 / ++count_);
     const double known = 1.0 - gain, off = value - level_;
     level_ += gain * off;
+    if (gain == gain_) {
+      log_known_ += log_of_known_;
+      return root_known_ * off;
+    }
     if (known <= 0.0) return 0.0;
     log_known_ += std::log(known);
     return std::sqrt(known) * off;
@@ -26,7 +31,7 @@ class WalkingLevel {
   double log_known() const { return log_known_; }
 
  private:
-  double gain_, count_ = 0.0, level_ = 0.0, log_known_ = 0.0;
+  double gain_, root_known_, log_of_known_, count_ = 0.0, level_ = 0.0, log_known_ = 0.0;
 };
 
 }  // namespace gyrostat::gap

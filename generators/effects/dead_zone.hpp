@@ -56,7 +56,8 @@ struct DeadZone {
  private:
   double lost(double rate_dps) const {
     const double width = half_width_dps, spread = dither * half_width_dps;
-    if (spread == 0.0)
+    constexpr double never = 9.0;  // standard deviations
+    if (std::abs(std::abs(rate_dps) - width) >= never * spread)
       return std::abs(rate_dps) <= width ? rate_dps : std::copysign(lost_beyond * width, rate_dps);
     const double low = (-width - rate_dps) / spread, high = (width - rate_dps) / spread;
     const auto below = [](double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); };
