@@ -234,7 +234,8 @@ TEST(BlindCheck, DrawsTheStudiesOfThisProject) {
 class Scored : public testing::Test {
  protected:
   void diagnosed(BlindLabel label, const std::string& verdict,
-                 const std::vector<std::string>& added, bool left_out = false) {
+                 const std::vector<std::string>& added, bool left_out = false,
+                 const Json& gained = {}) {
     if (!left_out) {
       label.number = labels_.size();
       labels_.push_back(label);
@@ -243,6 +244,7 @@ class Scored : public testing::Test {
                   {"verdict_set", added},
                   {"gap", {{"closed", added.empty() ? 0.0 : 0.9}, {"closed_interval", {0.5, 1.0}}}},
                   {"effects", Json::array()}};
+    found["gap"]["log_score_gained"] = gained;
     for (const auto& effect : added)
       found["effects"].push_back({{"effect", effect}, {"inclusion", 0.9}});
     folder_.write(std::filesystem::relative(
@@ -274,8 +276,8 @@ TEST_F(Scored, CountsWhatWasNamedAndWhatWasNot) {
   const BlindLabel strong{0, {"outliers"}, "strong", 60.0}, none{0, {}, "", 60.0};
   diagnosed(strong, "outliers", {"outliers"});
   diagnosed(strong, "unknown", {}, true);
-  diagnosed(strong, "telegraph", {"telegraph", "outliers"});
-  diagnosed(strong, "quantization", {"quantization"}, true);
+  diagnosed(strong, "telegraph", {"telegraph", "outliers"}, false, 30.0);
+  diagnosed(strong, "quantization", {"quantization"}, true, 27.6);
   diagnosed(strong, "none", {});
   diagnosed(none, "none", {});
   diagnosed(none, "telegraph", {"telegraph"});
@@ -297,6 +299,7 @@ TEST_F(Scored, CountsWhatWasNamedAndWhatWasNot) {
   EXPECT_EQ(text(all["effects"], "outliers", "taken for"), "none 1, telegraph 1");
   EXPECT_EQ(text(all["left_out"], "outliers", "verdicts"), "quantization 1, unknown 1");
   EXPECT_THAT(text(all["left_out"], "outliers", "unknown alone"), StartsWith("50 % (1 of 2;"));
+  EXPECT_EQ(text(all["left_out"], "outliers", "log score lost by a name"), "2");
   EXPECT_THAT(text(all["calibration"], "0.8 to 0.95", "right"), StartsWith("71 % (5 of 7;"));
   EXPECT_THAT(all["calibration"].notes,
               testing::ElementsAre(StartsWith("Brier score of the effects that are given a "
