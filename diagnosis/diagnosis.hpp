@@ -95,6 +95,7 @@ struct Diagnosis {
   std::vector<Unexplained> unexplained;   ///< that the likelihood sees beside the effects
   double gap_before = 0.0, gap_after = 0.0, closed = 0.0, closed_low = 0.0, closed_high = 0.0;
   double p_before = 1.0, p_after = 1.0;  ///< of the train part
+  double p_held_out = 1.0;               ///< of the held-out part, with the effects
   /// Log-likelihood of the set less its cost, beyond the baseline's, in nats, on the train part;
   /// none where samples do not count for it.
   std::optional<double> log_score_gained;

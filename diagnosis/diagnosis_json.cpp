@@ -81,6 +81,7 @@ Json to_json(const Diagnosis& d) {
                  {"closed_interval", Json::array({d.closed_low, d.closed_high})},
                  {"p_before", d.p_before},
                  {"p_after", d.p_after},
+                 {"p_held_out", d.p_held_out},
                  {"log_score_gained", d.log_score_gained ? Json(*d.log_score_gained) : Json()}};
   json["causes"] = Json::array();
   for (const auto& c : d.causes)

@@ -43,6 +43,7 @@ void Diagnosing::measure_shrinkage() {
   const auto& named = rungs_.empty() ? baseline_replicas_ : rungs_.back().replicas;
   const auto truth = held_out(yardstick_ ? yardstick_->replicas : named);
   result_.gap_before = result_.gap_after = gap_of(before, truth);
+  result_.p_held_out = Ensemble(instrument, named[1], {}).p_value(observed_[1]);
   result_.enrichments.push_back({"", result_.gap_before});
   const auto closed = [&](double to) {
     return result_.gap_before > 0.0 ? 1.0 - to / result_.gap_before : 0.0;

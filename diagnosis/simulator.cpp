@@ -64,6 +64,7 @@ bool effects_at(const Scenario& scenario, bool compass) {
 Simulator::Simulator(const Series& recording, std::uint64_t seed, Interrupt interrupt)
     : interrupt_(interrupt),
       conditions_(recording),
+      response_(conditions_.series()),
       instruments_{Instrument(conditions_, Part::train), Instrument(conditions_, Part::held_out)},
       seed_(seed),
       resolution_dps_(decimal_step(recording.gyro_dps, conditions_.spans(Part::train))) {

@@ -8,6 +8,7 @@
 
 #include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/diagnosis/gap/instrument.hpp>
+#include <gyrostat/diagnosis/gyro_response.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
 namespace gyrostat::gap {
@@ -25,6 +26,7 @@ class Simulator {
   Simulator& operator=(const Simulator&) = delete;
 
   const Conditions& conditions() const { return conditions_; }
+  const GyroResponse& response() const { return response_; }
   /// What all work under these conditions asks now and then.
   const Interrupt& interrupt() const { return interrupt_; }
   const Instrument& instrument(Part part) const { return instruments_[index_of(part)]; }
@@ -56,6 +58,7 @@ class Simulator {
 
   Interrupt interrupt_;
   Conditions conditions_;
+  GyroResponse response_;
   std::array<Instrument, 2> instruments_;
   std::uint64_t seed_;
   double resolution_dps_;

@@ -183,13 +183,17 @@ void synthesise(const Scenario& scenario, const Noise& noise, Series& series) {
   measure_heading(scenario.compass, scenario, noise, series);
 }
 
-void synthesise_rate_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
-                           Series& series) {
+void hold_influences(const Series& conditions, Series& series) {
   assert(&conditions != &series);
   series.clear();
   series.t_s = conditions.t_s;
   for (const auto channel : influences) copy_without_gaps(conditions.*channel, series.*channel);
   series.rate_ref_dps.resize(series.size(), 0.0);
+}
+
+void synthesise_rate_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
+                           Series& series) {
+  hold_influences(conditions, series);
   drift(scenario, noise, series);
   measure_rate(scenario, noise, series);
   copy_gaps(conditions.gyro_dps, series.gyro_dps);

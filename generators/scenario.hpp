@@ -97,6 +97,10 @@ void apply_in_order(const std::vector<Effect>& on_gyro, const Noise& noise, Seri
 void synthesise_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
                       Series& series);
 
+/// Into `series`, which has nothing else then, what of the conditions a gyro's errors are computed
+/// from, held where it is missing.
+void hold_influences(const Series& conditions, Series& series);
+
 /// Its gyro alone, and its heading alone: the same bits.
 void synthesise_rate_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
                            Series& series);

@@ -63,6 +63,15 @@ std::string choose_axis(std::string_view axis, const Names& names, const Names& 
                                              axis, gyro_name(axis), allowed));
 }
 
+/// Which axis the gyro turns about: where its column says none, the last that has no column beside
+/// it.
+std::string_view turned_about(std::string_view axis, const Names& names) {
+  if (!axis.empty()) return axis;
+  for (const std::string_view other : {"z", "y", "x"})
+    if (!contains(names, gyro_name(other))) return other;
+  return "";
+}
+
 /// The column of a channel: of the gyro that of its axis, of the rates about the other axes theirs
 /// where they have none of their own.
 std::string column_of(const Channel& channel, const std::string& axis, const Names& names) {
@@ -70,9 +79,11 @@ std::string column_of(const Channel& channel, const std::string& axis, const Nam
   const std::size_t steps = channel.name == "cross_rate_1_dps"   ? 1
                             : channel.name == "cross_rate_2_dps" ? 2
                                                                  : 0;
-  if (steps == 0 || axis.empty() || contains(names, channel.name)) return std::string(channel.name);
+  const auto about = turned_about(axis, names);
+  if (steps == 0 || about.empty() || contains(names, channel.name))
+    return std::string(channel.name);
   constexpr std::string_view cycle = "xyzxy";
-  return gyro_name(cycle.substr(cycle.find(axis) + steps, 1));
+  return gyro_name(cycle.substr(cycle.find(about) + steps, 1));
 }
 
 /// Times since 1970 become those since the first sample, which a double holds to the nanosecond.

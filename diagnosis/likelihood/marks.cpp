@@ -90,7 +90,8 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
   const auto& z = recording.gyro_dps;
   marks.noise_of_steps_dps = noise_of(simulator.conditions(), z);
   marks.lsb_dps = grid_step(simulator, z, marks.noise_of_steps_dps);
-  marks.silent = silent_zone(simulator.conditions(), z, marks.lsb_dps);
+  marks.silent =
+      silent_zone(simulator.conditions(), z, std::max(marks.lsb_dps, simulator.resolution_dps()));
   double equal_at_rest = 0.0, at_rest = 0.0;
   const auto& reference = simulator.conditions().series().rate_ref_dps;
   double low = 1e300, high = -1e300;

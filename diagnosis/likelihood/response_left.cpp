@@ -7,6 +7,7 @@
 
 #include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/likelihood/block_level.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/generators/effects/empirical_response.hpp>
 
@@ -78,7 +79,7 @@ std::optional<Effect> response_left(const SetBench& bench, const Scenario& set) 
   for (const auto& shape : all) {
     sensed.gyro_dps.assign(sensed.size(), 0.0);
     with_weights(shape).apply(sensed, {});
-    bench.take_out_level(sensed.gyro_dps);
+    take_out_level(bench.conditions(), sensed.gyro_dps);
     columns.push_back(sensed.gyro_dps);
   }
   const auto count = static_cast<Eigen::Index>(columns.size());

@@ -6,6 +6,7 @@
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/arima_law.hpp>
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
+#include <gyrostat/diagnosis/likelihood/block_level.hpp>
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
@@ -38,9 +39,6 @@ SetBench::SetBench(const Simulator& simulator, const Series& recording,
       recording_(recording),
       without_(std::move(without)) {
   mask_only(std::vector<char>(recording.size(), 0));
-  Series bare;
-  synthesise_rate_under(plain(), conditions_.series(), {}, bare);
-  plain_gyro_dps_ = std::move(bare.gyro_dps);
   missing_ = missing_in(rate_error_beside(plain()));
 }
 
@@ -80,25 +78,25 @@ Scenario SetBench::plain() const {
 
 std::vector<double> SetBench::gyro_beside(const Scenario& scenario) const {
   auto gyro = recording_.gyro_dps;
-  Scenario quiet = plain();
+  std::vector<Effect> taken_out;
   for (const auto& effect : scenario.effects)
-    if (is_taken_out(effect)) quiet.effects.push_back(effect);
-  if (response_) quiet.effects.push_back(*response_);
-  if (quiet.effects.empty()) return gyro;
-  Series with;
-  synthesise_rate_under(quiet, conditions_.series(), {}, with);
-  for (std::size_t i = 0; i < gyro.size(); ++i) gyro[i] -= with.gyro_dps[i] - plain_gyro_dps_[i];
+    if (is_taken_out(effect)) taken_out.push_back(effect);
+  if (response_) taken_out.push_back(*response_);
+  if (taken_out.empty()) return gyro;
+  const auto with = simulator_.response().of(taken_out);
+  const auto& still = simulator_.response().still();
+  for (std::size_t i = 0; i < gyro.size(); ++i) gyro[i] -= with[i] - still[i];
   return gyro;
 }
 
 std::vector<double> SetBench::sensed_rate(const Scenario& scenario) const {
   auto rate = conditions_.series().rate_ref_dps;
-  Scenario quiet = plain();
+  std::vector<Effect> responses;
   for (const auto& effect : scenario.effects)
-    if (effect.is_response()) quiet.effects.push_back(effect);
-  Series with;
-  synthesise_rate_under(quiet, conditions_.series(), {}, with);
-  for (std::size_t i = 0; i < rate.size(); ++i) rate[i] += with.gyro_dps[i] - plain_gyro_dps_[i];
+    if (effect.is_response()) responses.push_back(effect);
+  const auto with = simulator_.response().of(responses);
+  const auto& still = simulator_.response().still();
+  for (std::size_t i = 0; i < rate.size(); ++i) rate[i] += with[i] - still[i];
   return rate;
 }
 
@@ -194,44 +192,8 @@ std::vector<double> SetBench::rate_left_by(const Scenario& scenario,
   auto left = rate_error_beside(scenario);
   for (std::size_t i = 0; i < left.size(); ++i)
     if (hidden[i] != 0) left[i] = no_value;
-  take_out_level(left);
+  take_out_level(conditions_, left);
   return left;
-}
-
-void SetBench::take_out_level(std::vector<double>& values) const {
-  const auto blocks = level_blocks();
-  std::vector<double> means;
-  for (const auto& [first, last] : blocks) {
-    double sum = 0.0, count = 0.0;
-    for (std::size_t i = first; i < last; ++i)
-      if (!is_missing(values[i])) sum += values[i], count += 1.0;
-    means.push_back(count > 0.0 ? sum / count : no_value);
-  }
-  const auto middle = [&](std::size_t block) {
-    return 0.5 * static_cast<double>(blocks[block].first + blocks[block].last - 1);
-  };
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    for (std::size_t i = blocks[b].first; i < blocks[b].last; ++i) {
-      const double from_middle = static_cast<double>(i) - middle(b);
-      const std::size_t other = from_middle < 0.0 ? b - 1 : b + 1;
-      double level = means[b];
-      const bool is_beside = other < blocks.size() && !is_missing(means[other]) &&
-                             (other > b ? blocks[b].last == blocks[other].first
-                                        : blocks[other].last == blocks[b].first);
-      if (is_beside) level += (means[other] - means[b]) * from_middle / (middle(other) - middle(b));
-      values[i] -= level;
-    }
-}
-
-std::vector<Span> SetBench::level_blocks() const {
-  // Long enough not to follow single samples.
-  const std::size_t block = std::max<std::size_t>(conditions_.cluster(), 32);
-  std::vector<Span> blocks;
-  for (const Part part : both_parts)
-    for (const auto& span : conditions_.spans(part))
-      for (std::size_t first = span.first; first < span.last; first += block)
-        blocks.push_back({first, std::min(first + block, span.last)});
-  return blocks;
 }
 
 Standing SetBench::beside_memory(const Standing& standing) const {

@@ -79,16 +79,11 @@ class SetBench {
   std::vector<ParameterInterval> intervals_of(const Standing& standing) const;
   /// What starts of a further effect are made from.
   Evidence evidence_of(const Standing& standing) const;
-  /// The rate error less what is taken out and its level, from the middle of a block to that of the
-  /// next a straight line: a step between them would be an innovation of its own. NaN where
-  /// `hidden` (a flag a sample).
+  /// The rate error less what is taken out and its level (take_out_level), NaN where `hidden` (a
+  /// flag a sample).
   std::vector<double> rate_left_by(const Scenario& scenario, const std::vector<char>& hidden) const;
   /// The reference rate as the scenario's effects have it sensed.
   std::vector<double> sensed_rate(const Scenario& scenario) const;
-  /// As far as a value a sample is not level over those blocks.
-  void take_out_level(std::vector<double>& values) const;
-  /// The blocks, over which that level is taken, within one part each.
-  std::vector<Span> level_blocks() const;
 
  private:
   static constexpr int fitting_iterations = 15;
@@ -109,8 +104,7 @@ class SetBench {
   const Conditions& conditions_;
   const Series& recording_;
   std::vector<std::string> without_;
-  std::vector<double> plain_gyro_dps_;  ///< of plain()
-  std::ptrdiff_t missing_ = 0;          ///< samples of the error beside plain()
+  std::ptrdiff_t missing_ = 0;  ///< samples of the error beside no effect
   std::shared_ptr<const RateGrid> grid_;
   std::optional<Effect> response_;
   bool marked_saturation_ = false, marked_dead_zone_ = false;

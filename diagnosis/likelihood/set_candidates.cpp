@@ -152,7 +152,7 @@ Standing SetBench::polished(Standing standing) const {
     const Scenario begun = scenario;
     for (std::size_t at = 0; at < scenario.effects.size(); ++at) {
       auto& effect = scenario.effects[at];
-      if (!is_taken_out(effect)) continue;
+      if (!is_taken_out(effect) || is_marked(effect.id())) continue;
       const auto& cause = cause_types().named(effect.id(), "effects");
       for (const auto name : cause.free_parameters) {
         const auto f = field_of(effect, name);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include <gyrostat/diagnosis/likelihood/arima_law.hpp>
+#include <gyrostat/diagnosis/likelihood/block_level.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/line_names.hpp>
 
@@ -78,7 +79,7 @@ void SetSearcher::judge_tails(const Standing& standing) {
     if (bursts[i] != 0) left[i] = no_value;
   // Nor the level on either side of a jump.
   if (law_of(standing.scenario, conditions_.interval_s()).jumps) {
-    const auto beside = samples_beside_jumps(left, bench_.level_blocks());
+    const auto beside = samples_beside_jumps(left, level_blocks(conditions_));
     for (std::size_t i = 0; i < left.size(); ++i)
       if (beside[i] != 0) left[i] = no_value;
   }
@@ -114,7 +115,7 @@ Standing SetSearcher::searched_beside_tails(Standing standing) {
       candidates_ = all;
       judge_tails(standing);
     }
-    if (!is_of_one_size(standing.scenario, bench_.level_blocks())) {
+    if (!is_of_one_size(standing.scenario, level_blocks(conditions_))) {
       tails_ = {};
       has_outliers_ = has_warm_noise_ = false;
     }

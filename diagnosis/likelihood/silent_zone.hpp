@@ -15,7 +15,7 @@ struct SilentZone {
   std::vector<char> samples{};
 };
 
-/// Read off the train part. `lsb_dps` is the step of the values' grid, 0 where they lie on none.
-SilentZone silent_zone(const Conditions& conditions, const std::vector<double>& z, double lsb_dps);
+/// Read off the train part. `grid_dps` is the step of the grid that the values are written on.
+SilentZone silent_zone(const Conditions& conditions, const std::vector<double>& z, double grid_dps);
 
 }  // namespace gyrostat::gap

@@ -25,44 +25,34 @@ Eigen::VectorXd reduce(const Evidence& evidence, Trace trace, const std::vector<
   return reduced;
 }
 
-/// What a scenario without noise makes of the trace.
-std::vector<double> trace_of(const Scenario& quiet, Trace trace, const Series& conditions) {
-  Series series;
-  if (trace == Trace::heading) {
-    synthesise_heading_under(quiet, conditions, {}, series);
-    return std::move(series.heading_deg);
-  }
-  synthesise_rate_under(quiet, conditions, {}, series);
-  return std::move(series.gyro_dps);
-}
-
-/// The baseline's drift-free, noise-free simulator.
-Scenario quiet_scenario(const Evidence& evidence) {
+/// The compass without noise.
+std::vector<double> heading_of(const Evidence& evidence, const std::vector<Effect>& effects) {
   Scenario quiet;
-  quiet.random_error = {
-      .phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.0};
-  quiet.thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = 0.0};
+  quiet.effects = effects;
   quiet.compass.noise_std_deg = 0.0;
   quiet.compass.initial_heading_deg = evidence.baseline.compass.initial_heading_deg;
-  return quiet;
+  Series series;
+  synthesise_heading_under(quiet, evidence.conditions().series(), {}, series);
+  return std::move(series.heading_deg);
 }
 
 }  // namespace
 
 Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
                            const std::vector<Effect>& effects) {
-  Scenario quiet = quiet_scenario(evidence);
-  const auto& conditions = evidence.conditions().series();
-  if (trace == Trace::rate) quiet.effects = evidence.baseline.effects;
-  const auto nothing = trace_of(quiet, trace, conditions);
+  const bool of_rate = trace == Trace::rate;
+  const auto made_by = [&](const std::vector<Effect>& all) {
+    return of_rate ? evidence.simulator.response().of(all) : heading_of(evidence, all);
+  };
+  auto beside = of_rate ? evidence.baseline.effects : std::vector<Effect>{};
+  const auto nothing = made_by(beside);
   Eigen::MatrixXd columns;
   for (std::size_t k = 0; k < effects.size(); ++k) {
-    Scenario with = quiet;
-    with.effects.push_back(effects[k]);
-    auto added = trace_of(with, trace, conditions);
+    beside.push_back(effects[k]);
+    auto added = made_by(beside);
+    beside.pop_back();
     for (std::size_t i = 0; i < added.size(); ++i)
-      added[i] =
-          trace == Trace::heading ? wrap_degrees(added[i] - nothing[i]) : added[i] - nothing[i];
+      added[i] = of_rate ? added[i] - nothing[i] : wrap_degrees(added[i] - nothing[i]);
     const Eigen::VectorXd column = reduce(evidence, trace, added);
     columns.conservativeResize(column.size(), static_cast<Eigen::Index>(k) + 1);
     columns.col(static_cast<Eigen::Index>(k)) = column;

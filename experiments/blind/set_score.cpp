@@ -98,11 +98,11 @@ Table set_table(const std::string& title, const std::vector<Scored>& all) {
 }
 
 Table set_effects_table(const std::string& title, const std::vector<Scored>& all) {
-  struct Tally {
+  struct Naming {
     Share strong, medium, wrongly;
     std::map<std::string, double> instead;
   };
-  std::map<std::string, Tally> tallies;
+  std::map<std::string, Naming> tallies;
   for (const auto& scored : all) {
     if (!is_set(scored)) continue;
     const auto named = scored.answer.named();

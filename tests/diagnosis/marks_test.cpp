@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gyrostat/core/random.hpp>
 #include <gyrostat/diagnosis/diagnosis.hpp>
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
 #include <gyrostat/generators/effects/list.hpp>
@@ -159,6 +160,41 @@ TEST(Marks, NoiseUnderAGridIsReadOffItsFewValues) {
   ASSERT_TRUE(two.level_on_grid_dps.has_value());
   EXPECT_LT(two.white_under_grid_dps, 0.25 * 0.4);
   EXPECT_GE(two.white_under_grid_dps, 0.25 * 0.1);
+}
+
+/// What a driver does to outputs about zero, its threshold moved by a normal share of itself.
+void silence(Series& series, double half_width_dps, double lost_beyond, double moved_by) {
+  const NormalStream moves(5, 0, "threshold");
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    double& z = series.gyro_dps[i];
+    const double width = half_width_dps * (1.0 + moved_by * moves.normal(i));
+    z = std::abs(z) < width ? 0.0 : z - std::copysign(lost_beyond * width, z);
+  }
+}
+
+/// The noise of 0.05 dps about 0.02 dps carries two thirds of the outputs at rest across a zone of
+/// 0.02 dps. A threshold that stands is the least output; of one that moves the place is known to
+/// 1 / sqrt(0.08 x 1400) of a twelfth of it, and of one that draws outputs in to a tenth of it: ten
+/// and five times that are allowed.
+TEST(Marks, AZoneOfTheOutputWithinItsNoiseIsReadOff) {
+  Scenario s = turning_on_a_grid();
+  s.effects.clear();
+  const Series plain = recorded(s, 48, true);
+  EXPECT_EQ(marks_in(plain).silent.half_width_dps, 0.0);
+  const auto zone = [&](double lost_beyond, double moved_by) {
+    Series series = plain;
+    silence(series, 0.02, lost_beyond, moved_by);
+    return marks_in(series).silent;
+  };
+  EXPECT_NEAR(zone(0.0, 0.0).half_width_dps, 0.02, 2e-4);
+  EXPECT_NEAR(zone(0.0, 0.2).half_width_dps, 0.02, 2e-3);
+  EXPECT_NEAR(zone(1.0, 0.0).half_width_dps, 0.02, 1e-2);
+  EXPECT_EQ(zone(0.0, 0.2).lost_beyond, 0.0);
+  EXPECT_EQ(zone(1.0, 0.0).lost_beyond, 1.0);
+  // Zeros that say that nothing was measured come at any rate.
+  Series dropped = plain;
+  for (std::size_t i = 0; i < dropped.size(); i += 100) dropped.gyro_dps[i] = 0.0;
+  EXPECT_EQ(marks_in(dropped).silent.half_width_dps, 0.0);
 }
 
 /// At five deviations of the noise: whatever of a step the level is from a value, rounding explains

@@ -146,6 +146,22 @@ TEST(Recording, TheOtherGyrosAreTheRatesAboutTheOtherAxes) {
   EXPECT_THAT(two.cross_rate_2_dps, IsEmpty());
 }
 
+TEST(Recording, AGyroBesideThoseOfOtherAxesTurnsAboutTheOneThatIsLeft) {
+  const Folder folder;
+  const auto z =
+      read_recording(folder.file("a.csv", "t_s,gyro_dps,gyro_y_dps,gyro_x_dps\n0,3,2,1\n"));
+  EXPECT_EQ(z.axis, "");
+  EXPECT_THAT(z.series.gyro_dps, ElementsAre(3));
+  EXPECT_THAT(z.series.cross_rate_1_dps, ElementsAre(1));
+  EXPECT_THAT(z.series.cross_rate_2_dps, ElementsAre(2));
+  const auto y =
+      read_recording(folder.file("b.csv", "t_s,gyro_dps,gyro_z_dps,gyro_x_dps\n0,2,3,1\n")).series;
+  EXPECT_THAT(y.cross_rate_1_dps, ElementsAre(3));
+  EXPECT_THAT(y.cross_rate_2_dps, ElementsAre(1));
+  const auto alone = read_recording(folder.file("c.csv", "t_s,gyro_dps\n0,2\n")).series;
+  EXPECT_THAT(alone.cross_rate_1_dps, IsEmpty());
+}
+
 TEST(Recording, RatesAboutTheOtherAxesOfTheirOwnComeFirst) {
   const Folder folder;
   const auto series =

@@ -1,0 +1,142 @@
+#include <gyrostat/diagnosis/likelihood/compass_bench.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <gyrostat/core/values.hpp>
+#include <gyrostat/diagnosis/evidence.hpp>
+#include <gyrostat/diagnosis/likelihood/compass_step.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+constexpr double prior_odds = 3.0;
+
+}  // namespace
+
+bool is_lag(const Effect& effect) { return effect.id() == "compass_lag"; }
+
+CompassBench::CompassBench(const Simulator& simulator, const Series& recording,
+                           const Scenario& baseline)
+    : simulator_(simulator),
+      conditions_(simulator.conditions()),
+      recording_(recording),
+      baseline_(baseline),
+      errors_(conditions_, recording, baseline),
+      cost_of_a_value_(0.5 * std::log(static_cast<double>(recording.size()))) {
+  forget_bursts();
+}
+
+CompassErrors::Law CompassBench::law_of(const std::vector<Effect>& effects) const {
+  simulator_.interrupt().check();
+  return errors_.law_of(effects, bursts_.hidden);
+}
+
+void CompassBench::find_bursts(const std::vector<Effect>& effects) {
+  bursts_ = heading_bursts(conditions_, errors_.means_of(effects), beside_turns(effects));
+}
+
+void CompassBench::forget_bursts() {
+  bursts_ = {.hidden = std::vector<char>(conditions_.slow_size(), 0)};
+}
+
+void CompassBench::shift_beside(const std::vector<Effect>& set) {
+  errors_.shift_beside(set, bursts_.hidden);
+}
+
+double CompassBench::cost(const Effect& effect) const {
+  return prior_odds +
+         cost_of_a_value_ * static_cast<double>(
+                                cause_types().named(effect.id(), "effects").free_parameters.size());
+}
+
+std::vector<Effect> CompassBench::starts(const CauseType& cause,
+                                         const std::vector<Effect>& beside) const {
+  const auto error = errors_.of(beside), plain = errors_.of({});
+  Series left = recording_;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const std::size_t k = std::min(i / conditions_.cluster(), bursts_.hidden.size() - 1);
+    left.heading_deg[i] = bursts_.hidden[k] != 0 || is_missing(error[i])
+                              ? no_value
+                              : wrap_degrees(left.heading_deg[i] + error[i] - plain[i]);
+  }
+  left.gyro_dps.clear();
+  Evidence evidence{simulator_, recording_, Scene(conditions_, left), baseline_};
+  evidence.baseline.compass.initial_heading_deg = errors_.centre_deg();
+  return cause.starts(evidence);
+}
+
+std::vector<Effect> CompassBench::polished(std::vector<Effect> set) const {
+  auto law = law_of(set);
+  for (int pass = 0; pass < 4; ++pass) {
+    auto better = compass_step(errors_, conditions_, bursts_.hidden, set);
+    const auto its_law = law_of(better);
+    if (its_law.gain_on(law) <= 0.0) break;
+    set = std::move(better);
+    law = its_law;
+  }
+  return set;
+}
+
+std::vector<Effect> CompassBench::in_other_form(std::vector<Effect> set, std::size_t at) const {
+  auto& effect = set[at];
+  const std::size_t field = field_of(effect, is_lag(effect) ? "turns_alone" : "exact");
+  auto other = set;
+  other[at].value(field) = 1.0 - effect.value(field);
+  other = polished(other);
+  return law_of(other).gain_on(law_of(set)) > 0.0 ? other : set;
+}
+
+std::vector<Effect> CompassBench::in_likelier_form(std::vector<Effect> set) const {
+  const auto lag = std::find_if(set.begin(), set.end(), is_lag);
+  if (set.size() < 2 || lag == set.end()) return set;
+  return in_other_form(std::move(set), static_cast<std::size_t>(lag - set.begin()));
+}
+
+double CompassBench::robust_score(const std::vector<Effect>& set) const {
+  const auto slow = errors_.means_of(set);
+  std::vector<double> squares;
+  for (const auto& span : conditions_.slow_spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (!is_missing(slow[i])) squares.push_back(slow[i] * slow[i]);
+  if (squares.empty()) return 0.0;
+  // Student's law of three degrees of freedom, its scale by expectation-maximisation.
+  constexpr double freedom = 3.0;
+  const auto n = static_cast<double>(squares.size());
+  double scale = std::accumulate(squares.begin(), squares.end(), 1e-18) / n;
+  for (int pass = 0; pass < 50; ++pass) {
+    double sum = 1e-18;
+    for (const double s : squares) sum += (freedom + 1.0) * s / (freedom + s / scale);
+    scale = sum / n;
+  }
+  double score = -0.5 * n * std::log(scale);
+  for (const double s : squares) score -= 0.5 * (freedom + 1.0) * std::log1p(s / (freedom * scale));
+  for (const auto& effect : set) score -= cost(effect);
+  return score;
+}
+
+/// Where a compass that trails does: while it turns, and until that has died out.
+std::vector<char> CompassBench::beside_turns(const std::vector<Effect>& effects) const {
+  std::vector<char> flags(conditions_.slow_size(), 0);
+  const auto lag = std::find_if(effects.begin(), effects.end(), is_lag);
+  if (lag == effects.end()) return flags;
+  constexpr double memories = 5.0, of_fastest = 0.05;
+  const double trails_s = lag->value(field_of(*lag, "time_constant_s")) +
+                          std::abs(lag->value(field_of(*lag, "delay_s")));
+  const auto reach =
+      static_cast<std::size_t>(std::ceil(memories * trails_s / conditions_.slow_interval_s()));
+  const auto& rate = conditions_.series().rate_ref_dps;
+  double fastest = 0.0;
+  for (const double r : rate)
+    if (!is_missing(r)) fastest = std::max(fastest, std::abs(r));
+  for (std::size_t i = 0; i < rate.size(); ++i) {
+    if (!(std::abs(rate[i]) > of_fastest * fastest)) continue;
+    const std::size_t first = i / conditions_.cluster();
+    for (std::size_t k = first; k < std::min(first + reach + 1, flags.size()); ++k) flags[k] = 1;
+  }
+  return flags;
+}
+
+}  // namespace gyrostat::gap
