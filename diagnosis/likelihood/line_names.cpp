@@ -7,6 +7,7 @@
 
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/hidden_bursts.hpp>
 #include <gyrostat/diagnosis/likelihood/hidden_line.hpp>
 #include <gyrostat/diagnosis/likelihood/line_fits.hpp>
 #include <gyrostat/diagnosis/likelihood/line_shape.hpp>
@@ -186,6 +187,16 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
       found.nameless_log_odds = std::max(found.nameless_log_odds, more->log_odds);
     }
   }
+  if (std::none_of(effects.begin(), effects.end(),
+                   [](const auto& effect) { return effect.id() == "vibration_bursts"; }))
+    if (const auto more = hidden_bursts(bench, found.scenario, left, clear_shape)) {
+      if (bench.is_allowed("vibration_bursts")) {
+        effects.emplace_back(more->bursts);
+        found.members.push_back({"vibration_bursts", more->log_odds});
+      } else {
+        found.nameless_log_odds = std::max(found.nameless_log_odds, more->log_odds);
+      }
+    }
   if (refitted) take_over(standing, found.scenario);
   for (auto& effect : effects)
     if (effect.id() == "wandering_line") hold_within(bench.conditions(), effect);

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <memory>
 
+#include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/likelihood/block_level.hpp>
 #include <gyrostat/diagnosis/likelihood/compass_search.hpp>
 #include <gyrostat/diagnosis/likelihood/line_names.hpp>
 #include <gyrostat/diagnosis/likelihood/set_searcher.hpp>
+#include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -14,6 +17,20 @@ namespace {
 bool is_compass(const CauseType& cause) { return cause.effect().stage() == Stage::compass; }
 
 }  // namespace
+
+double SetSearcher::noise_on_grid(const Scenario& begun, const Marks& marks) const {
+  std::vector<double> of_blocks = {0.0};
+  const auto left = bench_.rate_left_by(begun, bench_.masked());
+  for (const auto& [first, last] : level_blocks(conditions_)) {
+    double squares = 0.0, count = 0.0;
+    for (std::size_t i = first; i < last; ++i)
+      if (!is_missing(left[i])) squares += left[i] * left[i], count += 1.0;
+    if (count > 0.0) of_blocks.push_back(squares / count);
+  }
+  const bool at_rest = conditions_.series().rate_ref_dps.empty();
+  return std::max({white_with_rounding(begun), marks.noise_of_steps_dps,
+                   at_rest ? std::sqrt(quantile(of_blocks, 0.5)) : 0.0});
+}
 
 FoundSet SetSearcher::run() {
   FoundSet found;
@@ -29,13 +46,11 @@ FoundSet SetSearcher::run() {
 
   const auto begun = bench_.beside_noise(marked);
   // Rounding to more than the noise is no longer noise, unless a motion dithers it: what it does to
-  // the fast part and to slow noise has no law here. Beside a motion that is not explained, a walk
-  // stands in for noise that steps from sample to sample show.
+  // the fast part and to slow noise has no law here.
   constexpr double coarsest = 2.2;
   const double lsb_of_noise =
-      marks.lsb_dps / (marks.level_on_grid_dps ? marks.white_under_grid_dps
-                                               : std::max(white_with_rounding(begun.scenario),
-                                                          marks.noise_of_steps_dps));
+      marks.lsb_dps /
+      (marks.level_on_grid_dps ? marks.white_under_grid_dps : noise_on_grid(begun.scenario, marks));
   const bool coarse = lsb_of_noise > coarsest && !marks.turns_through_grid;
   if (coarse)
     feigned_ = {.warmth = 1e300, .tails = 1e300};

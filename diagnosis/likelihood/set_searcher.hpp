@@ -93,6 +93,10 @@ class SetSearcher {
   /// Samples within reach of the limit: there noise decides what is clipped, and what is left of it
   /// is no longer centred.
   std::vector<char> near_the_limit(const Marks& marks) const;
+  /// What a grid is held against, rounding included. Beside a motion that is not explained, a walk
+  /// stands in for noise that steps from sample to sample show; beside noise that remembers, for
+  /// noise that samples at rest show about their level.
+  double noise_on_grid(const Scenario& begun, const Marks& marks) const;
   /// Effects that are read off the values.
   std::vector<Effect> read_off(const Marks& marks, FoundSet& found);
   /// Where the noise shows clearly an angle in steps as large as the grid of the rates, the grid is

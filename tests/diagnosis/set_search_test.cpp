@@ -578,6 +578,26 @@ TEST(SetSearch, AGridBelowTheNoiseIsNotCoarseUnderAMotion) {
             (std::set<std::string>{"noise_bandwidth", "quantization", "scale_factor"}));
 }
 
+/// Beside noise that remembers a walk stood in for it, and a grid of one and a half of its
+/// deviations looked coarse: the filter, of 700 nats, was not sought.
+TEST(SetSearch, AGridBelowTheNoiseIsNotCoarseBesideNoiseThatRemembers) {
+  Scenario s = still();
+  s.effects = {effects::NoiseBandwidth{.cutoff_hz = 0.9}, effects::Quantization{0.03}};
+  EXPECT_EQ(found_in(recorded(s, 49, false)),
+            (std::set<std::string>{"noise_bandwidth", "quantization"}));
+}
+
+/// A telephone that rings for two minutes: a sine for one second of three, 13 nats each of the 40
+/// times, which in the mean spectrum of 15 minutes are a fifth of the noise of one bin.
+TEST(SetSearch, ALineThatIsThereForMinutesIsFound) {
+  Series series = recorded(still(), 50, false);
+  EXPECT_EQ(found_in(series), std::set<std::string>{});
+  for (std::size_t i = 2000; i < 4400; ++i)
+    if (i % 60 < 20)
+      series.gyro_dps[i] += 0.08 * std::sin(2.0 * std::numbers::pi * 6.3 * series.t_s[i]);
+  EXPECT_EQ(found_in(series), std::set<std::string>{"vibration_bursts"});
+}
+
 /// Noise that belongs in R is there, for quantised and for coloured sensors alike.
 TEST(SetSearch, WhiteNoiseIsInTheMeasurementNoise) {
   for (const Effect& effect :
