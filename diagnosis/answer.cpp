@@ -57,10 +57,13 @@ std::string closeness(const Diagnosis& d) {
 }
 
 std::string what_is_left_in_words(const Diagnosis& d) {
-  return std::min(d.p_after, p_of_the_oddest(d.unexplained)) < thresholds::p_of_the_unexplained
-             ? " It still misses the recording by more than chance: something else is there, "
-               "besides or instead."
-             : "";
+  if (std::min(d.p_after, p_of_the_oddest(d.unexplained)) < thresholds::p_of_the_unexplained)
+    return " It still misses the recording by more than chance: something else is there, besides "
+           "or instead.";
+  if (d.p_held_out < thresholds::p_of_the_unseen)
+    return " It misses the part that was held back by more than chance: something is there that "
+           "the rest of the recording does not have.";
+  return "";
 }
 
 /// ", mostly in the tails of the increments": the lens that most readings leave.
@@ -102,6 +105,9 @@ std::string answer(const Diagnosis& d) {
     const std::string unknown =
         "The recording has something that the simulator lacks and that no effect of the catalogue "
         "explains";
+    if (d.effects.empty() && d.p_before > thresholds::p_of_the_unexplained &&
+        d.p_held_out < thresholds::p_of_the_unseen)
+      return unknown + ": it is in the part that was held back, and not in the rest.";
     if (d.effects.empty()) return unknown + '.';
     return fmt::format("{}. Nearest: {}; given {} the simulator comes {}.", unknown,
                        effects_in_words(d), with, closeness(d));

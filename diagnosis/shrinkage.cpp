@@ -44,6 +44,10 @@ void Diagnosing::measure_shrinkage() {
   const auto truth = held_out(yardstick_ ? yardstick_->replicas : named);
   result_.gap_before = result_.gap_after = gap_of(before, truth);
   result_.p_held_out = Ensemble(instrument, named[1], {}).p_value(observed_[1]);
+  if (!result_.claimed && result_.p_held_out < thresholds::p_of_the_unseen) {
+    cannot_rule_out(Verdict::unknown());
+    if (result_.verdict.is_none()) result_.verdict = Verdict::unknown();
+  }
   result_.enrichments.push_back({"", result_.gap_before});
   const auto closed = [&](double to) {
     return result_.gap_before > 0.0 ? 1.0 - to / result_.gap_before : 0.0;

@@ -29,6 +29,10 @@ inline constexpr double strictness_after = 0.05;
 /// and first where the likelihood sees it ten times as clearly and as more than a form of nature's
 /// own.
 inline constexpr double p_of_the_unexplained = 0.01, p_of_the_unknown = 0.001;
+/// Where the part that was held back is so far from the simulator with the set, something is there
+/// that the other part does not have, and unknown is beside the names, or in the place of none. It
+/// is stricter by far: what was fitted was not fitted there.
+inline constexpr double p_of_the_unseen = 1e-4;
 /// What a form of nature's own leaves, of what the set gained.
 inline constexpr double share_of_form = 0.01;
 /// Log odds above which an effect is not doubted because readings do not show it: 99 to 1.

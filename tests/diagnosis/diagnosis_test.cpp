@@ -18,6 +18,7 @@
 #include <tbb/global_control.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/diagnosis/answer.hpp>
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
 #include <gyrostat/diagnosis/gap/ensemble.hpp>
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
@@ -71,6 +72,23 @@ TEST(Gap, ThePValueOfTheKnownSimulatorsOwnRecordingsIsUniform) {
 
 TEST(Gap, ThePValueOfTheFittedSimulatorsOwnRecordingsIsUniform) {
   expect_uniform(own_p_values(true));
+}
+
+/// A magnet that passes within the part that was held back: 2 deg for 20 s, a clear burst
+/// elsewhere.
+TEST(Diagnosis, WhatIsInTheHeldOutPartAloneIsUnknown) {
+  Series series = recorded(still(), 7, false);
+  const auto plain = diagnose(series, {});
+  EXPECT_EQ(plain.verdict, Verdict::none());
+  EXPECT_GT(plain.p_held_out, 1e-4);
+  for (std::size_t i = 7200; i < 7600; ++i) series.heading_deg[i] += 2.0;
+  const auto passed = diagnose(series, {});
+  EXPECT_EQ(passed.p_after, plain.p_after);
+  EXPECT_LT(passed.p_held_out, 1e-4);
+  EXPECT_EQ(passed.verdict, Verdict::unknown());
+  EXPECT_THAT(passed.verdict_set, testing::ElementsAre(Verdict::unknown()));
+  EXPECT_FALSE(passed.next.what.empty());
+  EXPECT_THAT(answer(passed), testing::HasSubstr("held back, and not in the rest"));
 }
 
 TEST(Diagnosis, TheHeldOutPartChangesNeitherFitNorChoice) {
