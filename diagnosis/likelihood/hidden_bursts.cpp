@@ -83,13 +83,14 @@ std::optional<HiddenBursts> hidden_bursts(const SetBench& bench, const Scenario&
   clear = std::max(clear, log_gain_of_motion(conditions, left_dps));
   std::optional<HiddenBursts> best;
   constexpr std::array block_s = {0.5, 1.0, 2.0, 4.0};
-  constexpr std::size_t fewest_samples = 16, fewest_blocks = 50, apart = 3, lowest = 8;
+  constexpr std::size_t fewest_samples = 16, fewest_blocks = 50, apart = 3, furthest = 6,
+                        lowest = 8;
   for (const double seconds : block_s) {
     const auto length = static_cast<std::size_t>(std::lround(seconds * conditions.rate_hz()));
     if (length < fewest_samples) continue;
     const double quarter_hz = 0.25 * conditions.rate_hz();
     const auto powers = block_powers(conditions, left_dps, noise, length, quarter_hz, quarter_hz);
-    if (powers.told() < fewest_blocks || powers.bins() < lowest + 2 * apart) continue;
+    if (powers.told() < fewest_blocks || powers.bins() < lowest + 2 * furthest) continue;
     std::vector<Mixture> mixtures(powers.bins());
     tbb::parallel_for(std::size_t{0}, mixtures.size(), [&](std::size_t k) {
       std::vector<double> of_bin;
@@ -99,10 +100,13 @@ std::optional<HiddenBursts> hidden_bursts(const SetBench& bench, const Scenario&
       mixtures[k] = mixture_of(of_bin);
     });
     const double places = std::log(static_cast<double>(block_s.size() * mixtures.size()));
-    for (std::size_t k = lowest; k + apart < mixtures.size(); ++k) {
+    for (std::size_t k = lowest; k + furthest < mixtures.size(); ++k) {
       const auto& m = mixtures[k];
-      const double beside = std::max(mixtures[k - apart].gain, mixtures[k + apart].gain);
-      const double log_odds = std::min(m.gain - price - places, m.gain - beside);
+      // What comes and goes in a wide band, as the flips of a grid, does so in others, too.
+      double beside = 0.0;
+      for (std::size_t by = apart; by <= furthest; ++by)
+        beside = std::max({beside, mixtures[k - by].gain, mixtures[k + by].gain});
+      const double log_odds = std::min(m.gain - price, m.gain - 2.0 * beside) - places;
       if (log_odds < clear || (best && log_odds <= best->log_odds)) continue;
       const auto course = course_of(powers, k, std::sqrt(m.on * m.off) * std::log(m.on / m.off));
       const effects::VibrationBursts bursts{

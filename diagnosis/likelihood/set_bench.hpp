@@ -92,6 +92,7 @@ class SetBench {
   Standing with_guessed(const Standing& standing, const CauseType& cause) const;
   Standing with_started(const Standing& standing, const CauseType& cause,
                         const Evidence& left) const;
+  bool is_read_off(const Effect& effect) const;
   /// The recording's gyro without what is the same in every replica of the scenario.
   std::vector<double> gyro_beside(const Scenario& scenario) const;
   std::vector<double> rate_error_beside(const Scenario& scenario) const;

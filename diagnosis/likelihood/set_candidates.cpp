@@ -133,6 +133,12 @@ Standing SetBench::with_started(const Standing& standing, const CauseType& cause
   return best;
 }
 
+/// What is written as 0 says no more of its zone than its edge.
+bool SetBench::is_read_off(const Effect& effect) const {
+  return marked_dead_zone_ && effect.id() == "dead_zone" &&
+         effect.value(field_of(effect, "lost_beyond")) == 0.0;
+}
+
 Standing SetBench::polished(Standing standing) const {
   if (std::none_of(standing.scenario.effects.begin(), standing.scenario.effects.end(),
                    is_taken_out))
@@ -152,7 +158,7 @@ Standing SetBench::polished(Standing standing) const {
     const Scenario begun = scenario;
     for (std::size_t at = 0; at < scenario.effects.size(); ++at) {
       auto& effect = scenario.effects[at];
-      if (!is_taken_out(effect) || is_marked(effect.id())) continue;
+      if (!is_taken_out(effect) || is_read_off(effect)) continue;
       const auto& cause = cause_types().named(effect.id(), "effects");
       for (const auto name : cause.free_parameters) {
         const auto f = field_of(effect, name);
