@@ -97,7 +97,9 @@ Standing SetSearcher::two_further(const Standing& standing, std::vector<Standing
   constexpr double nearly_pays = 6.0;
   constexpr std::size_t most_tried = 3;
   std::erase_if(tried, [&](const Standing& t) {
-    return t.score < standing.score - nearly_pays || !is_slow(t.scenario.effects.back().id());
+    // Beside jumps whatever is slow takes long; a pair with one is begun from the other.
+    return t.score < standing.score - nearly_pays || !is_slow(t.scenario.effects.back().id()) ||
+           law_of(t.scenario, conditions_.interval_s()).jumps.has_value();
   });
   std::stable_sort(tried.begin(), tried.end(),
                    [](const auto& a, const auto& b) { return a.score > b.score; });

@@ -321,7 +321,7 @@ int alarms_in(const Series& series) {
 }
 
 /// ARIMA(1,1,1) is the baseline, whatever it remembers: in the published scenario [A] half of the
-/// fast noise is the random error's. Three of twenty have an effect named in one of eighty
+/// fast noise is the random error's. Three of twelve have an effect named in one of 220
 /// families, as of recordings without memory (Diagnosis.FindsNothingWhereThereIsNoGap).
 TEST(SetSearch, FindsNothingInTheRandomErrorsMemory) {
   Scenario s;
@@ -330,7 +330,7 @@ TEST(SetSearch, FindsNothingInTheRandomErrorsMemory) {
       .phi = 0.8, .delta1_dps = 0.003, .delta2_dps = 0.0028, .measurement_noise_std_dps = 0.01};
   s.temperature = temperature::QuietRoom{.start_C = 37.8, .end_C = 40.1};
   int alarms = 0;
-  for (std::uint64_t seed = 700; seed < 720; ++seed) alarms += alarms_in(recorded(s, seed, false));
+  for (std::uint64_t seed = 700; seed < 712; ++seed) alarms += alarms_in(recorded(s, seed, false));
   EXPECT_LT(alarms, 3);
 }
 
@@ -346,7 +346,7 @@ TEST(SetSearch, FindsNothingInAStrongWalk) {
                                                    {0.9, 0.003, 0.001, 0.05},
                                                    {0.95, 0.002, 0.001, 0.05}}};
   int alarms = 0;
-  for (std::uint64_t seed = 720; seed < 740; ++seed) {
+  for (std::uint64_t seed = 720; seed < 732; ++seed) {
     s.random_error = kinds[seed % kinds.size()];
     Series series = recorded(s, seed, false);
     for (double& z : series.gyro_dps) z = 1e-4 * std::nearbyint(1e4 * z);
