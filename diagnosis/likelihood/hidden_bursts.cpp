@@ -11,7 +11,6 @@
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/hidden_line.hpp>
-#include <gyrostat/diagnosis/likelihood/motion_left.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -74,13 +73,13 @@ Course course_of(const BlockPowers& powers, std::size_t bin, double limit) {
 std::optional<HiddenBursts> hidden_bursts(const SetBench& bench, const Scenario& set,
                                           const std::vector<double>& left_dps, double clear) {
   const auto& conditions = bench.conditions();
+  // What is left of a motion comes and goes as it does.
+  if (!conditions.series().rate_ref_dps.empty()) return std::nullopt;
   const auto noise = law_of(set, conditions.interval_s());
   const auto& cause = cause_types().named("vibration_bursts", "effects");
   Scenario with = set;
   with.effects.push_back(cause.effect());
   const double price = bench.price_of(with) - bench.price_of(set);
-  // What is left of a motion is there for as long as the motion is.
-  clear = std::max(clear, log_gain_of_motion(conditions, left_dps));
   std::optional<HiddenBursts> best;
   constexpr std::array block_s = {0.5, 1.0, 2.0, 4.0};
   constexpr std::size_t fewest_samples = 16, fewest_blocks = 50, apart = 3, furthest = 6,

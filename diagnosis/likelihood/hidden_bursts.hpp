@@ -14,9 +14,9 @@ struct HiddenBursts {
   double log_odds;
 };
 
-/// The clearest beside a set and away from its lines, where its odds are `clear`: a bin whose
-/// powers, block after block, are a mixture of two exponentials, and those of the bins on either
-/// side hardly are.
+/// Of a sensor at rest the clearest beside a set and away from its lines, where its odds are
+/// `clear`: a bin whose powers, block after block, are a mixture of two exponentials, and those of
+/// the bins on either side hardly are.
 std::optional<HiddenBursts> hidden_bursts(const SetBench& bench, const Scenario& set,
                                           const std::vector<double>& left_dps, double clear);
 
