@@ -77,11 +77,13 @@ TEST(Gap, ThePValueOfTheFittedSimulatorsOwnRecordingsIsUniform) {
 /// A magnet that passes within the part that was held back: 2 deg for 20 s, a clear burst
 /// elsewhere.
 TEST(Diagnosis, WhatIsInTheHeldOutPartAloneIsUnknown) {
-  Series series = recorded(still(), 7, false);
+  Scenario s = still();
+  s.sampling.duration_s = 600.0;
+  Series series = recorded(s, 7, false);
   const auto plain = diagnose(series, {});
   EXPECT_EQ(plain.verdict, Verdict::none());
   EXPECT_GT(plain.p_held_out, 1e-4);
-  for (std::size_t i = 7200; i < 7600; ++i) series.heading_deg[i] += 2.0;
+  for (std::size_t i = 3600; i < 4000; ++i) series.heading_deg[i] += 2.0;
   const auto passed = diagnose(series, {});
   EXPECT_EQ(passed.p_after, plain.p_after);
   EXPECT_LT(passed.p_held_out, 1e-4);
@@ -136,6 +138,7 @@ TEST(Diagnosis, JudgesACauseThatWasFoundElsewhere) {
 
 TEST(Diagnosis, WhatHasNoNameIsNoVerdictBesideACause) {
   Scenario s = still();
+  s.sampling.duration_s = 400.0;
   s.effects = {effects::EmpiricalNoise{.reflection_1 = -0.5}, effects::Outliers{0.005, 0.5}};
   DiagnosisOptions options;
   options.claim = s;

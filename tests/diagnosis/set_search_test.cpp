@@ -579,7 +579,7 @@ TEST(SetSearch, AGridBelowTheNoiseIsNotCoarseUnderAMotion) {
 }
 
 /// Beside noise that remembers a walk stood in for it, and a grid of one and a half of its
-/// deviations looked coarse: the filter, of 700 nats, was not sought.
+/// deviations looked coarse: the filter was not sought.
 TEST(SetSearch, AGridBelowTheNoiseIsNotCoarseBesideNoiseThatRemembers) {
   Scenario s = still();
   s.effects = {effects::NoiseBandwidth{.cutoff_hz = 0.9}, effects::Quantization{0.03}};
