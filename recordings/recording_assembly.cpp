@@ -9,6 +9,7 @@
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/recordings/channel_values.hpp>
+#include <gyrostat/recordings/text.hpp>
 
 namespace gyrostat {
 namespace {
