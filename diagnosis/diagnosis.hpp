@@ -127,8 +127,8 @@ struct DiagnosisStage {
 using DiagnosisProgress = std::function<void(const DiagnosisStage&)>;
 
 /// Diagnoses an evenly sampled series (NaN = missing). Everything that is chosen or fitted comes
-/// from the train part alone. Throws InputError for fewer than 1000 samples, or a gyro that never
-/// changes.
+/// from the train part alone; the other may only add that something is unknown. Throws InputError
+/// for fewer than 1000 samples, or a gyro that never changes.
 ///
 /// Example: the verdict on a recording, in words.
 ///

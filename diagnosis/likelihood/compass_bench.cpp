@@ -8,13 +8,9 @@
 #include <gyrostat/diagnosis/evidence.hpp>
 #include <gyrostat/diagnosis/likelihood/compass_step.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 
 namespace gyrostat::gap {
-namespace {
-
-constexpr double prior_odds = 3.0;
-
-}  // namespace
 
 bool is_lag(const Effect& effect) { return effect.id() == "compass_lag"; }
 
@@ -47,7 +43,7 @@ void CompassBench::shift_beside(const std::vector<Effect>& set) {
 }
 
 double CompassBench::cost(const Effect& effect) const {
-  return prior_odds +
+  return prior +
          cost_of_a_value_ * static_cast<double>(
                                 cause_types().named(effect.id(), "effects").free_parameters.size());
 }
@@ -57,8 +53,7 @@ std::vector<Effect> CompassBench::starts(const CauseType& cause,
   const auto error = errors_.of(beside), plain = errors_.of({});
   Series left = recording_;
   for (std::size_t i = 0; i < left.size(); ++i) {
-    const std::size_t k = std::min(i / conditions_.cluster(), bursts_.hidden.size() - 1);
-    left.heading_deg[i] = bursts_.hidden[k] != 0 || is_missing(error[i])
+    left.heading_deg[i] = errors_.is_hidden(bursts_.hidden, i) || is_missing(error[i])
                               ? no_value
                               : wrap_degrees(left.heading_deg[i] + error[i] - plain[i]);
   }

@@ -10,42 +10,29 @@
 #include <gyrostat/diagnosis/likelihood/block_powers.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
-#include <gyrostat/diagnosis/likelihood/hidden_line.hpp>
+#include <gyrostat/diagnosis/likelihood/two_exponentials.hpp>
+#include <gyrostat/generators/effects/vibration_bursts.hpp>
 
 namespace gyrostat::gap {
 namespace {
 
-/// Of powers that are exponential about one of two means.
+/// The powers of a bin, and what two means gain on one, where they are clearly two.
 struct Mixture {
-  double gain = 0.0;  ///< log-likelihood beyond one mean
-  double share_on = 0.0, on = 0.0, off = 0.0;
+  TwoExponentials means{};
+  double gain = 0.0;
 };
-
-/// By expectation-maximisation (Dempster, Laird and Rubin, J. R. Stat. Soc. B 39, 1977).
-Mixture mixture_of(const std::vector<double>& powers) {
+Mixture mixture_of(const BlockPowers& powers, std::size_t bin) {
   constexpr int passes = 40;
-  constexpr double clearly_more = 3.0;
-  const auto n = static_cast<double>(powers.size());
-  const double mean = std::accumulate(powers.begin(), powers.end(), 0.0) / n;
-  Mixture m{.share_on = 0.02, .on = 6.0 * mean, .off = 0.9 * mean};
-  double log_likelihood = 0.0;
-  for (int pass = 0; pass < passes; ++pass) {
-    double weight = 0.0, of_on = 0.0, of_off = 0.0;
-    log_likelihood = 0.0;
-    for (const double q : powers) {
-      const double on = m.share_on / m.on * std::exp(-q / m.on);
-      const double all = on + (1.0 - m.share_on) / m.off * std::exp(-q / m.off) + 1e-300;
-      weight += on / all;
-      of_on += on / all * q;
-      of_off += (1.0 - on / all) * q;
-      log_likelihood += std::log(all);
-    }
-    m.share_on = std::clamp(weight / n, 1e-4, 0.5);
-    m.on = of_on / std::max(weight, 1e-9);
-    m.off = std::max(of_off / std::max(n - weight, 1e-9), 1e-6 * mean);
-  }
-  if (m.on > clearly_more * m.off) m.gain = log_likelihood + n * (std::log(mean) + 1.0);
-  return m;
+  constexpr double most_on = 0.5, clearly_more = 3.0;
+  std::vector<double> values;
+  for (const auto& span : powers.spans)
+    for (const auto& block : span)
+      if (!block.empty()) values.push_back(block[bin]);
+  const auto n = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  const auto means = two_exponentials(values, {0.02, 6.0 * mean, 0.9 * mean}, most_on, passes);
+  const bool are_two = means.on > clearly_more * means.off;
+  return {means, are_two ? means.log_likelihood(values) + n * (std::log(mean) + 1.0) : 0.0};
 }
 
 /// Of blocks in which a bin has more than the limit: how long they last, and how long they do not.
@@ -70,8 +57,8 @@ Course course_of(const BlockPowers& powers, std::size_t bin, double limit) {
 
 }  // namespace
 
-std::optional<HiddenBursts> hidden_bursts(const SetBench& bench, const Scenario& set,
-                                          const std::vector<double>& left_dps, double clear) {
+std::optional<HiddenLine> hidden_bursts(const SetBench& bench, const Scenario& set,
+                                        const std::vector<double>& left_dps, double clear) {
   const auto& conditions = bench.conditions();
   // What is left of a motion comes and goes as it does.
   if (!conditions.series().rate_ref_dps.empty()) return std::nullopt;
@@ -80,7 +67,7 @@ std::optional<HiddenBursts> hidden_bursts(const SetBench& bench, const Scenario&
   Scenario with = set;
   with.effects.push_back(cause.effect());
   const double price = bench.price_of(with) - bench.price_of(set);
-  std::optional<HiddenBursts> best;
+  std::optional<HiddenLine> best;
   constexpr std::array block_s = {0.5, 1.0, 2.0, 4.0};
   constexpr std::size_t fewest_samples = 16, fewest_blocks = 50, apart = 3, furthest = 6,
                         lowest = 8;
@@ -91,37 +78,33 @@ std::optional<HiddenBursts> hidden_bursts(const SetBench& bench, const Scenario&
     const auto powers = block_powers(conditions, left_dps, noise, length, quarter_hz, quarter_hz);
     if (powers.told() < fewest_blocks || powers.bins() < lowest + 2 * furthest) continue;
     std::vector<Mixture> mixtures(powers.bins());
-    tbb::parallel_for(std::size_t{0}, mixtures.size(), [&](std::size_t k) {
-      std::vector<double> of_bin;
-      for (const auto& span : powers.spans)
-        for (const auto& block : span)
-          if (!block.empty()) of_bin.push_back(block[k]);
-      mixtures[k] = mixture_of(of_bin);
-    });
+    tbb::parallel_for(std::size_t{0}, mixtures.size(),
+                      [&](std::size_t k) { mixtures[k] = mixture_of(powers, k); });
     const double places = std::log(static_cast<double>(block_s.size() * mixtures.size()));
     for (std::size_t k = lowest; k + furthest < mixtures.size(); ++k) {
-      const auto& m = mixtures[k];
+      const auto& [means, gain] = mixtures[k];
       // What comes and goes in a wide band, as the flips of a grid, does so in others, too.
       double beside = 0.0;
       for (std::size_t by = apart; by <= furthest; ++by)
         beside = std::max({beside, mixtures[k - by].gain, mixtures[k + by].gain});
-      const double log_odds = std::min(m.gain - price, m.gain - 2.0 * beside) - places;
+      const double log_odds = gain - std::max(price, 2.0 * beside) - places;
       if (log_odds < clear || (best && log_odds <= best->log_odds)) continue;
-      const auto course = course_of(powers, k, std::sqrt(m.on * m.off) * std::log(m.on / m.off));
-      const effects::VibrationBursts bursts{
-          .std_dps =
-              std::sqrt(2.0 * powers.noise_dps2[k] * (m.on - m.off) / static_cast<double>(length)),
+      const auto course =
+          course_of(powers, k, std::sqrt(means.on * means.off) * std::log(means.on / means.off));
+      const Effect bursts = effects::VibrationBursts{
+          .std_dps = std::sqrt(2.0 * powers.noise_dps2[k] * (means.on - means.off) /
+                               static_cast<double>(length)),
           .centre_hz = powers.resolution_hz * static_cast<double>(powers.first + k),
           .bandwidth_hz = powers.resolution_hz,
           .mean_duration_s = 1.01 * course.on_s,  // a block, at least
           .mean_interval_s = course.off_s};
-      const Resonance band = band_of_line(Effect(bursts));
+      const Resonance band = band_of_line(bursts);
       const auto is_beside = [&](const Effect& effect) {
         return is_line(effect.id()) && are_neighbours(band_of_line(effect), band);
       };
       if (cause.is_what_it_is_called(bursts, conditions) &&
           std::none_of(set.effects.begin(), set.effects.end(), is_beside))
-        best = {bursts, log_odds};
+        best = HiddenLine{bursts, log_odds};
     }
   }
   return best;

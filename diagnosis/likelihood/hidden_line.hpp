@@ -12,13 +12,14 @@ namespace gyrostat::gap {
 Resonance band_of_line(const Effect& line);
 bool are_neighbours(const Resonance& one, const Resonance& other);
 
-/// A line that wanders and that no spectrum shows clearly, but its track through the blocks does.
+/// A line that no spectrum of the whole shows clearly.
 struct HiddenLine {
-  effects::WanderingLine line;
+  Effect line;
   double log_odds;
 };
 
-/// The clearest beside a set and away from its lines, where its odds are `clear`.
+/// One that wanders, which its track through the blocks shows: the clearest beside a set and away
+/// from its lines, where its odds are `clear`.
 std::optional<HiddenLine> hidden_line(const SetBench& bench, const Scenario& set,
                                       const std::vector<double>& left_dps, double clear);
 

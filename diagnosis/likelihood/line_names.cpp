@@ -177,26 +177,24 @@ void name_lines(const SetBench& bench, Standing standing, const std::vector<char
       known->log_odds = std::min(known->log_odds, gain);
     }
   }
-  if (const auto more = hidden_line(bench, standing.scenario, left, clear_shape)) {
-    if (bench.is_allowed("wandering_line")) {
-      standing = with_line(bench, std::move(standing), more->line);
-      effects.push_back(standing.scenario.effects.back());
-      found.members.push_back({"wandering_line", more->log_odds});
-      refitted = true;
-    } else {
-      found.nameless_log_odds = std::max(found.nameless_log_odds, more->log_odds);
+  const auto gets_its_name = [&](const HiddenLine& more) {
+    if (bench.is_allowed(more.line.id())) {
+      found.members.push_back({std::string(more.line.id()), more.log_odds});
+      return true;
     }
+    found.nameless_log_odds = std::max(found.nameless_log_odds, more.log_odds);
+    return false;
+  };
+  if (const auto more = hidden_line(bench, standing.scenario, left, clear_shape);
+      more && gets_its_name(*more)) {
+    standing = with_line(bench, std::move(standing), more->line);
+    effects.push_back(standing.scenario.effects.back());
+    refitted = true;
   }
-  if (std::none_of(effects.begin(), effects.end(),
-                   [](const auto& effect) { return effect.id() == "vibration_bursts"; }))
-    if (const auto more = hidden_bursts(bench, found.scenario, left, clear_shape)) {
-      if (bench.is_allowed("vibration_bursts")) {
-        effects.emplace_back(more->bursts);
-        found.members.push_back({"vibration_bursts", more->log_odds});
-      } else {
-        found.nameless_log_odds = std::max(found.nameless_log_odds, more->log_odds);
-      }
-    }
+  if (!has(found.scenario, "vibration_bursts"))
+    if (const auto more = hidden_bursts(bench, found.scenario, left, clear_shape);
+        more && gets_its_name(*more))
+      effects.push_back(more->line);
   if (refitted) take_over(standing, found.scenario);
   for (auto& effect : effects)
     if (effect.id() == "wandering_line") hold_within(bench.conditions(), effect);

@@ -11,6 +11,7 @@
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/log_bessel.hpp>
+#include <gyrostat/diagnosis/likelihood/two_exponentials.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
@@ -86,25 +87,9 @@ LineShape shape_in_blocks(const Conditions& conditions, const std::vector<double
   }
   shape.wandering = independent * (best - exponential);
 
-  // Two exponentials by expectation-maximisation.
-  double share = 0.2, on = 3.0 * mean, off = 0.4 * mean;
-  for (int pass = 0; pass < 80; ++pass) {
-    double weight = 0.0, of_on = 0.0, of_off = 0.0;
-    for (const double q : squares) {
-      const double odds = share / (1.0 - share) * off / on * std::exp(q / off - q / on);
-      const double p = std::isfinite(odds) ? odds / (1.0 + odds) : 1.0;
-      weight += p;
-      of_on += p * q;
-      of_off += (1.0 - p) * q;
-    }
-    share = std::clamp(weight / n, 1e-4, 0.9);
-    on = of_on / std::max(weight, 1e-9);
-    off = std::max(of_off / std::max(n - weight, 1e-9), 1e-6 * mean);
-  }
-  double mixed = 0.0;
-  for (const double q : squares)
-    mixed += std::log(share / on * std::exp(-q / on) + (1.0 - share) / off * std::exp(-q / off) +
-                      1e-300);
+  const auto two = two_exponentials(squares, {0.2, 3.0 * mean, 0.4 * mean}, 0.9, 80);
+  const auto [share, on, off] = two;
+  const double mixed = two.log_likelihood(squares);
   shape.bursts = on > 3.0 * off ? independent * (mixed - exponential) : 0.0;
   shape.share_on = share;
   shape.on_std_dps = std::sqrt(std::max(0.5 * (on - off), 0.0));
