@@ -32,7 +32,7 @@ SensorModel model_of(const ExportModelArguments& arguments, Console& console) {
   if (!arguments.cell.empty())
     throw InputError("--cell", "chooses a cell of a study, and " + file + " is a recording");
   const Series series = arguments.source.read(console.log, arguments.span);
-  auto model = about(file, [&] { return model_of_recording(series, file); });
+  auto model = about(file, [&] { return model_of_recording(series); });
   model.source = fs::path(file).filename().string();
   if (!arguments.source.axis.empty()) model.source += ", axis " + arguments.source.axis;
   model.source += fmt::format(": the Allan deviation of {:.6g} s", series.duration_s());

@@ -20,10 +20,10 @@ AllanCoefficient known(double value) {
 }
 
 /// Of values that are there sample by sample.
-AllanCoefficients coefficients_of(const std::vector<double>& values, double rate_hz,
-                                  const std::string& place) {
+AllanCoefficients coefficients_of(const std::vector<double>& values, double rate_hz) {
   if (std::any_of(values.begin(), values.end(), [](double v) { return is_missing(v); }))
-    throw InputError(place, "samples are missing; choose a span without gaps by --from and --to");
+    throw InputError("recording",
+                     "samples are missing; choose a span without gaps by --from and --to");
   return fit_allan_coefficients(values, rate_hz);
 }
 
@@ -41,13 +41,13 @@ GapLadder ladder_of(const Json& diagnosis) {
 
 }  // namespace
 
-SensorModel model_of_recording(const Series& recording, const std::string& place) {
+SensorModel model_of_recording(const Series& recording) {
   SensorModel model;
   model.rate_hz = recording.rate_hz();
   model.duration_s = recording.duration_s();
   const auto fit = calibrate(recording, FitMethod::likelihood);
   const auto rate = without_drift(recording, fit.thermal);
-  const auto found = coefficients_of(rate, model.rate_hz, place);
+  const auto found = coefficients_of(rate, model.rate_hz);
   model.N = found.angle_random_walk_dps_per_sqrt_hz;
   model.B = found.bias_instability_dps;
   model.K = found.rate_random_walk_dps_sqrt_hz;
@@ -56,7 +56,7 @@ SensorModel model_of_recording(const Series& recording, const std::string& place
   model.bias_dps_per_C = fit.thermal ? fit.thermal->parameters.a_dps_per_C : 0.0;
   for (const auto* axis : {&recording.acc_x_mps2, &recording.acc_y_mps2, &recording.acc_z_mps2}) {
     if (axis->empty()) continue;
-    const auto acc = coefficients_of(*axis, model.rate_hz, place);
+    const auto acc = coefficients_of(*axis, model.rate_hz);
     auto& worst = model.accelerometer ? *model.accelerometer : model.accelerometer.emplace();
     worst.first = std::max(worst.first, acc.angle_random_walk_dps_per_sqrt_hz.value);
     worst.second = std::max(worst.second, acc.rate_random_walk_dps_sqrt_hz.value);

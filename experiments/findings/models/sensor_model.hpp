@@ -37,8 +37,8 @@ struct SensorModel {
 };
 
 /// N, B and K from the Allan deviation of a recording at rest, without its drift over temperature.
-/// InputError at `place` where samples are missing or too few.
-SensorModel model_of_recording(const Series& recording, const std::string& place);
+/// InputError where samples are missing or too few.
+SensorModel model_of_recording(const Series& recording);
 
 /// Those of a scenario: N of its white noise, K of its walk, B of its bias instability.
 SensorModel model_of_scenario(const Scenario& scenario);
