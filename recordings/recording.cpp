@@ -141,6 +141,16 @@ Recording read_recording(const fs::path& named, std::string_view axis,
   return recording_of_text(file, head, format, axis, layout, wanted);
 }
 
+std::vector<std::string> gyro_axes(const fs::path& path, const RecordingLayout& layout) {
+  std::vector<std::string> axes;
+  try {
+    read_recording(path, every_axis, layout);
+  } catch (const AxisToChoose& every) {
+    axes = every.axes;
+  }
+  return axes;
+}
+
 void make_even(Recording& recording, std::string_view place, const RecordingLayout& layout) {
   auto even =
       evenly_sampled(std::move(recording.series), place, recording.first_row, layout.resample_hz);

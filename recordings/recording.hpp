@@ -4,8 +4,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include <gyrostat/core/error.hpp>
 #include <gyrostat/core/series.hpp>
 #include <gyrostat/recordings/layout.hpp>
 
@@ -47,7 +49,25 @@ Recording read_recording(const std::filesystem::path& path, std::string_view axi
                          const RecordingLayout& layout = {},
                          std::span<const std::string_view> wanted = {});
 
-/// The same of columns that are in memory, under the names and units that a CSV would have;
+/// Stands for every axis of a recording, where a verb takes more than one.
+inline constexpr std::string_view every_axis = "all";
+
+/// None of a recording's axes was chosen, or every one, where one is read.
+class AxisToChoose : public InputError {
+ public:
+  AxisToChoose(std::string_view place, std::string_view problem, std::vector<std::string> found)
+      : InputError(place, problem), axes(std::move(found)) {}
+
+  std::vector<std::string> axes;  ///< as `gyro_axes` has them
+};
+
+/// The axes that a recording's gyro has, as `read_recording` takes them: of "x", "y" and "z" those
+/// with a column, or "" for `gyro_dps`. Of a text, only its header is read. Throws InputError as
+/// `read_recording` does.
+std::vector<std::string> gyro_axes(const std::filesystem::path& path,
+                                   const RecordingLayout& layout = {});
+
+/// A recording of columns that are in memory, under the names and units that a CSV would have;
 /// `place` is what messages call them.
 Recording recording_of_columns(ColumnTable columns, const std::string& place,
                                std::string_view axis = "", const RecordingLayout& layout = {},

@@ -52,16 +52,17 @@ std::string choose_axis(std::string_view axis, const Names& names, const Names& 
   for (const auto candidate : axes) {
     if (contains(names, gyro_name(candidate))) found.emplace_back(candidate);
   }
+  const bool is_all = axis == every_axis;
   if (contains(found, axis)) return std::string(axis);
-  if (found.empty()) throw_missing(gyro_name(axis), unknown, header);
+  if (found.empty()) throw_missing(gyro_name(is_all ? "" : axis), unknown, header);
   if (axis.empty() && found.size() == 1) return found.front();
   const auto allowed = found == Names{""} ? "no --axis, for there is one gyro column, gyro_dps"
                                           : fmt::format("'{}'", fmt::join(found, "', '"));
-  throw InputError(header, axis.empty()
-                               ? "there are several gyro columns; choose one with --axis " +
-                                     allowed + " (diagnose takes 'all', too)"
-                               : fmt::format("--axis '{}': column '{}' is missing; allowed: {}",
-                                             axis, gyro_name(axis), allowed));
+  if (axis.empty() || is_all)
+    throw AxisToChoose(header, "one axis is asked for; choose it with --axis " + allowed,
+                       std::move(found));
+  throw InputError(header, fmt::format("--axis '{}': column '{}' is missing; allowed: {}", axis,
+                                       gyro_name(axis), allowed));
 }
 
 /// Which axis the gyro turns about: where its column says none, the last that has no column beside

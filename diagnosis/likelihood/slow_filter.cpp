@@ -6,13 +6,11 @@
 #include <utility>
 
 #include <gyrostat/core/numerics/dense.hpp>
-#include <gyrostat/diagnosis/likelihood/slow_histories.hpp>
+#include <gyrostat/diagnosis/likelihood/histories/kernels.hpp>
 #include <gyrostat/diagnosis/likelihood/slow_recursion.hpp>
 
 namespace gyrostat::gap {
 namespace {
-
-constexpr int most_states = 16;
 
 SlowLaw without_jumps(SlowLaw law) {
   if (!law.jumps) return law;
@@ -91,22 +89,26 @@ struct Jumped {
   std::vector<double> said;
 };
 
-template <int N>
 Jumped followed(const SlowLaw& law, std::span<const std::size_t> points,
-                const Eigen::VectorXd& values, bool with_trail) {
+                const Eigen::VectorXd& values, bool says_of_each) {
   SlowLaw still = law;
   still.jumps.reset();
-  typename JumpHistories<N>::Trail trail;
-  JumpHistories<N> histories(still, *law.jumps, with_trail ? &trail : nullptr);
+  const SlowMotion<most_states> motion(still);
+  const auto decay = motion.decays(1), drive = motion.drives(1, decay);
+  const JumpLaw in_numbers{.white = law.white,
+                           .interval_s = law.interval_s,
+                           .jumps_per_s = law.jumps->per_s,
+                           .jump_dps = law.jumps->size_dps,
+                           .is_of_two = law.jumps->to == Jumps::To::the_other_level,
+                           .states = motion.states(),
+                           .decay = decay.data(),
+                           .drive = drive.data(),
+                           .first_variance = motion.first_variance.data()};
   Jumped found{.log_likelihood = 0.0, .said = {}};
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (k > 0) histories.predict(points[k] - points[k - 1]);
-    const double log_density = histories.update(values[static_cast<Eigen::Index>(k)]);
-    if (k > 0) found.log_likelihood += log_density;
-    histories.reduce();
-    histories.settle(k + 1 == points.size());
-  }
-  found.said = trail.settled();
+  if (says_of_each) found.said.resize(points.size());
+  found.log_likelihood =
+      jump_kernel().follow(in_numbers, points.data(), values.data(), points.size(),
+                           says_of_each ? found.said.data() : nullptr);
   return found;
 }
 
@@ -128,12 +130,6 @@ SlowTerms gaussian_terms_of(const SlowLaw& law, std::span<const std::size_t> poi
   return with_room_for(law, [&](auto states) {
     return gaussian_terms<states.value>(law, points, values, regressors, prior_std, jumps_by);
   });
-}
-
-Jumped followed_of(const SlowLaw& law, std::span<const std::size_t> points,
-                   const Eigen::VectorXd& values, bool with_trail) {
-  return with_room_for(
-      law, [&](auto states) { return followed<states.value>(law, points, values, with_trail); });
 }
 
 /// Variance of a settled innovation of a level that walks (Harvey 1989, 4.1.2).
@@ -183,7 +179,7 @@ SlowTerms slow_terms(const SlowLaw& law, std::span<const std::size_t> points,
   const auto follow = [&] {
     Eigen::VectorXd left = values;
     if (regressors.cols() > 0) left -= regressors * terms.coefficients;
-    return followed_of(law, points, left, !is_the_last || !goes_on);
+    return followed(law, points, left, !is_the_last || !goes_on);
   };
   auto histories = follow();
   constexpr int passes = 3;

@@ -55,18 +55,28 @@ gap::Diagnosis diagnosis_of(const Series& series, const std::string& file,
   });
 }
 
+/// What cannot be read says so when it is diagnosed; standard input is read but once.
+std::vector<std::string> axes_of(const RecordingOption& recording, const std::string& file) {
+  const bool is_open = recording.axis.empty() || recording.axis == every_axis;
+  if (!is_open || file == "-") return {recording.axis};
+  try {
+    auto axes = gyro_axes(file, recording.layout());
+    if (axes.size() > 1) return axes;
+  } catch (const InputError&) {
+  }
+  return {""};
+}
+
 }  // namespace
 
 std::vector<ToDiagnose> each_of(const RecordingOption& recording,
                                 const std::vector<std::string>& further) {
   std::vector<std::string> files = {recording.file};
   files.insert(files.end(), further.begin(), further.end());
-  const std::vector<std::string> axes = recording.axis == "all"
-                                            ? std::vector<std::string>{"x", "y", "z"}
-                                            : std::vector<std::string>{recording.axis};
   std::vector<ToDiagnose> all;
   std::set<std::string> names;
-  for (const auto& file : files)
+  for (const auto& file : files) {
+    const auto axes = axes_of(recording, file);
     for (const auto& axis : axes) {
       ToDiagnose one{recording, files.size() == 1 ? axis : fs::path(file).filename().string()};
       if (files.size() > 1 && axes.size() > 1) one.name += ' ' + axis;
@@ -75,6 +85,7 @@ std::vector<ToDiagnose> each_of(const RecordingOption& recording,
       one.recording.axis = axis;
       all.push_back(std::move(one));
     }
+  }
   return all;
 }
 

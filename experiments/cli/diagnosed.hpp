@@ -19,7 +19,7 @@ struct ToDiagnose {
   std::string name;
 };
 
-/// `--axis all`, and several recordings.
+/// Several recordings, and of each that has several axes every one unless one is chosen.
 std::vector<ToDiagnose> each_of(const RecordingOption& recording,
                                 const std::vector<std::string>& further);
 

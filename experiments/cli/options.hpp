@@ -100,7 +100,7 @@ struct RecordingOption {
             "input")
         ->required();
     verb->add_option("--axis", axis,
-                     "x, y or z where the recording has three axes; diagnose: or all")
+                     "x, y or z where the recording has three axes; diagnose: all unless one is chosen")
         ->check(CLI::Validator(
             [](const std::string& text) {
               return text == "x" || text == "y" || text == "z" || text == "all"

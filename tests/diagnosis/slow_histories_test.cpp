@@ -2,13 +2,16 @@
 
 #include <gyrostat/diagnosis/likelihood/slow_filter.hpp>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
+#include <gyrostat/core/packed/kernels.hpp>
 #include <gyrostat/core/random.hpp>
+#include <gyrostat/diagnosis/likelihood/histories/kernels.hpp>
 
 namespace gyrostat::gap::slow_histories_test {
 namespace {
@@ -79,6 +82,46 @@ TEST(JumpHistories, FollowsManyFaintJumpsAsAGridOfLevelsDoes) {
           slow_terms(law, each, values, Eigen::MatrixXd(values.size(), 0), Eigen::VectorXd());
       EXPECT_NEAR(terms.log_likelihood, log_likelihood_on_a_grid(jumps, values), 2.5);
     }
+}
+
+/// The bits are every machine's: those of the widest instruction set are those of the narrowest.
+TEST(JumpHistories, AreTheSameForEveryInstructionSet) {
+  constexpr std::array<std::size_t, 5> states = {1, 2, 3, 7, 16};
+  const double decay[most_states] = {1.0, 0.9, 0.99, 0.5, 0.7, 0.8,  0.95, 0.97,
+                                     0.1, 0.2, 0.3,  0.4, 0.6, 0.65, 0.85, 0.75};
+  double drive[most_states], first[most_states];
+  for (int i = 0; i < most_states; ++i) {
+    drive[i] = 1e-3;
+    first[i] = i == 0 ? 1e7 : 1e-3 / (1.0 - decay[i] * decay[i]);
+  }
+  for (const auto to : {Jumps::To::the_other_level, Jumps::To::another_level}) {
+    const Jumps jumps{to, 0.7, 1.0 / 60.0};
+    const auto values = faint_jumps(jumps, 3);
+    const auto count = static_cast<std::size_t>(values.size());
+    std::vector<std::size_t> points(count);
+    for (std::size_t k = 0; k < count; ++k) points[k] = k + k / 100;
+    for (const std::size_t room : states) {
+      const JumpLaw law{.white = 1.0,
+                        .interval_s = 1.0,
+                        .jumps_per_s = jumps.per_s,
+                        .jump_dps = jumps.size_dps,
+                        .is_of_two = to == Jumps::To::the_other_level,
+                        .states = static_cast<int>(room),
+                        .decay = decay,
+                        .drive = drive,
+                        .first_variance = first};
+      std::vector<std::vector<double>> each;
+      for (const auto* kernels : available_kernels()) {
+        each.emplace_back(count);
+        const auto& kernel = jump_kernel(kernels->target);
+        const double by =
+            kernel.follow(law, points.data(), values.data(), count, each.back().data());
+        EXPECT_EQ(kernel.follow(law, points.data(), values.data(), count, nullptr), by);
+        each.back().push_back(by);
+        EXPECT_EQ(each.back(), each.front()) << kernels->target;
+      }
+    }
+  }
 }
 
 /// A value far off leaves nothing of the histories without a jump there, and the next one is as

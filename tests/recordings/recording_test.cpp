@@ -127,6 +127,19 @@ TEST(Recording, TheAxisChoosesTheGyro) {
   }
 }
 
+TEST(Recording, TellsTheAxesThatItHas) {
+  const Folder folder;
+  const auto axes = [&](const char* columns) {
+    return gyro_axes(folder.file("a.csv", std::string("t_s,") + columns + "\n"));
+  };
+  EXPECT_THAT(axes("gyro_x_dps,gyro_z_dps"), ElementsAre("x", "z"));
+  EXPECT_THAT(axes("gyro_y_dps"), ElementsAre("y"));
+  EXPECT_THAT(axes("gyro_dps,temperature_C"), ElementsAre(""));
+  EXPECT_THAT(error_of([&] { axes("rate"); }), HasSubstr("gyro_dps"));
+  EXPECT_THAT(error_of([&] { read_recording(folder.file("b.csv", "t_s,gyro_x_dps\n"), "all"); }),
+              AllOf(HasSubstr("b.csv:1"), HasSubstr("--axis 'x'")));
+}
+
 TEST(Recording, TheOtherGyrosAreTheRatesAboutTheOtherAxes) {
   const Folder folder;
   const auto path =

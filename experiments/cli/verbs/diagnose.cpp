@@ -25,11 +25,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* diagnose_examples = R"(Examples:
-  gyrostat diagnose REC.csv
+  gyrostat diagnose REC.csv                          every axis that it has, and what they share
   gyrostat diagnose REC.csv --html GAP.html --json GAP.json
   gyrostat diagnose REC.csv --out-figures FIGURES    every picture as SVG
   gyrostat diagnose REC.csv --scenario STUDY.json    a study whose simulator has the effect
-  gyrostat diagnose REC.csv --axis all               every axis, and what they share
+  gyrostat diagnose REC.csv --axis z                 one of its axes
   gyrostat diagnose A.csv B.csv C.csv                every sensor of a fleet, likewise
   gyrostat diagnose OTHER.csv --claim STUDY.json     does it close the gap of another recording?
   gyrostat diagnose REC.csv --simulated SIM.csv --out-simulated MENDED
@@ -144,17 +144,18 @@ int run(DiagnoseArguments& arguments, Console& console) {
   const auto format = arguments.format.get();
   const auto& file = arguments.recording.file;
   const auto& further = arguments.simulated.further;
-  const auto& axis = arguments.recording.axis;
   for (const auto& name : arguments.options.without) (void)effect_types().named(name, "--without");
   if (!arguments.simulated.simulated.empty()) return run_simulated(arguments, format, console);
   if (!arguments.simulated.out.empty()) throw InputError("--out-simulated", "needs --simulated");
   const auto rules = arguments.watch.rules(arguments.options.significance);
   const auto all = each_of(arguments.recording, further);
   if (arguments.fleet && all.size() < 2)
-    throw InputError("--fleet", "1 recording; allowed: 2 or more, as A.csv B.csv, or --axis all");
+    throw InputError("--fleet",
+                     "1 recording; allowed: 2 or more, as A.csv B.csv, or one of several axes");
   if (all.size() > 1)
     refuse(of_one(arguments),
-           "is of one recording and axis; of several there are tables and --json");
+           "is of one recording and axis, which --axis chooses; of several there are tables and "
+           "--json");
   give_claim(arguments);
   if (arguments.watch.json_lines) {
     refuse(of_one(arguments), "is of one diagnosis; --jsonl prints lines");
@@ -164,7 +165,7 @@ int run(DiagnoseArguments& arguments, Console& console) {
   for (const auto& out : {arguments.json_out, arguments.html_out, arguments.scenario_out})
     if (!out.empty()) require_writable(out, file);
   if (!arguments.figures_out.empty()) make_result_folder(arguments.figures_out);
-  const std::string kind = !further.empty() ? "sensor" : axis == "all" ? "axis" : "part";
+  const std::string kind = !further.empty() ? "sensor" : all.size() > 1 ? "axis" : "part";
   const auto parts = any(of_one(arguments)) ? Parts::refused : Parts::allowed;
   std::vector<gap::FleetMember> members;
   for (const auto& one : all) {
@@ -182,7 +183,7 @@ int run(DiagnoseArguments& arguments, Console& console) {
   const bool is_whole = members.size() == 1 && members.front().name == all.front().name;
   if (is_whole) {
     auto name = fs::path(file).filename().string();
-    if (!axis.empty()) name += ", axis " + axis;
+    if (const auto& axis = all.front().recording.axis; !axis.empty()) name += ", axis " + axis;
     write_one(arguments, members.front().diagnosis, name);
     print_one(arguments, members.front().diagnosis, name, format, console);
   } else {

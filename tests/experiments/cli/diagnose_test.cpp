@@ -142,6 +142,25 @@ TEST(Diagnose, AFailingRuleHasAStatusOfItsOwnAndALineOfJson) {
   EXPECT_THAT(changed.err, HasSubstr("rec.csv: p<0.02 holds: p is "));
 }
 
+TEST(Diagnose, TakesEveryAxisUnlessOneIsChosen) {
+  const TestFolder folder;
+  folder.write("two.csv", "t_s,gyro_x_dps,gyro_z_dps\n0,1,2\n0.1,3,4\n");  // too short for each
+  const auto axes_of = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"diagnose", "two.csv", "--jsonl"});
+    std::istringstream lines(run_program(folder, arguments).out);
+    std::string axes;
+    for (std::string line; std::getline(lines, line);)
+      axes += Json::parse(line).value("axis", "none");
+    return axes;
+  };
+  EXPECT_EQ(axes_of({}), "xz");
+  EXPECT_EQ(axes_of({"--axis", "all"}), "xz");
+  EXPECT_EQ(axes_of({"--axis", "z"}), "z");
+  const auto page = run_program(folder, {"diagnose", "two.csv", "--html", "page.html"});
+  EXPECT_EQ(page.exit_code, 2);
+  EXPECT_THAT(page.err, HasSubstr("one recording and axis, which --axis chooses"));
+}
+
 TEST(Diagnose, OfBurstsOneIsTakenByItsSpan) {
   const TestFolder folder;
   std::string csv = "t_s,gyro_dps\n";
