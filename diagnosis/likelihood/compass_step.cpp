@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/parallel_for.h>
+
 #include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/core/values.hpp>
@@ -33,12 +35,12 @@ std::vector<Effect> compass_step(const CompassErrors& errors, const Conditions& 
              set[k].fields()[f].unit == "deg" ? 0.01 : 1e-3 * std::abs(set[k].value(f)) + 1e-6});
   }
   const auto here = errors.of(set);
-  std::vector<std::vector<double>> moved;
-  for (const auto& place : places) {
+  std::vector<std::vector<double>> moved(places.size());
+  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t c) {
     auto other = set;
-    other[place.effect].value(place.field) += place.step;
-    moved.push_back(errors.of(other));
-  }
+    other[places[c].effect].value(places[c].field) += places[c].step;
+    moved[c] = errors.of(other);
+  });
   const auto columns = static_cast<Eigen::Index>(places.size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns, columns);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(columns), row(columns);

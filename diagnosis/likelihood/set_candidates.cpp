@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
@@ -95,24 +97,26 @@ Standing SetBench::with_guessed(const Standing& standing, const CauseType& cause
 
 Standing SetBench::with_started(const Standing& standing, const CauseType& cause,
                                 const Evidence& left) const {
-  Standing best;
-  const auto keep = [&](Standing candidate) {
-    if (candidate.score > best.score) best = std::move(candidate);
-  };
   // Starts of a motion's effect are forms of it: which is the likelier is seen when each fits. A
   // line's are its maxima already.
   const bool are_forms = band_of(cause.id) == EffectBand::motion;
-  for (const auto& start : cause.starts(left)) {
+  const auto starts = cause.starts(left);
+  std::vector<Standing> fits(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t k) {
     Scenario scenario = standing.scenario;
-    scenario.effects.push_back(start);
+    scenario.effects.push_back(starts[k]);
     auto tried = refitted(scenario, 6);
     // The walk that stood in for a motion is more than the noise, and a fit may end beside it.
     if (are_forms && tried.score > standing.score + much)
       if (auto anew = beside_noise(scenario.effects); anew.score > tried.score)
         tried = std::move(anew);
-    if (are_forms && tried.score > standing.score - within_reach_of_polish) keep(polished(tried));
-    keep(std::move(tried));
-  }
+    if (are_forms && tried.score > standing.score - within_reach_of_polish)
+      if (auto fit = polished(tried); fit.score >= tried.score) tried = std::move(fit);
+    fits[k] = std::move(tried);
+  });
+  Standing best;
+  for (auto& fit : fits)
+    if (fit.score > best.score) best = std::move(fit);
   return best;
 }
 

@@ -94,9 +94,11 @@ double SetSearcher::least_gain(const Standing& standing, const Standing& with) c
 }
 
 Standing SetSearcher::two_further(const Standing& standing, std::vector<Standing> tried) {
-  constexpr double nearly_pays = 6.0;
+  // What gains nothing by itself has gone to nothing, and a pair with it is the other alone.
+  constexpr double nearly_pays = 6.0, nothing = 1.0;
   constexpr std::size_t most_tried = 3;
   std::erase_if(tried, [&](const Standing& t) {
+    if (t.fit.log_likelihood < standing.fit.log_likelihood + nothing) return true;
     // Beside jumps whatever is slow takes long; a pair with one is begun from the other.
     return t.score < standing.score - nearly_pays || !is_slow(t.scenario.effects.back().id()) ||
            law_of(t.scenario, conditions_.interval_s()).jumps.has_value();

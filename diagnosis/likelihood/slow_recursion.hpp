@@ -58,12 +58,13 @@ class SlowMotion {
   std::array<double, N> decay_{}, drive_{};
 };
 
-/// The covariance recursion, the same for every series that is filtered.
+/// The covariance recursion, the same for every series that is filtered. What a value changes is
+/// taken with the step after it, in one pass over the covariance.
 template <int N>
 class SlowRecursion {
  public:
   explicit SlowRecursion(const SlowLaw& law) : motion_(law) {
-    for (int i = 0; i < states(); ++i) at(i, i) = motion_.first_variance[i];
+    for (int i = 0; i < states(); ++i) at(i, i) = row_[i] = motion_.first_variance[i];
   }
 
   int states() const { return motion_.states(); }
@@ -76,46 +77,57 @@ class SlowRecursion {
   void predict(std::size_t steps) {
     if (settled_ && steps == 1) return;
     settled_ = false;
-    const auto left = motion_.decays(steps), gained = motion_.drives(steps, left);
+    if (steps != steps_) prepare(steps);
+    std::array<double, N> row{};
     for (int i = 0; i < states(); ++i)
-      for (int j = 0; j < states(); ++j) at(i, j) *= left[i] * left[j];
-    for (int i = 0; i < states(); ++i) at(i, i) += gained[i];
+      for (int j = 0; j < states(); ++j) {
+        double& both = at(i, j);
+        both = (both - gain_[i] * row_[j]) * left_of_both_[i * N + j];
+        if (i == j) both += gained_[i];
+        row[i] += both;
+      }
+    row_ = row;
     one_step_ = steps == 1;
   }
   /// The level gains a variance besides.
   void jump(double variance) {
     at(0, 0) += variance;
+    row_[0] += variance;
     settled_ = one_step_ = false;
   }
   void update() {
     if (settled_) return;
     double innovation = motion_.white;
-    std::array<double, N> row{};
-    for (int i = 0; i < states(); ++i) {
-      for (int j = 0; j < states(); ++j) row[i] += at(i, j);
-      innovation += row[i];
-    }
+    for (int i = 0; i < states(); ++i) innovation += row_[i];
     // Settled once nothing moves any more: the gains of a long even stretch are constant.
     double moved = std::abs(innovation - innovation_) / innovation;
     for (int i = 0; i < states(); ++i) {
-      const double gain = row[i] / innovation;
+      const double gain = row_[i] / innovation;
       moved = std::max(moved, std::abs(gain - gain_[i]));
       gain_[i] = gain;
     }
     innovation_ = innovation;
     log_innovation_ = std::log(innovation);
-    for (int i = 0; i < states(); ++i)
-      for (int j = 0; j < states(); ++j) at(i, j) -= gain_[i] * row[j];
     settled_ = one_step_ && moved < 1e-9;
   }
 
  private:
   double& at(int i, int j) { return covariance_[i * N + j]; }
 
+  void prepare(std::size_t steps) {
+    const auto left = motion_.decays(steps);
+    gained_ = motion_.drives(steps, left);
+    for (int i = 0; i < states(); ++i)
+      for (int j = 0; j < states(); ++j) left_of_both_[i * N + j] = left[i] * left[j];
+    steps_ = steps;
+  }
+
   SlowMotion<N> motion_;
-  std::array<double, N> gain_{};
-  std::array<double, N * N> covariance_{};
+  /// With which each state is in a value, and by how much a value moves it.
+  std::array<double, N> row_{}, gain_{}, gained_{};
+  std::array<double, N * N> covariance_{}, left_of_both_{};
   double innovation_ = 0.0, log_innovation_ = 0.0;
+  std::size_t steps_ = 0;
   bool one_step_ = false, settled_ = false;
 };
 

@@ -1,8 +1,13 @@
-#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/diagnosis/starts/signature.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/diagnosis/likelihood/walking_level.hpp>
 
 namespace gyrostat::gap {
@@ -93,19 +98,19 @@ Match match(const Eigen::MatrixXd& columns, const Eigen::VectorXd& trace) {
 double best_of(double low, double high, const std::function<double(double)>& cost) {
   constexpr int points = 12;
   const double step = std::log(high / low) / (points - 1);
-  int best = 0;
-  double least = cost(low);
-  for (int k = 1; k < points; ++k)
-    if (const double c = cost(low * std::exp(step * k)); c < least) {
-      least = c;
-      best = k;
-    }
+  std::array<double, points> costs;
+  tbb::parallel_for(0, points, [&](int k) {
+    costs[static_cast<std::size_t>(k)] = cost(low * std::exp(step * k));
+  });
+  const auto best = static_cast<int>(std::min_element(costs.begin(), costs.end()) - costs.begin());
   constexpr double golden = 0.6180339887498949;
   double a = std::log(low) + step * std::max(best - 1, 0);
   double b = std::log(low) + step * std::min(best + 1, points - 1);
   double c = b - golden * (b - a), d = a + golden * (b - a);
-  double at_c = cost(std::exp(c)), at_d = cost(std::exp(d));
-  for (int k = 0; k < 14; ++k) {
+  double at_c = 0.0, at_d = 0.0;
+  tbb::parallel_invoke([&] { at_c = cost(std::exp(c)); }, [&] { at_d = cost(std::exp(d)); });
+  constexpr int narrower = 9;  // to a 40th of two steps, which a fit goes on from
+  for (int k = 0; k < narrower; ++k) {
     if (at_c < at_d) {
       b = d, d = c, at_d = at_c, c = b - golden * (b - a), at_c = cost(std::exp(c));
     } else {
