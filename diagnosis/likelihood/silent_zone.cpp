@@ -122,6 +122,12 @@ SilentZone within_the_noise(const Conditions& conditions, const std::vector<doub
   const double bias_dps = quantile(off, 0.5);
   for (double& o : off) o = std::abs(o - bias_dps);
   const double noise_dps = quantile(off, 0.5) / normal_quartile;
+  // A zone swallows about as many as are beside it, within the noise of its edge: more zeros are
+  // of a grid.
+  constexpr double many_more = 4.0;
+  const double swallowed =
+      (values.below(edge + noise_dps) - values.below(edge)) * zone.half_width_dps / noise_dps;
+  if (!(zeros < many_more * swallowed)) return {};
   const double near_dps = zone.half_width_dps + beyond_noise * noise_dps;
   if (quantile(values.rates_at_zero, 0.95) > std::abs(bias_dps) + near_dps) return {};
   zone.samples = flagged(z, reference, bias_dps, near_dps);

@@ -28,7 +28,8 @@ struct Match {
 };
 Match match(const Eigen::MatrixXd& columns, const Eigen::VectorXd& trace);
 
-/// The value in [low, high] (logarithmic) with the least `cost`, by a grid and a golden section.
+/// The value in [low, high] (logarithmic) with the least `cost`, by a grid and a golden section, to a
+/// 40th of two of the grid's steps. Costs are asked for in several threads at once.
 double best_of(double low, double high, const std::function<double(double)>& cost);
 
 }  // namespace gyrostat::gap

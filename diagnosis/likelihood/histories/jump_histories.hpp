@@ -90,7 +90,7 @@ class JumpHistories {
     if (size_ <= most_kept) return;
     find_expectations();
     while (size_ > most_kept) {
-      const auto [one, other] = likest();
+      const auto [one, other] = most_alike();
       join(other, one);
       if (--size_ != other) copy(size_, other);
     }
@@ -152,7 +152,7 @@ class JumpHistories {
 
   /// The two whose becoming one loses least: their divergence (Jeffreys 1946) times what both
   /// weigh.
-  Pair likest() const {
+  Pair most_alike() const {
     const Lanes information = Lanes(1.0) / variance_;
     alignas(64) double expected[lanes], variance[lanes], informed[lanes], weight[lanes],
         level[lanes], least_loss[lanes], others[lanes];
