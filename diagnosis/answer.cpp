@@ -66,6 +66,12 @@ std::string what_is_left_in_words(const Diagnosis& d) {
   return "";
 }
 
+std::string what_was_held_out_in_words(const Diagnosis& d) {
+  return d.other_part_held_out ? " The part that is held back at first has some of it that the "
+                                 "rest has not: another was held back in its place."
+                               : "";
+}
+
 /// ", mostly in the tails of the increments": the lens that most readings leave.
 std::string where_in_words(const std::vector<Where>& where) {
   std::map<std::string, int> readings;
@@ -109,12 +115,13 @@ std::string answer(const Diagnosis& d) {
         d.p_held_out < thresholds::p_of_the_unseen)
       return unknown + ": it is in the part that was held back, and not in the rest.";
     if (d.effects.empty()) return unknown + '.';
-    return fmt::format("{}. Nearest: {}; given {} the simulator comes {}.", unknown,
-                       effects_in_words(d), with, closeness(d));
+    return fmt::format("{}. Nearest: {}; given {} the simulator comes {}.{}", unknown,
+                       effects_in_words(d), with, closeness(d), what_was_held_out_in_words(d));
   }
   return fmt::format(
-      "To make recordings like this one, the simulator lacks {}. Given {}, it comes {}.{}",
-      effects_in_words(d), with, closeness(d), what_is_left_in_words(d));
+      "To make recordings like this one, the simulator lacks {}. Given {}, it comes {}.{}{}",
+      effects_in_words(d), with, closeness(d), what_is_left_in_words(d),
+      what_was_held_out_in_words(d));
 }
 
 std::string remainder_in_words(const Diagnosis& d) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/diagnosing.hpp>
@@ -103,6 +104,34 @@ std::vector<std::string> Diagnosing::weighed(std::vector<Member> members) {
   }
 }
 
+bool Diagnosing::is_found_without_a_doubtful(const std::vector<std::string>& names) {
+  const Member* doubtful = nullptr;
+  for (const auto& m : found_.members)
+    if (!m.read_off && m.log_odds < thresholds::clear_odds &&
+        std::find(names.begin(), names.end(), m.effect) != names.end() &&
+        (doubtful == nullptr || m.log_odds < doubtful->log_odds))
+      doubtful = &m;
+  if (names.size() < 2 || doubtful == nullptr ||
+      !is_missed_by(rung({}, result_.enriched, lacking_replicas)))
+    return false;
+  auto without = options_.without;
+  without.push_back(doubtful->effect);
+  for (const auto& rival : found_.rivals)
+    if (rival.instead_of == doubtful->effect) without.push_back(rival.effect);
+  tell("looking for effects", search_share, "without " + doubtful->effect);
+  auto with = std::exchange(found_, find_set(simulator_, recording_, {.without = without}));
+  const auto other = rung({}, with_drift(found_.scenario, recording_), lacking_replicas);
+  if (is_missed_by(other)) {
+    found_ = std::move(with);
+    return false;
+  }
+  result_.enriched = other.scenario;
+  result_.unexplained = found_.unexplained;
+  result_.log_score_gained = found_.log_score_gained;
+  subsets_.clear();
+  return true;
+}
+
 double Diagnosing::tempered(const Member& member, const Rung& set) const {
   if (member.read_off) return member.log_odds;
   const bool of_compass =
@@ -138,7 +167,8 @@ void Diagnosing::attribute() {
   }
   result_.enriched = with_drift(found_.scenario, recording_);
   // What lacks most without it comes first.
-  const auto names = weighed(found_.members);
+  auto names = weighed(found_.members);
+  if (is_found_without_a_doubtful(names)) names = weighed(found_.members);
   std::vector<std::size_t> order(names.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

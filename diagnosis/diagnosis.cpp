@@ -20,8 +20,12 @@ namespace {
 constexpr std::size_t fewest_samples = 1000;
 constexpr std::size_t transfer_replicas = 6;
 
-/// Of the work, as it is told.
-constexpr double search_share = 0.55;
+bool has_more_names(const Diagnosis& one, const Diagnosis& other) {
+  return std::any_of(one.effects.begin(), one.effects.end(), [&](const auto& included) {
+    return std::none_of(other.effects.begin(), other.effects.end(),
+                        [&](const auto& e) { return e.effect == included.effect; });
+  });
+}
 
 }  // namespace
 
@@ -189,7 +193,6 @@ Diagnosis Diagnosing::run() {
   took("transfer");
   look_ahead();
   took("next experiment");
-  tell("done", 1.0);
   return std::move(result_);
 }
 
@@ -206,7 +209,21 @@ Diagnosis diagnose(const Series& recording, const DiagnosisOptions& options,
                                               recording.size(), fewest_samples));
   if (never_changes(recording.gyro_dps))
     throw InputError("recording", "gyro_dps never changes; there is nothing to diagnose");
-  return Diagnosing(recording, options, progress, interrupt).run();
+  Diagnosis found = Diagnosing(recording, options, progress, interrupt, Split::in_parts).run();
+  if (!found.claimed && found.p_held_out < thresholds::p_of_the_unseen &&
+      found.p_after >= thresholds::p_of_the_unexplained) {
+    const auto told_again = [&](const DiagnosisStage& stage) {
+      constexpr double told = 0.95;
+      if (progress) progress({stage.phase, stage.detail, told + (1.0 - told) * stage.share});
+    };
+    auto other = Diagnosing(recording, options, told_again, interrupt, Split::in_other_parts).run();
+    if (other.p_held_out >= thresholds::p_of_the_unseen && has_more_names(other, found)) {
+      found = std::move(other);
+      found.other_part_held_out = true;
+    }
+  }
+  if (progress) progress({"done", "", 1.0});
+  return found;
 }
 
 }  // namespace gyrostat::gap

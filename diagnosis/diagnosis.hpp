@@ -96,6 +96,8 @@ struct Diagnosis {
   double gap_before = 0.0, gap_after = 0.0, closed = 0.0, closed_low = 0.0, closed_high = 0.0;
   double p_before = 1.0, p_after = 1.0;  ///< of the train part
   double p_held_out = 1.0;               ///< of the held-out part, with the effects
+  /// Another part was held out than is at first, which has what no other has.
+  bool other_part_held_out = false;
   /// Log-likelihood of the set less its cost, beyond the baseline's, in nats, on the train part;
   /// none where samples do not count for it.
   std::optional<double> log_score_gained;
@@ -127,8 +129,10 @@ struct DiagnosisStage {
 using DiagnosisProgress = std::function<void(const DiagnosisStage&)>;
 
 /// Diagnoses an evenly sampled series (NaN = missing). Everything that is chosen or fitted comes
-/// from the train part alone; the other may only add that something is unknown. Throws InputError
-/// for fewer than 1000 samples, or a gyro that never changes.
+/// from the train part alone; the other may only add that something is unknown. Where that has what
+/// the rest of the recording does not have, another part is held out in its place, and stays so if
+/// effects are then found that were not, and no other part is missed. Throws InputError for fewer
+/// than 1000 samples, or a gyro that never changes.
 ///
 /// Example: the verdict on a recording, in words.
 ///

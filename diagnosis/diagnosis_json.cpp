@@ -82,6 +82,7 @@ Json to_json(const Diagnosis& d) {
                  {"p_before", d.p_before},
                  {"p_after", d.p_after},
                  {"p_held_out", d.p_held_out},
+                 {"other_part_held_out", d.other_part_held_out},
                  {"log_score_gained", d.log_score_gained ? Json(*d.log_score_gained) : Json()}};
   json["causes"] = Json::array();
   for (const auto& c : d.causes)

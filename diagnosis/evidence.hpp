@@ -14,6 +14,9 @@ struct Evidence {
   std::vector<double> slow_innovations = {};
   /// Of the level that walks under the rate error, whatever it is that moves it (WalkingLevel).
   double level_gain = 0.0;
+  /// The rate under the baseline's effects, and the heading under none, without noise
+  /// (take_undisturbed()).
+  std::vector<double> rate_dps = {}, heading_deg = {};
 
   const Conditions& conditions() const { return simulator.conditions(); }
 };

@@ -61,9 +61,9 @@ bool effects_at(const Scenario& scenario, bool compass) {
 
 }  // namespace
 
-Simulator::Simulator(const Series& recording, std::uint64_t seed, Interrupt interrupt)
+Simulator::Simulator(const Series& recording, std::uint64_t seed, Interrupt interrupt, Split split)
     : interrupt_(interrupt),
-      conditions_(recording),
+      conditions_(recording, split),
       response_(conditions_.series()),
       instruments_{Instrument(conditions_, Part::train), Instrument(conditions_, Part::held_out)},
       seed_(seed),

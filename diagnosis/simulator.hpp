@@ -21,7 +21,8 @@ using ReplicaReadings = std::array<Eigen::MatrixXd, 2>;
 /// A scenario's readings under the conditions of one recording, written with as many decimals.
 class Simulator {
  public:
-  Simulator(const Series& recording, std::uint64_t seed, Interrupt interrupt = {});
+  Simulator(const Series& recording, std::uint64_t seed, Interrupt interrupt = {},
+            Split split = Split::in_parts);
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 

@@ -21,8 +21,8 @@ struct Diagnosed<effects::Saturation> {
     std::vector<effects::Saturation> all;
     for (const double knee : {0.0, 0.05, 0.5})
       all.push_back(shaped(e, Trace::rate, effects::Saturation{.of_element = 1.0, .knee = knee},
-                           &effects::Saturation::limit_dps, 0.05 * fastest_dps(e),
-                           1.02 * fastest_dps(e)));
+                           &effects::Saturation::limit_dps, 0.05 * fastest_dps(e.conditions()),
+                           1.02 * fastest_dps(e.conditions())));
     return all;
   }
 

@@ -53,9 +53,11 @@ struct Diagnosed<effects::ThermalHysteresis> {
         rise, fall, needs::least_warming_C);
   }
 
-  static bool is_what_it_is_called(const effects::ThermalHysteresis& /*effect*/,
-                                   const Conditions& /*c*/) {
-    return true;
+  /// Of what has not come near the other branch, nothing says that there is one.
+  static bool is_what_it_is_called(const effects::ThermalHysteresis& effect, const Conditions& c) {
+    const auto& T = c.slow_temperature_C();
+    const auto [low, high] = std::minmax_element(T.begin(), T.end());
+    return effect.width_C <= *high - *low;
   }
 };
 

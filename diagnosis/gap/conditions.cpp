@@ -56,13 +56,18 @@ void interpolate_missing(std::vector<double>& values) {
 
 }  // namespace
 
-Conditions::Conditions(const Series& recording, Split split) : series_(recording), split_(split) {
+Conditions::Conditions(const Series& recording, Split split) : series_(recording) {
   for (auto* channel : {&series_.temperature_C, &series_.rate_ref_dps, &series_.acc_x_mps2,
                         &series_.acc_y_mps2, &series_.acc_z_mps2})
     interpolate_missing(*channel);
   const std::size_t n = series_.size();
   interval_s_ = n > 1 ? series_.duration_s() / static_cast<double>(n - 1) : 1.0;
   cluster_ = std::max(shortest_cluster, n / slow_points);
+  parts_.assign(std::max<std::size_t>(1, n / cluster_), Part::train);
+  if (split != Split::none)
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+      if (k * blocks / parts_.size() % 4 == (split == Split::in_parts ? 2 : 1))
+        parts_[k] = Part::held_out;
   find_spans();
 
   slow_time_s_ = slow_means(series_.t_s);
@@ -93,10 +98,7 @@ Conditions::Conditions(const Series& recording, Split split) : series_(recording
 }
 
 Part Conditions::part_of(std::size_t sample) const {
-  if (split_ == Split::none) return Part::train;
-  const std::size_t clusters = std::max<std::size_t>(1, size() / cluster_);
-  const std::size_t at = std::min(sample / cluster_, clusters - 1);
-  return at * blocks / clusters % 4 == 2 ? Part::held_out : Part::train;
+  return parts_[std::min(sample / cluster_, parts_.size() - 1)];
 }
 
 void Conditions::find_spans() {

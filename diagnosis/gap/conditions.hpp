@@ -16,8 +16,8 @@ inline constexpr std::array both_parts = {Part::train, Part::held_out};
 inline constexpr std::array train_alone = {Part::train};
 constexpr std::size_t index_of(Part part) { return static_cast<std::size_t>(part); }
 
-/// Whether some of it is held out.
-enum class Split { in_parts, none };
+/// Which of it is held out: two blocks of eight, two others, or nothing.
+enum class Split { in_parts, in_other_parts, none };
 
 /// Samples [first, last) of an evenly sampled stretch.
 struct Span {
@@ -29,7 +29,7 @@ struct Span {
 /// it moved, where the compass could be used - and how the samples are split in parts.
 ///
 /// Time is cut into eight equal blocks of whole clusters, of which the third and the seventh are
-/// held out; what is bridged or averaged never mixes the parts. Fast readings come from single
+/// held out, or the second and the sixth; what is bridged or averaged never mixes the parts. Fast readings come from single
 /// samples, slow ones from the means of `cluster` samples, of which there are about three thousand,
 /// or fewer of four samples.
 class Conditions {
@@ -92,9 +92,9 @@ class Conditions {
   void find_drift();
 
   Series series_;
-  Split split_;
   double interval_s_ = 0.0;
   std::size_t cluster_ = 1;
+  std::vector<Part> parts_;  ///< of the clusters; what is beyond the last is of its part
   std::array<std::vector<Span>, 2> fast_, slow_;
   std::vector<Span> gaps_;
   std::vector<double> slow_time_s_, slow_temperature_C_, slow_warming_, motion_dps_s_, turned_deg_;

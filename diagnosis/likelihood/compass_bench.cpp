@@ -9,6 +9,7 @@
 #include <gyrostat/diagnosis/likelihood/compass_step.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
+#include <gyrostat/diagnosis/starts/signature.hpp>
 
 namespace gyrostat::gap {
 
@@ -60,6 +61,7 @@ std::vector<Effect> CompassBench::starts(const CauseType& cause,
   left.gyro_dps.clear();
   Evidence evidence{simulator_, recording_, Scene(conditions_, left), baseline_};
   evidence.baseline.compass.initial_heading_deg = errors_.centre_deg();
+  take_undisturbed(evidence, Trace::heading);
   return cause.starts(evidence);
 }
 

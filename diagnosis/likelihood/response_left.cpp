@@ -58,23 +58,14 @@ Following following(const Conditions& conditions, const Scenario& set) {
   return f;
 }
 
-}  // namespace
-
-bool is_of_response(std::string_view effect) {
-  return effect == "sensor_bandwidth" || effect == "time_offset";
-}
-
-std::optional<Effect> response_left(const SetBench& bench, const Scenario& set) {
+/// By least squares beside the set, of the first `taken` shapes.
+std::optional<Effect> likeliest_response(const SetBench& bench, const Scenario& set,
+                                         const std::vector<Weights>& all, std::size_t taken) {
   const auto& conditions = bench.conditions();
-  const auto [is_filtered, is_shifted, delay_samples] = following(conditions, set);
-  if (!is_filtered && !is_shifted) return std::nullopt;
   Series sensed = conditions.series();
   sensed.rate_ref_dps = bench.sensed_rate(set);
 
   const auto left = bench.rate_left_by(set, bench.masked());
-  const auto all = shapes();
-  // A scale and a shift are no response without a name: they are beside it.
-  const std::size_t taken = all.size() - (is_filtered && !is_shifted ? 1 : 2);
   std::vector<std::vector<double>> columns;
   for (const auto& shape : all) {
     sensed.gyro_dps.assign(sensed.size(), 0.0);
@@ -103,6 +94,26 @@ std::optional<Effect> response_left(const SetBench& bench, const Scenario& set) 
   if (!std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); }))
     return std::nullopt;
   return with_weights(weights);
+}
+
+}  // namespace
+
+bool is_of_response(std::string_view effect) {
+  return effect == "sensor_bandwidth" || effect == "time_offset";
+}
+
+std::optional<Effect> response_left(const SetBench& bench, const Scenario& set) {
+  const auto& conditions = bench.conditions();
+  const auto [is_filtered, is_shifted, delay_samples] = following(conditions, set);
+  if (!is_filtered && !is_shifted) return std::nullopt;
+  const auto all = shapes();
+  // A scale and a shift are no response without a name: they are beside it.
+  return likeliest_response(bench, set, all, all.size() - (is_filtered && !is_shifted ? 1 : 2));
+}
+
+std::optional<Effect> whole_response(const SetBench& bench, const Scenario& set) {
+  const auto all = shapes();
+  return likeliest_response(bench, set, all, all.size());
 }
 
 std::vector<char> samples_of_unknown_rate(const Conditions& conditions, const Scenario& set,

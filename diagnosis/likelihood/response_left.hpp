@@ -18,6 +18,9 @@ bool is_of_response(std::string_view effect);
 /// time, or all of it is too little to tell.
 std::optional<Effect> response_left(const SetBench& bench, const Scenario& set);
 
+/// Likewise beside a set that gives none: with a scale and a shift.
+std::optional<Effect> whole_response(const SetBench& bench, const Scenario& set);
+
 /// Samples whose rate, between those of the reference, is not known to two standard deviations of
 /// the noise: a straight line misses a curve by an eighth of the second difference (de Boor, "A
 /// Practical Guide to Splines", III). None where the set has no response in time, or where more

@@ -4,6 +4,7 @@
 
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/response_left.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -71,6 +72,36 @@ Standing SetSearcher::responding_anew(const Standing& standing) {
                         EffectBand::motion);
   if (best.score <= standing.score) bench_.take_out_response(response);
   return best;
+}
+
+Standing SetSearcher::responding_without_names(Standing standing) {
+  constexpr std::ptrdiff_t fewest_that_bend = 2;
+  const auto bends = [&](const Effect& effect) {
+    return !bench_.is_marked(effect.id()) &&
+           (effect.id() == "dead_zone" || effect.id() == "saturation" ||
+            effect.id() == "scale_asymmetry");
+  };
+  const auto& effects = standing.scenario.effects;
+  if (bench_.response() || std::count_if(effects.begin(), effects.end(), bends) < fewest_that_bend)
+    return standing;
+  Scenario still = standing.scenario;
+  std::erase_if(still.effects, [&](const auto& effect) {
+    return !bench_.is_marked(effect.id()) && band_of(effect.id()) == EffectBand::motion;
+  });
+  // A response shows where the motion is least known.
+  const auto masked = bench_.masked();
+  auto named = standing;
+  if (hides_response()) {
+    bench_.mask_only(hidden_from_response_);
+    named = bench_.refitted(standing.scenario);
+  }
+  if (auto response = whole_response(bench_, still)) {
+    bench_.take_out_response(std::move(response));
+    if (auto fit = bench_.refitted(still); fit.score > named.score + clear_response) return fit;
+  }
+  bench_.take_out_response(std::nullopt);
+  bench_.mask_only(masked);
+  return standing;
 }
 
 Standing SetSearcher::best_from(const Standing& standing, std::vector<Standing> beginnings,

@@ -141,6 +141,7 @@ Evidence SetBench::evidence_of(const Standing& standing) const {
   // A further effect sees the rate as those have it sensed.
   std::erase_if(evidence.baseline.effects, [](const auto& e) { return !e.is_response(); });
   if (response_) evidence.baseline.effects.push_back(*response_);
+  take_undisturbed(evidence, Trace::rate);
   const auto& points = standing.fitter->reduced().slow(Part::train).points;
   const auto innovations =
       standing.fitter->terms(standing.fit.scenario, Jumping::no).slow.innovations;

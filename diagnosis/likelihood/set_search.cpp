@@ -87,6 +87,7 @@ FoundSet SetSearcher::run() {
   found.screening = screening_;
   found.scenario = standing.scenario;
   found.intervals = bench_.intervals_of(standing);
+  place_threshold(found);
   if (!coarse) end_ = standing;
   response_ = bench_.response();
   masked_ = bench_.masked();

@@ -24,7 +24,8 @@ double white_with_rounding(const Scenario& scenario);
 
 /// find_set() and what may be asked of it afterwards: its moves are in set_moves.cpp and
 /// set_exchange.cpp, beginnings from elsewhere in set_beginnings.cpp, what is read off values in
-/// set_marks.cpp, what only sizes of innovations say in set_tails.cpp.
+/// set_marks.cpp, what only sizes of innovations say in set_tails.cpp, where a dead zone ends in
+/// set_threshold.cpp.
 class SetSearcher {
  public:
   SetSearcher(const Simulator& simulator, const Series& recording, const SetSearchOptions& options,
@@ -84,6 +85,9 @@ class SetSearcher {
   /// Where the motion is sensed late, its effects found anew from the other way of being late: what
   /// stands in for one of them has moved all others.
   Standing responding_anew(const Standing& standing);
+  /// Where several effects bend the motion, these, or in place of all of its effects one response
+  /// without a name: what that explains as well, which is linear in the rate, is not bent.
+  Standing responding_without_names(Standing standing);
   /// Of sets found from each of some beginnings, with the effects of a band as candidates, the
   /// best; what stands, where none is better by what its further effects have to gain.
   Standing best_from(const Standing& standing, std::vector<Standing> beginnings, EffectBand band);
@@ -106,6 +110,9 @@ class SetSearcher {
   /// What acts at the converter, in the order in which it does.
   static void put_in_order(FoundSet& found);
   std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
+  /// Where rates begin to be sensed at a jump: those samples say it that the search has hidden, by
+  /// the least squares of either side.
+  void place_threshold(FoundSet& found) const;
   /// Where the motion is not known between samples.
   std::vector<char> unknown_samples(const Scenario& scenario) const {
     return samples_of_unknown_rate(conditions_, scenario, white_with_rounding(scenario));

@@ -43,6 +43,13 @@ std::vector<double> heading_of(const Evidence& evidence, const std::vector<Effec
 
 }  // namespace
 
+void take_undisturbed(Evidence& evidence, Trace trace) {
+  if (trace == Trace::rate)
+    evidence.rate_dps = evidence.simulator.response().of(evidence.baseline.effects);
+  else
+    evidence.heading_deg = heading_of(evidence, {});
+}
+
 Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
                            const std::vector<Effect>& effects) {
   const bool of_rate = trace == Trace::rate;
@@ -50,7 +57,7 @@ Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
     return of_rate ? evidence.simulator.response().of(all) : heading_of(evidence, all);
   };
   auto beside = of_rate ? evidence.baseline.effects : std::vector<Effect>{};
-  const auto nothing = made_by(beside);
+  const auto& nothing = of_rate ? evidence.rate_dps : evidence.heading_deg;
   Eigen::MatrixXd columns;
   for (std::size_t k = 0; k < effects.size(); ++k) {
     beside.push_back(effects[k]);

@@ -10,6 +10,8 @@ namespace gyrostat::gap {
 /// Which series a signature is looked for in.
 enum class Trace { rate, heading };
 
+/// Of the evidence's baseline, once: what signatures in the trace are told from.
+void take_undisturbed(Evidence& evidence, Trace trace);
 /// What effects without noise add to the trace of the train part, under the recording's conditions,
 /// as one column an effect, without their means; of the rate, as innovations beside its level:
 /// what is slow would be taken for a motion that is slow, too.

@@ -74,17 +74,25 @@ TEST(Gap, ThePValueOfTheFittedSimulatorsOwnRecordingsIsUniform) {
   expect_uniform(own_p_values(true));
 }
 
-/// A magnet that passes within the part that was held back: 2 deg for 20 s, a clear burst
-/// elsewhere.
-TEST(Diagnosis, WhatIsInTheHeldOutPartAloneIsUnknown) {
+/// A magnet that passes within the part that is held back, 2 deg for 20 s: a clear burst, once
+/// another part is held back. Without its name it stays unknown.
+TEST(Diagnosis, WhatIsInTheHeldOutPartAloneIsNamedWhereAnotherIsHeldOut) {
   Scenario s = still();
   s.sampling.duration_s = 600.0;
   Series series = recorded(s, 7, false);
-  const auto plain = diagnose(series, {});
+  DiagnosisOptions nameless;
+  nameless.without = {"magnetic_bursts"};
+  const auto plain = diagnose(series, nameless);
   EXPECT_EQ(plain.verdict, Verdict::none());
   EXPECT_GT(plain.p_held_out, 1e-4);
   for (std::size_t i = 3600; i < 4000; ++i) series.heading_deg[i] += 2.0;
-  const auto passed = diagnose(series, {});
+  const auto named = diagnose(series, {});
+  EXPECT_EQ(named.verdict.text(), "magnetic_bursts");
+  EXPECT_TRUE(named.other_part_held_out);
+  EXPECT_GT(named.p_held_out, 1e-4);
+  EXPECT_THAT(answer(named), testing::HasSubstr("another was held back in its place"));
+  const auto passed = diagnose(series, nameless);
+  EXPECT_FALSE(passed.other_part_held_out);
   EXPECT_EQ(passed.p_after, plain.p_after);
   EXPECT_LT(passed.p_held_out, 1e-4);
   EXPECT_EQ(passed.verdict, Verdict::unknown());

@@ -208,6 +208,49 @@ TEST(SetSearch, ADeadZoneIsFoundWhereTheRateIsSensed) {
   EXPECT_EQ(found.members.size(), 2U);
 }
 
+/// The motion passes from one sample to the next by 0.8 dps, so that few are near the edge: those
+/// alone say where it is, to the next of them on either side, and the noise cannot mistake them.
+TEST(SetSearch, AThresholdIsBetweenItsSamples) {
+  Scenario s = moving();
+  s.effects = {effects::DeadZone{.half_width_dps = 2.0}};
+  const auto series = recorded(s, 85, true);
+  const Simulator simulator(series, 1);
+  const auto found = find_set(simulator, series, {});
+  ASSERT_EQ(found.scenario.effects.size(), 1U);
+  const auto* zone = found.scenario.effects[0].as<effects::DeadZone>();
+  ASSERT_NE(zone, nullptr);
+  for (const auto& span : simulator.conditions().spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i)
+      EXPECT_EQ(std::abs(series.rate_ref_dps[i]) <= 2.0,
+                std::abs(series.rate_ref_dps[i]) <= zone->half_width_dps);
+}
+
+/// Of a shift by a sample on a rate table there is one sample a step, which a limit, a scale, a
+/// filter and a dead zone of half the range made together.
+TEST(SetSearch, AShiftThatHasNoNameIsNotALimitAndADeadZone) {
+  Scenario s = moving();
+  s.motion = motion::RateTable{60.0, 24.0};
+  s.effects = {effects::TimeOffset{.offset_s = 0.05}};
+  const auto series = recorded(s, 86, true);
+  const Simulator simulator(series, 1);
+  const auto found = find_set(simulator, series, {.without = {"time_offset"}});
+  for (const auto& member : found.members) {
+    EXPECT_NE(member.effect, "dead_zone");
+    EXPECT_NE(member.effect, "saturation");
+  }
+  EXPECT_FALSE(found.nameless(found.scenario).empty());
+}
+
+/// A ramp without its name is no loop that 34 degrees of warming do not close.
+TEST(SetSearch, ARampThatHasNoNameIsNoHysteresis) {
+  Scenario s = still();
+  s.effects = {effects::RateRamp{2e-4}};
+  const auto series = recorded(s, 87, false);
+  const Simulator simulator(series, 1);
+  const auto found = find_set(simulator, series, {.without = {"rate_ramp"}});
+  for (const auto& member : found.members) EXPECT_NE(member.effect, "thermal_hysteresis");
+}
+
 /// Both parameters are of the motion, which is hundreds of times the noise: what limits them is how
 /// well the rate between samples is known.
 TEST(SetSearch, ASensorOfSecondOrderIsFoundWithItsDamping) {
