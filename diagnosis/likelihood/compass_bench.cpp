@@ -4,10 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include <gyrostat/core/step.hpp>
 #include <gyrostat/core/values.hpp>
 #include <gyrostat/diagnosis/evidence.hpp>
 #include <gyrostat/diagnosis/likelihood/compass_step.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/heading_left.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 #include <gyrostat/diagnosis/starts/signature.hpp>
 
@@ -29,6 +31,19 @@ CompassBench::CompassBench(const Simulator& simulator, const Series& recording,
 CompassErrors::Law CompassBench::law_of(const std::vector<Effect>& effects) const {
   simulator_.interrupt().check();
   return errors_.law_of(effects, bursts_.hidden);
+}
+
+double CompassBench::log_gain_of_turning(const std::vector<Effect>& set) const {
+  auto left = errors_.of(set);
+  double seen = 0.0;
+  for (const auto& span : conditions_.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i) {
+      if (errors_.is_hidden(bursts_.hidden, i)) left[i] = no_value;
+      if (!is_missing(left[i])) seen += 1.0;
+    }
+  const auto law = law_of(set);
+  return gap::log_gain_of_turning(conditions_, left, law.level_gain,
+                                  law.count / std::max(seen, 1.0));
 }
 
 void CompassBench::find_bursts(const std::vector<Effect>& effects) {

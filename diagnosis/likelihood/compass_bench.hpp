@@ -20,6 +20,8 @@ class CompassBench {
   const Conditions& conditions() const { return conditions_; }
   CompassErrors::Law law_of(const std::vector<Effect>& effects) const;
   double centre_deg() const { return errors_.centre_deg(); }
+  /// Of what a set leaves (heading_left.hpp).
+  double log_gain_of_turning(const std::vector<Effect>& set) const;
   /// What an effect has to gain to be in a set, in nats.
   double cost(const Effect& effect) const;
 

@@ -77,17 +77,16 @@ std::vector<Effect> CompassSearch::grown(std::vector<Effect> set, Bursts bursts)
       gains[k] = bench_.law_of(trial).gain_on(before) - bench_.cost(start);
       fitted[k] = std::move(trial);
     });
-    std::vector<Effect> best;
-    // Nature's form of what is there differs from ours by as much.
-    double most = share_of_clearest * clearest;
-    for (std::size_t k = 0; k < trials.size(); ++k)
-      if (gains[k] > most) {
-        most = gains[k];
-        best = fitted[k];
-      }
-    if (best.empty()) break;
-    clearest = std::max(clearest, most);
-    set = best;
+    const auto best = std::max_element(gains.begin(), gains.end());
+    if (best == gains.end() || *best <= 0.0) break;
+    const auto& likeliest = fitted[static_cast<std::size_t>(best - gains.begin())];
+    // Nature's form of what is there differs from ours by as much, unless nothing is left of it.
+    constexpr double clear = 10.0;
+    if (*best <= share_of_clearest * clearest &&
+        *best <= std::max(clear, bench_.log_gain_of_turning(likeliest)))
+      break;
+    clearest = std::max(clearest, *best);
+    set = likeliest;
   }
   return set;
 }

@@ -9,6 +9,7 @@
 #include <gyrostat/diagnosis/evidence.hpp>
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
 #include <gyrostat/diagnosis/model_fit.hpp>
+#include <gyrostat/diagnosis/starts/signature.hpp>
 #include <gyrostat/generators/effects/list.hpp>
 #include <gyrostat/generators/environment/acceleration/list.hpp>
 #include <gyrostat/generators/environment/motion/list.hpp>
@@ -148,7 +149,8 @@ TEST(CatalogueContract, StartsAreTheEffectWithSoundParameters) {
   const Simulator simulator(recording, 1);
   const auto& conditions = simulator.conditions();
   const auto baseline = fit_baseline(simulator, recording).scenario;
-  const Evidence evidence{simulator, recording, Scene(conditions, recording), baseline};
+  Evidence evidence{simulator, recording, Scene(conditions, recording), baseline};
+  for (const auto trace : {Trace::rate, Trace::heading}) take_undisturbed(evidence, trace);
   const SetFitter fitter(conditions, std::make_shared<const ReducedRate>(
                                          conditions, evidence.scene.rate_error_dps,
                                          std::make_shared<const RateGrid>(

@@ -475,6 +475,16 @@ TEST(SetSearch, IronBesideALagIsFoundInEitherForm) {
   }
 }
 
+/// Iron of an eighth of the noise, which gains a thousandth of what the delay does: beside it
+/// nothing of the motion is left.
+TEST(SetSearch, FaintIronBesideADelayIsFound) {
+  Scenario s = moving();
+  s.compass.noise_std_deg = 0.4;
+  s.effects = {effects::HardIron{0.05, 88.0},
+               effects::CompassLag{.time_constant_s = 0.0, .delay_s = 0.33, .turns_alone = 1.0}};
+  EXPECT_EQ(found_in(recorded(s, 88, true)), (std::set<std::string>{"compass_lag", "hard_iron"}));
+}
+
 /// Gross errors of about one size; the size is known to 0.01 dps, and 5 of that are allowed.
 TEST(SetSearch, OutliersMayHaveASize) {
   Scenario s = still();
