@@ -28,14 +28,20 @@ double equal_by_chance(const std::vector<double>& differences, double step) {
     });
     return static_cast<double>(within) / (2.0 * reach);
   }
-  double ones = 0.0, twos = 0.0;
+  double ones = 0.0, twos = 0.0, threes = 0.0;
   for (const double d : differences) {
     const double steps = std::abs(d) / step;
     ones += std::abs(steps - 1.0) < 0.3 ? 0.5 : 0.0;
     twos += std::abs(steps - 2.0) < 0.3 ? 0.5 : 0.0;
+    threes += std::abs(steps - 3.0) < 0.3 ? 0.5 : 0.0;
   }
   // On a coarser grid it matters where between two of its values the level is.
   if (twos < 50.0 || twos < 0.2 * ones) return -1.0;
+  // Nor are they normal where many more differ by three.
+  constexpr double many_more = 1.25;
+  if (const double normal = twos * std::pow(twos / ones, 5.0 / 3.0);
+      threes > many_more * normal + clear * std::sqrt(normal + 1.0))
+    return -1.0;
   return ones * std::pow(std::max(ones / twos, 1.0), 1.0 / 3.0);
 }
 
@@ -43,6 +49,7 @@ double equal_by_chance(const std::vector<double>& differences, double step) {
 /// how many of them do not move as far, and how many are equal.
 struct Apart {
   double pairs = 0.0, still = 0.0, equal = 0.0;
+  double far_dps = 0.0;  ///< what neither undoes
   /// Where the gyro only lags, they stand still without being equal.
   bool shows_repeats() const {
     constexpr double fewest = 2.0, most_of_them = 0.8;
@@ -75,7 +82,7 @@ Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<doubl
   // Most of a coarse grid's errors are 0, whatever the noise under it.
   const double spread = std::max(quantile(std::move(errors), 0.5) / normal_quartile,
                                  std::numbers::sqrt2 * marks.white_under_grid_dps);
-  const double far = marks.lsb_dps + beyond_noise * spread;
+  const double far = apart.far_dps = marks.lsb_dps + beyond_noise * spread;
   each([&](double value, double step, double turned) {
     // About zero, a dead zone may hold them together.
     if (std::abs(turned) <= far || std::abs(value) <= far) return;
@@ -142,8 +149,8 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
   double beyond = equal - by_chance;
   // So many pairs say that there are none, too.
   constexpr double enough_pairs = 1000.0;
-  if (const auto apart = kept_apart_by_motion(simulator.conditions(), z, marks);
-      apart.pairs >= enough_pairs || apart.shows_repeats()) {
+  const auto apart = kept_apart_by_motion(simulator.conditions(), z, marks);
+  if (apart.pairs >= enough_pairs || apart.shows_repeats()) {
     marks.turns_through_grid = apart.pairs > 0.5 * count;
     beyond = apart.equal / apart.pairs * count;
     by_chance = 0.0;
@@ -157,8 +164,20 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
   const double repeated = std::clamp(beyond / count, 1e-6, 0.99);
   marks.stale_probability = std::min(1.0, repeated / (marks.stale_run * (1.0 - repeated)));
   marks.repeats.assign(z.size(), 0);
+  // Where most equal neighbours are so by chance, those are flagged that a motion keeps apart:
+  // without all of them the noise would be another.
+  marks.repeats_are_told = beyond >= 0.5 * equal;
+  const auto& reference = simulator.conditions().series().rate_ref_dps;
+  const auto is_told = [&](std::size_t i) {
+    return marks.repeats_are_told ||
+           (!reference.empty() && std::abs(reference[i] - reference[i - 1]) > apart.far_dps);
+  };
+  const auto is_clipped = [&](std::size_t i) {
+    return ends.holds(z[i]) &&
+           (reference.empty() || std::abs(reference[i]) > std::abs(z[i]) - apart.far_dps);
+  };
   for (std::size_t i = 1; i < z.size(); ++i)
-    marks.repeats[i] = z[i] == z[i - 1] && !ends.holds(z[i]) && !is_silent(i) ? 1 : 0;
+    marks.repeats[i] = z[i] == z[i - 1] && !is_clipped(i) && !is_silent(i) && is_told(i) ? 1 : 0;
   marks.stale_is_regular = come_regularly(simulator.conditions(), marks.repeats);
 }
 

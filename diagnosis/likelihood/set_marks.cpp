@@ -70,6 +70,17 @@ std::vector<Effect> SetSearcher::read_off(const Marks& marks, FoundSet& found) {
   return effects;
 }
 
+double SetSearcher::feigned_by_repeats(const Marks& marks) const {
+  if (marks.repeats_are_told) return 0.0;
+  double samples = 1.0;
+  for (const auto& span : conditions_.spans(Part::train))
+    samples += static_cast<double>(span.size());
+  // As many neighbours are alike as are repeated, and as their correlation may be by chance.
+  constexpr double deviations = 2.0;
+  const double alike = marks.stale_probability + deviations / std::sqrt(samples);
+  return 0.5 * samples * alike * alike;
+}
+
 void SetSearcher::give_grid_to_angle(const Marks& marks, FoundSet& found) const {
   constexpr double most_apart = 0.2;
   auto& effects = found.scenario.effects;

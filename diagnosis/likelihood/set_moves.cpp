@@ -78,7 +78,8 @@ double SetSearcher::least_gain(const Standing& standing, EffectBand band) const 
         std::max(0.0, log_gain_of_motion(conditions_,
                                          bench_.rate_left_by(standing.scenario, bench_.masked()))) /
             share_of_band);
-  return share_of_band * std::max(of_band, of_motion);
+  return std::max(share_of_band * std::max(of_band, of_motion),
+                  band == EffectBand::fast ? feigned_colour_ : 0.0);
 }
 
 double SetSearcher::least_gain(const Standing& standing, const Standing& with) const {

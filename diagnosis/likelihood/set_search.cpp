@@ -62,6 +62,7 @@ FoundSet SetSearcher::run() {
       return band == EffectBand::fast || band == EffectBand::slow;
     });
 
+  feigned_colour_ = feigned_by_repeats(marks);
   tell("the first effect", 3);
   auto standing = searched_beside_tails(begun);
   standing = exchanged(std::move(standing), found);
@@ -81,8 +82,12 @@ FoundSet SetSearcher::run() {
   tell("looking for what has no name", 1);
   found.gain = standing.score - begun.score;
   found.unexplained = unexplained_by(conditions_, *standing.fitter, standing.scenario);
-  // What rounding to more than the noise leaves has another spectrum than the noise.
-  if (coarse) std::erase_if(found.unexplained, [](const auto& u) { return u.what == "spectrum"; });
+  // What rounding to more than the noise leaves has another spectrum than the noise; so have
+  // repeats that are not told, down to where the noise of means is larger than it should be.
+  std::erase_if(found.unexplained, [&](const auto& u) {
+    return (u.what == "spectrum" && (coarse || !marks.repeats_are_told)) ||
+           (u.what == "memory" && !marks.repeats_are_told);
+  });
   add_nameless_tails(found);
   found.screening = screening_;
   found.scenario = standing.scenario;

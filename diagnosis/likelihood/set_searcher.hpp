@@ -122,6 +122,9 @@ class SetSearcher {
   struct OfGrid {
     double warmth = 0.0, tails = 0.0;
   };
+  /// That a filter of the noise gains at most where it is repeats, which are not told, that make
+  /// neighbours alike.
+  double feigned_by_repeats(const Marks& marks) const;
   /// Of a grid in standard deviations of the rounded noise.
   OfGrid feigned_by_grid(double lsb_of_noise) const;
   /// What the innovations say of outliers and of noise over temperature, beside the set.
@@ -144,6 +147,7 @@ class SetSearcher {
   std::vector<char> hidden_from_response_;
   Tails tails_;
   OfGrid feigned_;
+  double feigned_colour_ = 0.0;  ///< feigned_by_repeats()
   bool has_outliers_ = false, has_warm_noise_ = false;
   std::optional<double> white_under_grid_dps_;  ///< where the grid is coarse
   std::vector<const CauseType*> candidates_;

@@ -485,6 +485,31 @@ TEST(SetSearch, FaintIronBesideADelayIsFound) {
   EXPECT_EQ(found_in(recorded(s, 88, true)), (std::set<std::string>{"compass_lag", "hard_iron"}));
 }
 
+/// Half of the neighbours on a grid of two deviations are equal by chance. Without all of them the
+/// noise had another colour, and a repeat at the turn of the table, 60 dps off, was in R.
+TEST(SetSearch, RepeatsBesideACoarseGridColourNoNoise) {
+  Scenario s = moving();
+  s.motion = motion::RateTable{60.0, 8.0};
+  s.effects = {effects::ScaleFactor{0.01}, effects::StaleSamples{0.05, 1.0},
+               effects::Quantization{0.1}};
+  const auto series = recorded(s, 89, true);
+  const Simulator simulator(series, 1);
+  const auto found = find_set(simulator, series, {});
+  std::set<std::string> names;
+  for (const auto& member : found.members) names.insert(member.effect);
+  EXPECT_EQ(names, (std::set<std::string>{"quantization", "scale_factor", "stale_samples"}));
+  EXPECT_NEAR(found.scenario.random_error.measurement_noise_std_dps, 0.05, 0.005);
+}
+
+/// Noise that warms and heavy tails make as many neighbours on a coarse grid differ by two steps as
+/// if many of the equal ones were repeated; but many more differ by three, too.
+TEST(SetSearch, TailsOnACoarseGridAreNoRepeats) {
+  Scenario s = still();
+  s.effects = {effects::NoiseTemperature{0.02, 38.0, 5e-4}, effects::Outliers{0.015, 0.44},
+               effects::Quantization{0.1}};
+  EXPECT_EQ(found_in(recorded(s, 90, false)).count("stale_samples"), 0U);
+}
+
 /// Gross errors of about one size; the size is known to 0.01 dps, and 5 of that are allowed.
 TEST(SetSearch, OutliersMayHaveASize) {
   Scenario s = still();
