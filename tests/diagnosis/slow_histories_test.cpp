@@ -124,6 +124,26 @@ TEST(JumpHistories, AreTheSameForEveryInstructionSet) {
   }
 }
 
+/// Levels so far apart that after a value on one of them the other's weight is among the least
+/// numbers that there are, which have no reciprocal: about 720 nats, for some of the sizes.
+TEST(JumpHistories, ALevelThatIsHardlyPossibleHasAFiniteLikelihood) {
+  const Eigen::Index count = 200;
+  const NormalStream noise(6, 0, "noise");
+  std::vector<std::size_t> each(count);
+  std::iota(each.begin(), each.end(), std::size_t{0});
+  for (double size = 0.8; size < 1.2; size += 0.005) {
+    Eigen::VectorXd values(count);
+    for (Eigen::Index k = 0; k < count; ++k)
+      values[k] = (k < 20 ? -size : size) + 0.01 * noise.normal(static_cast<std::uint64_t>(k));
+    const SlowLaw law{.white = 2.5e-3,
+                      .walk = 1e-5,
+                      .parts = {},
+                      .jumps = Jumps{Jumps::To::the_other_level, size, 0.01}};
+    const auto terms = slow_terms(law, each, values, Eigen::MatrixXd(count, 0), Eigen::VectorXd());
+    EXPECT_TRUE(std::isfinite(terms.log_likelihood)) << size;
+  }
+}
+
 /// A value far off leaves nothing of the histories without a jump there, and the next one is as
 /// they say.
 TEST(JumpHistories, AValueThatNoJumpExplainsHasAFiniteLikelihood) {

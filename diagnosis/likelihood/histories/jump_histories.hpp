@@ -76,9 +76,9 @@ class JumpHistories {
       if (weight[h] > 0.0 && misfit[h] < least) least = misfit[h];
     double total = 0.0;
     for (int h = 0; h < lanes; ++h) {
-      weight[h] = h < size_ && weight[h] > 0.0
-                      ? weight[h] * (density[h] * std::exp(least - misfit[h]))
-                      : 0.0;
+      const double before = weight[h] < least_weight ? least_weight : weight[h];
+      weight[h] =
+          h < size_ && weight[h] > 0.0 ? before * (density[h] * std::exp(least - misfit[h])) : 0.0;
       total += weight[h];
     }
     weight_ = Lanes::load(weight) * Lanes(1.0 / total);
@@ -105,6 +105,7 @@ class JumpHistories {
   }
 
  private:
+  static constexpr double least_weight = 1e-290;  ///< below which there may be no reciprocal
   static constexpr double indices[lanes] = {0, 1, 2, 3, 4, 5, 6, 7};
   struct Pair {
     int one, other;
@@ -185,7 +186,7 @@ class JumpHistories {
     const Lanes weights =
         select(index_ < Lanes(parents) && level_ == Lanes(level), weight_, Lanes(0.0));
     const double total = sum(weights);
-    if (!(total > 0.0)) return;
+    if (!(total >= least_weight)) return;
     const Lanes share = weights * Lanes(1.0 / total);
     const int child = size_++;
     Lanes apart[N];
