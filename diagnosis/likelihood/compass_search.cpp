@@ -12,6 +12,8 @@ namespace {
 
 /// A further effect gains this share of what the clearest does.
 constexpr double share_of_clearest = 0.003;
+/// Or this, in nats, where nothing of the turning is left.
+constexpr double clear = 10.0;
 
 class CompassSearch {
  public:
@@ -81,7 +83,6 @@ std::vector<Effect> CompassSearch::grown(std::vector<Effect> set, Bursts bursts)
     if (best == gains.end() || *best <= 0.0) break;
     const auto& likeliest = fitted[static_cast<std::size_t>(best - gains.begin())];
     // Nature's form of what is there differs from ours by as much, unless nothing is left of it.
-    constexpr double clear = 10.0;
     if (*best <= share_of_clearest * clearest &&
         *best <= std::max(clear, bench_.log_gain_of_turning(likeliest)))
       break;
@@ -123,6 +124,8 @@ std::vector<Effect> CompassSearch::settled(std::vector<Effect> set) {
 
 std::vector<Member> CompassSearch::members_of(std::vector<Effect>& set) {
   std::vector<Member> members;
+  const double least =
+      std::min(clear, share_of_clearest * bench_.law_of(set).gain_on(bench_.law_of({})));
   for (std::size_t k = 0; k < set.size();) {
     auto rest = set;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
@@ -133,8 +136,8 @@ std::vector<Member> CompassSearch::members_of(std::vector<Effect>& set) {
     rest = bench_.polished(rest);
     if (without_lag) bench_.shift_beside(rest);
     const double odds = with.gain_on(bench_.law_of(rest)) - bench_.cost(set[k]);
-    if (without_lag && odds > 0.0) bench_.unshift();
-    if (odds <= 0.0) {
+    if (without_lag && odds > least) bench_.unshift();
+    if (odds <= least) {
       set = rest;
       members.clear();
       k = 0;
