@@ -114,6 +114,11 @@ bool Diagnosing::is_found_without_a_doubtful(const std::vector<std::string>& nam
   if (names.size() < 2 || doubtful == nullptr ||
       !is_missed_by(rung({}, result_.enriched, lacking_replicas)))
     return false;
+  // A search takes long: only where the others would do.
+  auto others = names;
+  std::erase(others, doubtful->effect);
+  if (is_missed_by(rung({}, with_drift(found_.anew(others), recording_), lacking_replicas)))
+    return false;
   auto without = options_.without;
   without.push_back(doubtful->effect);
   for (const auto& rival : found_.rivals)

@@ -122,7 +122,8 @@ FoundSet SetSearcher::run() {
   return found;
 }
 
-Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::string>& names) {
+Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::string>& names,
+                                Anew what) {
   const auto is_in = [&](std::string_view id) {
     return std::find(names.begin(), names.end(), id) != names.end();
   };
@@ -144,6 +145,11 @@ Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::st
   auto fit = bench_.refitted(rate, 8);
   if (auto other = bench_.beside_noise(rate.effects); other.score > fit.score)
     fit = std::move(other);
+  if (what == Anew::all) {
+    auto fitted = fit.scenario.effects.begin();
+    for (auto& effect : some.effects)
+      if (effect.stage() != Stage::compass) effect = *fitted++;
+  }
   some.random_error = fit.scenario.random_error;
   if (is_in("outliers")) take_out_outliers(some.random_error);
   if (white_under_grid_dps_ && is_in("quantization"))
@@ -191,7 +197,10 @@ FoundSet find_set(const Simulator& simulator, const Series& recording,
   const auto search = std::make_shared<SetSearcher>(simulator, recording, options, progress);
   auto found = search->run();
   found.subset = [search, whole = found.scenario](const std::vector<std::string>& names) {
-    return search->subset_of(whole, names);
+    return search->subset_of(whole, names, SetSearcher::Anew::noise);
+  };
+  found.anew = [search, whole = found.scenario](const std::vector<std::string>& names) {
+    return search->subset_of(whole, names, SetSearcher::Anew::all);
   };
   found.nameless = [search](const Scenario& set) { return search->nameless_beside(set); };
   found.detectable = [search] { return search->detectable(); };

@@ -56,6 +56,8 @@ struct FoundSet {
   /// The scenario with those effects of the set alone that have one of the names, its noise fitted
   /// anew. Outlives neither the simulator nor the recording.
   std::function<Scenario(const std::vector<std::string>&)> subset{};
+  /// The same, the parameters of these effects fitted anew, too.
+  std::function<Scenario(const std::vector<std::string>&)> anew{};
   /// What no name explains, beside the set with its drift; likewise.
   std::function<std::vector<Nameless>(const Scenario&)> nameless{};
   /// What would have been found beside the set; likewise.

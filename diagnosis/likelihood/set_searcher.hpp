@@ -39,7 +39,9 @@ class SetSearcher {
 
   FoundSet run();
   Scenario likeliest_baseline();
-  Scenario subset_of(const Scenario& whole, const std::vector<std::string>& names);
+  /// What of a subset is fitted anew.
+  enum class Anew { noise, all };
+  Scenario subset_of(const Scenario& whole, const std::vector<std::string>& names, Anew what);
   std::vector<Nameless> nameless_beside(const Scenario& set) const;
   std::vector<Detectable> detectable();
 
