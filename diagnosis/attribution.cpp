@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/diagnosing.hpp>
@@ -27,19 +26,6 @@ std::vector<Where> Diagnosing::departures_of(const Ensemble& ensemble) const {
   return found;
 }
 
-/// Those of the search are of the effects under the names that it fitted them by.
-void Diagnosing::add_intervals(Included& included) const {
-  if (included.parameters.empty()) return;
-  const auto& effects = found_.scenario.effects;
-  const auto first = std::find_if(effects.begin(), effects.end(), [&](const auto& effect) {
-    return effect.id() == included.effect;
-  });
-  included.intervals.assign(included.parameters.front().fields().size(), {no_value, no_value});
-  for (const auto& interval : found_.intervals)
-    if (first == effects.begin() + static_cast<std::ptrdiff_t>(interval.effect))
-      included.intervals[interval.field] = {interval.low, interval.high};
-}
-
 /// One effect of the set after another.
 void Diagnosing::climb(const std::vector<std::string>& order) {
   std::vector<std::string> names;
@@ -51,113 +37,6 @@ void Diagnosing::climb(const std::vector<std::string>& order) {
     const bool is_whole = names.size() == order.size();
     rungs_.push_back(
         rung(name, is_whole ? result_.enriched : with_effects(names), options_.candidate_replicas));
-  }
-}
-
-bool Diagnosing::is_missed_by(const Rung& rung) const {
-  const Ensemble enriched(simulator_.instrument(Part::train), rung.replicas[0], {});
-  return enriched.p_value(observed_[0]) < thresholds::strictness_after * options_.significance;
-}
-
-std::vector<std::string> Diagnosing::weighed(std::vector<Member> members) {
-  auto whole = rung({}, result_.enriched, lacking_replicas);
-  for (;;) {
-    std::vector<std::string> names;
-    for (const auto& m : members) names.push_back(m.effect);
-    const auto truth = scoring_->of(whole.replicas[0]);
-    std::vector<Rung> without;
-    result_.effects.clear();
-    held_out_without_.clear();
-    for (const auto& m : members) {
-      tell("weighing each effect",
-           0.65 + 0.1 * static_cast<double>(result_.effects.size()) /
-                      static_cast<double>(members.size()),
-           m.effect);
-      auto others = names;
-      std::erase(others, m.effect);
-      without.push_back(rung(m.effect, with_effects(others), lacking_replicas));
-      result_.effects.push_back(
-          {.effect = m.effect,
-           .inclusion = probability_of(m.log_odds),
-           .log_odds = m.log_odds,
-           .lack = truth.value - scoring_->of(without.back().replicas[0]).value,
-           .gap_without = 0.0,
-           .parameters = {},
-           .intervals = {}});
-      held_out_without_.push_back(held_out_scoring_->of(without.back().replicas[1]));
-      for (const auto& effect : result_.enriched.effects)
-        if (effect.id() == m.effect) result_.effects.back().parameters.push_back(effect);
-      add_intervals(result_.effects.back());
-    }
-    if (members.size() < 2 || !is_missed_by(whole)) return names;
-    // An effect that the readings of its own channel bear out stays, whatever the others miss.
-    std::ptrdiff_t at = -1;
-    for (std::size_t k = 0; k < members.size(); ++k)
-      if (const double lack = result_.effects[k].lack;
-          lack <= 0.0 && tempered(members[k], whole) < thresholds::clear_odds &&
-          (at < 0 || lack < result_.effects[static_cast<std::size_t>(at)].lack))
-        at = static_cast<std::ptrdiff_t>(k);
-    if (at < 0) return names;
-    result_.enriched = without[static_cast<std::size_t>(at)].scenario;
-    whole = std::move(without[static_cast<std::size_t>(at)]);
-    members.erase(members.begin() + at);
-  }
-}
-
-bool Diagnosing::is_found_without_a_doubtful(const std::vector<std::string>& names) {
-  const Member* doubtful = nullptr;
-  for (const auto& m : found_.members)
-    if (!m.read_off && m.log_odds < thresholds::clear_odds &&
-        std::find(names.begin(), names.end(), m.effect) != names.end() &&
-        (doubtful == nullptr || m.log_odds < doubtful->log_odds))
-      doubtful = &m;
-  if (names.size() < 2 || doubtful == nullptr ||
-      !is_missed_by(rung({}, result_.enriched, lacking_replicas)))
-    return false;
-  // A search takes long: only where the others would do.
-  auto others = names;
-  std::erase(others, doubtful->effect);
-  if (is_missed_by(rung({}, with_drift(found_.anew(others), recording_), lacking_replicas)))
-    return false;
-  auto without = options_.without;
-  without.push_back(doubtful->effect);
-  for (const auto& rival : found_.rivals)
-    if (rival.instead_of == doubtful->effect) without.push_back(rival.effect);
-  tell("looking for effects", search_share, "without " + doubtful->effect);
-  auto with = std::exchange(found_, find_set(simulator_, recording_, {.without = without}));
-  const auto other = rung({}, with_drift(found_.scenario, recording_), lacking_replicas);
-  if (is_missed_by(other)) {
-    found_ = std::move(with);
-    return false;
-  }
-  result_.enriched = other.scenario;
-  result_.unexplained = found_.unexplained;
-  result_.log_score_gained = found_.log_score_gained;
-  subsets_.clear();
-  return true;
-}
-
-double Diagnosing::tempered(const Member& member, const Rung& set) const {
-  if (member.read_off) return member.log_odds;
-  const bool of_compass =
-      cause_types().named(member.effect, "effects").effect().stage() == Stage::compass;
-  const Ensemble enriched(simulator_.instrument(Part::train), set.replicas[0], {});
-  const auto z = enriched.deviations(observed_[0]);
-  double squares = 0.0, count = 0.0;
-  for (const auto& lens : enriched.lenses()) {
-    if ((lens.channel == "heading_deg") != of_compass) continue;
-    squares += z.segment(lens.first, lens.count).squaredNorm();
-    count += static_cast<double>(lens.count);
-  }
-  return member.log_odds / std::max(1.0, squares / std::max(1.0, count));
-}
-
-void Diagnosing::temper() {
-  for (auto& effect : result_.effects) {
-    const auto member = std::find_if(found_.members.begin(), found_.members.end(),
-                                     [&](const auto& m) { return m.effect == effect.effect; });
-    effect.log_odds = tempered(*member, rungs_.back());
-    effect.inclusion = probability_of(effect.log_odds);
   }
 }
 

@@ -131,7 +131,7 @@ using DiagnosisProgress = std::function<void(const DiagnosisStage&)>;
 /// Diagnoses an evenly sampled series (NaN = missing). Everything that is chosen or fitted comes
 /// from the train part alone; the other may only add that something is unknown. Where that has what
 /// the rest of the recording does not have, another part is held out in its place, and stays so if
-/// effects are then found that were not, and no other part is missed. Throws InputError for fewer
+/// effects are then found that were not, and that part is not missed. Throws InputError for fewer
 /// than 1000 samples, or a gyro that never changes.
 ///
 /// Example: the verdict on a recording, in words.

@@ -1,11 +1,10 @@
 #include <gyrostat/diagnosis/likelihood/heading_left.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/likelihood/explained.hpp>
 #include <gyrostat/diagnosis/likelihood/walking_level.hpp>
 
 namespace gyrostat::gap {
@@ -22,9 +21,8 @@ double log_gain_of_turning(const Conditions& conditions, const std::vector<doubl
   const auto& rate = conditions.series().rate_ref_dps;
   const auto& turned = conditions.turned_deg();
   if (rate.empty() || !conditions.has_motion()) return 0.0;
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(count_of_columns, count_of_columns);
-  Eigen::VectorXd with_errors = Eigen::VectorXd::Zero(count_of_columns), row(count_of_columns);
-  double squares = 0.0, count = 0.0;
+  Explained explained(count_of_columns);
+  Eigen::VectorXd row(count_of_columns);
   const WalkingLevel level(level_gain);
   WalkingLevel of_errors = level;
   std::vector<WalkingLevel> of_columns(count_of_columns, level);
@@ -47,19 +45,9 @@ double log_gain_of_turning(const Conditions& conditions, const std::vector<doubl
         value = of_columns[c].innovation(value);
       }
       const double error = of_errors.innovation(errors_deg[here]);
-      products.selfadjointView<Eigen::Lower>().rankUpdate(row);
-      with_errors += error * row;
-      squares += error * error;
-      count += 1.0;
+      explained.add(row, error);
     }
-  if (count < 10.0 * count_of_columns) return 0.0;
-  Eigen::MatrixXd normal = products.selfadjointView<Eigen::Lower>();
-  // A motion of few frequencies has rates that are alike.
-  normal.diagonal() *= 1.0 + 1e-9;
-  normal.diagonal().array() += 1e-12;
-  const double explained = with_errors.dot(solve_symmetric(normal, with_errors));
-  const double part = std::clamp(explained / std::max(squares, 1e-300), 0.0, 1.0 - 1e-12);
-  return -0.5 * share * count * std::log1p(-part) - 0.5 * static_cast<double>(count_of_columns);
+  return explained.log_gain(share);
 }
 
 }  // namespace gyrostat::gap

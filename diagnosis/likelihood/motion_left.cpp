@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/likelihood/explained.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
@@ -28,9 +28,7 @@ double log_gain_of_motion(const Conditions& conditions, const std::vector<double
   std::array<double, levels.size()> bends{};
   for (std::size_t k = 0; k < levels.size(); ++k) bends[k] = quantile(there, levels[k]);
 
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(regressor_columns, regressor_columns);
-  Eigen::VectorXd with_left = Eigen::VectorXd::Zero(regressor_columns);
-  double squares = 0.0, count = 0.0;
+  Explained explained(regressor_columns);
   Eigen::VectorXd row(regressor_columns);
   for (const auto& span : conditions.spans(Part::train))
     for (auto i = static_cast<std::ptrdiff_t>(span.first) + rate_reach;
@@ -45,19 +43,9 @@ double log_gain_of_motion(const Conditions& conditions, const std::vector<double
         row[static_cast<Eigen::Index>(taps + k)] = std::max(0.0, at(i) - bends[k]);
       row[regressor_columns - 1] = 1.0;
       if (!row.allFinite()) continue;
-      products.selfadjointView<Eigen::Lower>().rankUpdate(row);
-      with_left += value * row;
-      squares += value * value;
-      count += 1.0;
+      explained.add(row, value);
     }
-  if (count < 10.0 * regressor_columns) return 0.0;
-  const Eigen::MatrixXd normal = products.selfadjointView<Eigen::Lower>();
-  // A motion of few frequencies has taps that are alike.
-  Eigen::MatrixXd ridged = normal;
-  ridged.diagonal() += 1e-9 * normal.diagonal();
-  const double explained = with_left.dot(solve_symmetric(ridged, with_left));
-  const double share = std::clamp(explained / std::max(squares, 1e-300), 0.0, 1.0 - 1e-12);
-  return -0.5 * count * std::log1p(-share) - 0.5 * static_cast<double>(regressor_columns);
+  return explained.log_gain();
 }
 
 }  // namespace gyrostat::gap

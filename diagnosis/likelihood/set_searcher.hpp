@@ -25,7 +25,7 @@ double white_with_rounding(const Scenario& scenario);
 /// find_set() and what may be asked of it afterwards: its moves are in set_moves.cpp and
 /// set_exchange.cpp, beginnings from elsewhere in set_beginnings.cpp, what is read off values in
 /// set_marks.cpp, what only sizes of innovations say in set_tails.cpp, where a dead zone ends in
-/// set_threshold.cpp.
+/// set_threshold.cpp, what is asked afterwards in set_afterwards.cpp.
 class SetSearcher {
  public:
   SetSearcher(const Simulator& simulator, const Series& recording, const SetSearchOptions& options,
@@ -124,11 +124,11 @@ class SetSearcher {
   struct OfGrid {
     double warmth = 0.0, tails = 0.0;
   };
-  /// That a filter of the noise gains at most where it is repeats, which are not told, that make
-  /// neighbours alike.
-  double feigned_by_repeats(const Marks& marks) const;
   /// Of a grid in standard deviations of the rounded noise.
   OfGrid feigned_by_grid(double lsb_of_noise) const;
+  /// Log-likelihood that a filter of the noise gains at most where it is only repeats, which are
+  /// not told, that make neighbours alike.
+  double feigned_by_repeats(const Marks& marks) const;
   /// What the innovations say of outliers and of noise over temperature, beside the set.
   void judge_tails(const Standing& standing);
   void add_tails(FoundSet& found) const;

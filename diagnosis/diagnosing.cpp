@@ -1,0 +1,187 @@
+#include <gyrostat/diagnosis/diagnosing.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/likelihood/nameless_mean.hpp>
+#include <gyrostat/diagnosis/likelihood/set_bench.hpp>
+#include <gyrostat/diagnosis/model_fit.hpp>
+#include <gyrostat/diagnosis/thresholds.hpp>
+#include <gyrostat/diagnosis/views.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+constexpr std::size_t transfer_replicas = 6;
+
+}  // namespace
+
+void Diagnosing::tell(const std::string& phase, double share, const std::string& detail) {
+  simulator_.interrupt().check();
+  share_ = std::max(share_, share);
+  if (progress_) progress_({phase, detail, share_});
+}
+
+void Diagnosing::took(const std::string& part) {
+  const auto now = std::chrono::steady_clock::now();
+  result_.seconds.emplace_back(part, std::chrono::duration<double>(now - since_).count());
+  since_ = now;
+}
+
+void Diagnosing::describe(const Series& recording) {
+  result_.samples = recording.size();
+  result_.duration_s = simulator_.conditions().interval_s() * static_cast<double>(recording.size());
+  result_.rate_hz = simulator_.conditions().rate_hz();
+  for (const auto& channel : channels)
+    if (!(recording.*channel.values).empty()) result_.channels.emplace_back(channel.name);
+  for (const auto& cause : cause_types())
+    if (auto why = cause.why_not_assessable(simulator_.conditions()); !why.empty())
+      result_.not_assessable.push_back({std::string(cause.id), std::move(why)});
+}
+
+void Diagnosing::localise() {
+  found_ = find_set(simulator_, recording_, {.without = options_.without},
+                    [this](const std::string& what, double share) {
+                      tell("looking for effects", search_share * share, what);
+                    });
+  took("search");
+  tell("simulating the baseline", search_share);
+  const auto fit = linearised(simulator_, with_drift(found_.baseline, recording_));
+  result_.baseline = result_.enriched = fit.scenario;
+  simulator_.remember(fit.scenario, 0, 0);
+  constexpr std::size_t lot = 20;
+  for (std::size_t first = 0; first < options_.baseline_replicas; first += lot) {
+    simulator_.remember_more(static_cast<std::uint32_t>(first),
+                             std::min(lot, options_.baseline_replicas - first));
+    tell("simulating the baseline",
+         search_share + 0.1 * static_cast<double>(first + lot) /
+                            static_cast<double>(options_.baseline_replicas));
+  }
+  baseline_replicas_ = simulator_.ensemble(fit.scenario, 0, options_.baseline_replicas);
+  train_ = std::make_unique<Ensemble>(simulator_.instrument(Part::train), baseline_replicas_[0],
+                                      fit.train_jacobian);
+  held_out_ = std::make_unique<Ensemble>(simulator_.instrument(Part::held_out),
+                                         baseline_replicas_[1], Eigen::MatrixXd());
+  scoring_ = std::make_unique<Scoring>(*train_, observed_[0]);
+  held_out_scoring_ = std::make_unique<Scoring>(*held_out_, observed_[1]);
+  result_.p_after = train_->p_value(observed_[0]);
+  double most_odds = found_.nameless_log_odds;
+  for (const auto& m : found_.members) most_odds = std::max(most_odds, m.log_odds);
+  result_.unexplained = found_.unexplained;
+  result_.log_score_gained = found_.log_score_gained;
+  constexpr double level_of_odds =
+      1.0 - thresholds::level_of_lenses - thresholds::level_of_unexplained;
+  result_.p_before =
+      std::min({1.0, result_.p_after / thresholds::level_of_lenses,
+                p_of_the_oddest(found_.unexplained) / thresholds::level_of_unexplained,
+                std::exp(-most_odds) / level_of_odds});
+  result_.where = departures_of(*train_);
+  took("localisation");
+}
+
+Scenario Diagnosing::with_drift(Scenario scenario, const Series& recording) const {
+  const auto& conditions = simulator_.conditions();
+  Scenario quiet = scenario;
+  quiet.random_error = {
+      .phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.0};
+  quiet.thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = 0.0};
+  quiet.effects.clear();
+  Series bare, with, left = recording;
+  synthesise_rate_under(quiet, conditions.series(), {}, bare);
+  for (const auto& effect : scenario.effects) {
+    const auto* cause = cause_types().find(effect.id());
+    if ((cause != nullptr && cause->is_deterministic() && effect.stage() != Stage::compass) ||
+        is_mean_without_name(effect))
+      quiet.effects.push_back(effect);
+  }
+  synthesise_rate_under(quiet, conditions.series(), {}, with);
+  for (std::size_t i = 0; i < left.size(); ++i)
+    left.gyro_dps[i] -= with.gyro_dps[i] - bare.gyro_dps[i];
+  left.heading_deg.clear();
+  scenario.thermal_drift = fit_drift(conditions, Scene(conditions, left, train_alone));
+  // The mean of rounded values is not what was rounded.
+  if (found_.level_on_grid_dps && has(scenario, "quantization"))
+    scenario.thermal_drift = {
+        .a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = *found_.level_on_grid_dps};
+  return scenario;
+}
+
+Rung Diagnosing::rung(const std::string& effect, const Scenario& scenario,
+                      std::size_t replicas) const {
+  auto readings = simulator_.ensemble(scenario, 0, replicas);
+  return {effect, scenario, std::move(readings)};
+}
+
+Scenario Diagnosing::with_effects(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  if (!options_.claim) {
+    if (const auto known = subsets_.find(names); known != subsets_.end()) return known->second;
+    return subsets_[names] = with_drift(found_.subset(names), recording_);
+  }
+  Scenario scenario = result_.enriched;
+  std::erase_if(scenario.effects, [&](const auto& effect) {
+    return std::find(names.begin(), names.end(), effect.id()) == names.end();
+  });
+  if (has(result_.enriched, nameless_compass) && !has(scenario, nameless_compass))
+    scenario.compass.noise_std_deg = result_.baseline.compass.noise_std_deg;
+  return scenario;
+}
+
+/// Only where something is open: a rival, or what nothing explains.
+void Diagnosing::look_ahead() {
+  const Cause *first = nullptr, *second = nullptr;
+  const auto cause_of = [&](const std::string& effect) -> const Cause* {
+    const auto at = std::find_if(result_.causes.begin(), result_.causes.end(),
+                                 [&](const auto& cause) { return cause.effect == effect; });
+    return at == result_.causes.end() ? nullptr : &*at;
+  };
+  const auto closest =
+      std::max_element(found_.rivals.begin(), found_.rivals.end(),
+                       [](const auto& a, const auto& b) { return a.log_odds < b.log_odds; });
+  if (closest != found_.rivals.end() &&
+      probability_of(closest->log_odds) >= thresholds::member_probability) {
+    first = cause_of(closest->instead_of);
+    second = cause_of(closest->effect);
+  }
+  const bool is_apart = first != nullptr && second != nullptr && first != second;
+  if (!is_apart) {
+    const auto& set = result_.verdict_set;
+    const bool may_be_unknown = std::find(set.begin(), set.end(), Verdict::unknown()) != set.end();
+    if (second != nullptr || may_be_unknown)
+      result_.next = wider_recording(simulator_.conditions(), result_.duration_s,
+                                     result_.causes.empty() ? "" : result_.causes.front().effect);
+    return;
+  }
+  tell("looking for the next experiment", 0.95);
+  result_.next = next_experiment(first->scenario, second->scenario, result_.duration_s,
+                                 options_.seed, simulator_.interrupt());
+}
+
+Diagnosis Diagnosing::run() {
+  describe(recording_);
+  localise();
+  if (options_.claim)
+    judge_claim();
+  else
+    attribute();
+  if (!options_.claim) {
+    result_.detectable = found_.detectable();
+    took("detectable");
+    complete();
+  }
+  measure_shrinkage();
+  keep_bands();
+  took("shrinkage");
+  result_.line_sources = line_sources(recording_, result_.enriched.effects);
+  tell("running the filters", 0.92);
+  result_.transfer =
+      transfer(simulator_, recording_, result_.baseline, result_.enriched, transfer_replicas);
+  result_.portrait = portrait_of(simulator_, recording_, result_.baseline, result_.enriched);
+  took("transfer");
+  look_ahead();
+  took("next experiment");
+  return std::move(result_);
+}
+
+}  // namespace gyrostat::gap
