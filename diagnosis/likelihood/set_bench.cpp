@@ -162,20 +162,24 @@ Standing SetBench::without(const Standing& standing, std::size_t effect) const {
   const double small =
       0.1 * beside.slow_std_dps() / std::sqrt(static_cast<double>(conditions_.cluster()));
   Standing best = refitted(rest);
+  // How far it falls short of the whole is of interest when it is little.
+  constexpr double little = 30.0;
+  const double to_reach = standing.score - little;
   // What is told otherwise may do without it.
   for (std::size_t k = 0; k < rest.effects.size(); ++k)
-    if (band_of(rest.effects[k].id()) == band) best = told_otherwise(best, k);
+    if (band_of(rest.effects[k].id()) == band) best = told_otherwise(best, k, to_reach);
   if (ArimaLaw::of(rest.random_error).walk_dps < small)
     if (auto other = refitted(with_walk_of_at_least(rest, small)); other.score > best.score)
       best = std::move(other);
   // The motion's other effects had moved beside it.
   if (band == EffectBand::motion)
-    if (auto fit = polished(best); fit.score > best.score) best = std::move(fit);
+    if (auto fit = polished(best, to_reach); fit.score > best.score) best = std::move(fit);
   best.beside_the_last = as_it_was;
   return best;
 }
 
-Standing SetBench::told_otherwise(const Standing& standing, std::size_t effect) const {
+Standing SetBench::told_otherwise(const Standing& standing, std::size_t effect,
+                                  double to_reach) const {
   const auto& told = standing.scenario.effects[effect];
   const auto& cause = cause_types().named(told.id(), "effects");
   if (cause.told_otherwise == nullptr) return standing;
@@ -183,7 +187,9 @@ Standing SetBench::told_otherwise(const Standing& standing, std::size_t effect) 
   for (const auto& other : cause.told_otherwise(told, conditions_)) {
     Scenario scenario = standing.scenario;
     scenario.effects[effect] = other;
-    if (auto fit = polished(refitted(scenario)); fit.score > best.score) best = std::move(fit);
+    if (auto fit = polished(refitted(scenario), std::max(best.score, to_reach));
+        fit.score > best.score)
+      best = std::move(fit);
   }
   return best;
 }

@@ -68,12 +68,15 @@ class SetBench {
   }
   /// With one more effect; a score of -1e300 where it cannot be had. `left` is what the set leaves.
   Standing with(const Standing& standing, const CauseType& cause, const Evidence* left) const;
+  /// Refitted with all that may stand in for it, as far as that could bring it near the whole.
   Standing without(const Standing& standing, std::size_t effect) const;
   /// The parameters of what is taken out, each by parabolas through the likelihood, the noise as it
-  /// is.
-  Standing polished(Standing standing) const;
-  /// With one of its effects told otherwise, where that is likelier.
-  Standing told_otherwise(const Standing& standing, std::size_t effect) const;
+  /// is; left as they are where passes that gain as much as the last will not bring its score to
+  /// `to_reach`.
+  Standing polished(Standing standing, double to_reach = -1e300) const;
+  /// With one of its effects told otherwise, where that is likelier and could reach `to_reach`.
+  Standing told_otherwise(const Standing& standing, std::size_t effect,
+                          double to_reach = -1e300) const;
   /// Of the parameters of a fitted set; those of what is taken out from the curvature of the
   /// likelihood, the other effects as they are.
   std::vector<ParameterInterval> intervals_of(const Standing& standing) const;

@@ -16,6 +16,8 @@ namespace {
 
 /// So far behind, polishing may still bring a candidate in front.
 constexpr double within_reach_of_polish = 30.0;
+/// No further behind what it is added to, a candidate may be a rival of what was taken away.
+constexpr double furthest_rival = 3.0;
 constexpr int screening_iterations = 3;
 /// Where an effect of the motion gains so much, the noise beside it is another.
 constexpr double much = 100.0;
@@ -111,7 +113,8 @@ Standing SetBench::with_started(const Standing& standing, const CauseType& cause
       if (auto anew = beside_noise(scenario.effects); anew.score > tried.score)
         tried = std::move(anew);
     if (are_forms && tried.score > standing.score - within_reach_of_polish)
-      if (auto fit = polished(tried); fit.score >= tried.score) tried = std::move(fit);
+      if (auto fit = polished(tried, standing.score - furthest_rival); fit.score >= tried.score)
+        tried = std::move(fit);
     fits[k] = std::move(tried);
   });
   Standing best;

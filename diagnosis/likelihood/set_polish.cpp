@@ -33,7 +33,7 @@ bool SetBench::is_read_off(const Effect& effect) const {
          effect.value(field_of(effect, "lost_beyond")) == 0.0;
 }
 
-Standing SetBench::polished(Standing standing) const {
+Standing SetBench::polished(Standing standing, double to_reach) const {
   if (std::none_of(standing.scenario.effects.begin(), standing.scenario.effects.end(),
                    is_taken_out))
     return standing;
@@ -46,6 +46,8 @@ Standing SetBench::polished(Standing standing) const {
   constexpr int fewest_passes = 2, most_passes = 6;
   constexpr double little = 1.0;
   double before_pass = here;
+  const double likelihood_to_reach =
+      to_reach + standing.fit.log_likelihood - standing.score;  // what parameters cost
   for (int pass = 0; pass < fewest_passes || (pass < most_passes && here > before_pass + little);
        ++pass) {
     before_pass = here;
@@ -92,6 +94,8 @@ Standing SetBench::polished(Standing standing) const {
       scenario = trial;
       here = there;
     }
+    if (here + (most_passes - 1 - pass) * (here - before_pass) < likelihood_to_reach)
+      return standing;
   }
   return refitted(scenario, 8);
 }

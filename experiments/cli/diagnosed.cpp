@@ -1,5 +1,6 @@
 #include <gyrostat/experiments/cli/diagnosed.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -10,6 +11,7 @@
 
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
 #include <gyrostat/diagnosis/handling.hpp>
+#include <gyrostat/diagnosis/own_reference.hpp>
 #include <gyrostat/diagnosis/views.hpp>
 #include <gyrostat/experiments/cli/phase_progress.hpp>
 
@@ -61,7 +63,8 @@ std::vector<std::string> axes_of(const RecordingOption& recording, const std::st
   if (!is_open || file == "-") return {recording.axis};
   try {
     auto axes = gyro_axes(file, recording.layout());
-    if (axes.size() > 1) return axes;
+    const bool has_its_own = std::find(axes.begin(), axes.end(), "") != axes.end();
+    if (axes.size() > 1 && !(has_its_own && recording.axis.empty())) return axes;
   } catch (const InputError&) {
   }
   return {""};
@@ -78,11 +81,13 @@ std::vector<ToDiagnose> each_of(const RecordingOption& recording,
   for (const auto& file : files) {
     const auto axes = axes_of(recording, file);
     for (const auto& axis : axes) {
-      ToDiagnose one{recording, files.size() == 1 ? axis : fs::path(file).filename().string()};
-      if (files.size() > 1 && axes.size() > 1) one.name += ' ' + axis;
+      const std::string called = axis.empty() && axes.size() > 1 ? "gyro_dps" : axis;
+      ToDiagnose one{recording, files.size() == 1 ? called : fs::path(file).filename().string()};
+      if (files.size() > 1 && axes.size() > 1) one.name += ' ' + called;
       if (!names.insert(one.name).second) one.name = file + (axes.size() > 1 ? ' ' + axis : "");
       one.recording.file = file;
       one.recording.axis = axis;
+      one.axis_was_chosen = axes.size() == 1;
       all.push_back(std::move(one));
     }
   }
@@ -125,6 +130,18 @@ std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
   const Interrupt interrupt(console.stop.orderly(StopSignal::Done::is_discarded));
   Series series = at_rest(one.recording.read(console.log, span), file, console.log);
   require_rate_of(options.claim, series, file);
+  if (const auto share = gap::share_of_reference(series); gap::is_of_another_axis(share)) {
+    const auto why = fmt::format(
+        "does not turn with rate_ref_dps (by least squares {:.2g} of it), "
+        "which is of another axis",
+        share.slope);
+    if (one.axis_was_chosen)
+      throw InputError(file, fmt::format("the gyro {}: give the axis that turns, or a "
+                                         "rate_ref_dps of this one",
+                                         why));
+    console.log << fmt::format("{}: axis {} {}; left out\n", file, one.recording.axis, why);
+    return std::vector<gap::FleetMember>{};
+  }
   auto views = gap::views_of(series);
   const bool is_whole = views.size() == 1;
   if (!is_whole && allowed == Parts::refused)

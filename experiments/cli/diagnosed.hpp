@@ -17,9 +17,11 @@ namespace gyrostat::cli {
 struct ToDiagnose {
   RecordingOption recording;
   std::string name;
+  bool axis_was_chosen = true;
 };
 
-/// Several recordings, and of each that has several axes every one unless one is chosen.
+/// Several recordings, and of each that has several axes every one unless one is chosen; a column
+/// gyro_dps is chosen, and others beside it are of the motion.
 std::vector<ToDiagnose> each_of(const RecordingOption& recording,
                                 const std::vector<std::string>& further);
 
@@ -27,6 +29,7 @@ enum class Parts { allowed, refused };
 
 /// The diagnoses of a span of a recording, at rest where it has no reference rate: one, or one of
 /// each view of a long recording (refused where `parts` says so; a claim says nothing of means).
+/// None, which is told, of an axis that was not chosen and does not turn with the reference rate.
 /// Nothing where Ctrl-C ended it.
 std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
                                                        const SpanOption& span,

@@ -59,13 +59,18 @@ struct DeadZone {
     constexpr double never = 9.0;  // standard deviations
     if (std::abs(std::abs(rate_dps) - width) >= never * spread)
       return std::abs(rate_dps) <= width ? rate_dps : std::copysign(lost_beyond * width, rate_dps);
-    const double low = (-width - rate_dps) / spread, high = (width - rate_dps) / spread;
-    const auto below = [](double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); };
-    const auto density = [](double z) {
-      return std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
+    const auto below = [](double z) {
+      return std::abs(z) >= never ? (z > 0.0 ? 1.0 : 0.0)
+                                  : 0.5 * std::erfc(-z / std::numbers::sqrt2);
     };
-    return rate_dps * (below(high) - below(low)) + spread * (density(low) - density(high)) +
-           lost_beyond * width * (below(-high) - below(low));
+    const auto density = [](double z) {
+      return std::abs(z) >= never ? 0.0
+                                  : std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
+    };
+    const double low = (-width - rate_dps) / spread, high = (width - rate_dps) / spread;
+    const double below_low = below(low), below_high = below(high);
+    return rate_dps * (below_high - below_low) + spread * (density(low) - density(high)) +
+           lost_beyond * width * (1.0 - below_high - below_low);
   }
 };
 

@@ -179,6 +179,8 @@ int run(DiagnoseArguments& arguments, Console& console) {
     }
     std::move(some->begin(), some->end(), std::back_inserter(members));
   }
+  if (members.empty())
+    throw InputError(file, "no axis turns with rate_ref_dps; give the one that it is of");
   // Of a long recording, a stretch may be all that is left.
   const bool is_whole = members.size() == 1 && members.front().name == all.front().name;
   if (is_whole) {

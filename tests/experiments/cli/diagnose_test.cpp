@@ -161,6 +161,21 @@ TEST(Diagnose, TakesEveryAxisUnlessOneIsChosen) {
   EXPECT_THAT(page.err, HasSubstr("one recording and axis, which --axis chooses"));
 }
 
+TEST(Diagnose, AColumnOfTheGyroIsChosenAndOthersAreOfTheMotion) {
+  const TestFolder folder;
+  folder.write("turned.csv",
+               "t_s,gyro_dps,gyro_x_dps,rate_ref_dps\n0,0,1,0\n0.1,90,2,90\n");  // too short
+  const auto lines = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"diagnose", "turned.csv", "--jsonl"});
+    return run_program(folder, arguments).out;
+  };
+  EXPECT_THAT(lines({}), AllOf(HasSubstr("turned.csv"), Not(HasSubstr("axis"))));
+  EXPECT_THAT(lines({"--axis", "x"}), HasSubstr("does not turn with rate_ref_dps"));
+  const auto all = run_program(folder, {"diagnose", "turned.csv", "--axis", "all", "--jsonl"});
+  EXPECT_THAT(all.err, HasSubstr("axis x does not turn with rate_ref_dps"));
+  EXPECT_THAT(all.out, Not(HasSubstr("does not turn")));
+}
+
 TEST(Diagnose, OfBurstsOneIsTakenByItsSpan) {
   const TestFolder folder;
   std::string csv = "t_s,gyro_dps\n";
