@@ -30,6 +30,27 @@ struct Diagnosed<effects::CompassLag> {
     return all;
   }
 
+  /// The other ways to be as late, without what a recorder adds.
+  static std::vector<effects::CompassLag> told_otherwise(const effects::CompassLag& effect,
+                                                         const Conditions& /*conditions*/) {
+    const double late_s = effect.time_constant_s + effect.delay_s;
+    const auto poles_of = [](const effects::CompassLag& lag) {
+      return lag.time_constant_s > 0.0 ? lag.poles : 0.0;
+    };
+    std::vector<effects::CompassLag> all;
+    for (const effects::CompassLag& form :
+         {effects::CompassLag{.time_constant_s = late_s, .poles = 1.0},
+          effects::CompassLag{.time_constant_s = late_s, .poles = 2.0},
+          effects::CompassLag{.time_constant_s = late_s, .poles = 4.0},
+          effects::CompassLag{.time_constant_s = late_s, .of_field = 1.0},
+          effects::CompassLag{.time_constant_s = 0.0, .delay_s = late_s}}) {
+      if (poles_of(form) == poles_of(effect) && form.of_field == effect.of_field) continue;
+      all.push_back(form);
+      all.back().turns_alone = effect.turns_alone;
+    }
+    return all;
+  }
+
   static std::string why_not_assessable(const Conditions& c) {
     if (auto why = needs::heading(c); !why.empty()) return why;
     return needs::motion(c);

@@ -107,6 +107,28 @@ std::vector<Effect> CompassBench::in_likelier_form(std::vector<Effect> set) cons
   return in_other_form(std::move(set), static_cast<std::size_t>(lag - set.begin()));
 }
 
+std::vector<Effect> CompassBench::told_otherwise(const std::vector<Effect>& set) const {
+  const auto lag = std::find_if(set.begin(), set.end(), is_lag);
+  if (lag == set.end()) return set;
+  auto forms = cause_types().named(lag->id(), "effects").told_otherwise(*lag, conditions_);
+  forms.push_back(*lag);
+  auto rest = set;
+  rest.erase(rest.begin() + (lag - set.begin()));
+  auto best = set;
+  auto its_law = law_of(best);
+  for (const auto& form : forms)
+    for (std::size_t place = 0; place <= rest.size(); ++place) {
+      auto other = rest;
+      other.insert(other.begin() + static_cast<std::ptrdiff_t>(place), form);
+      other = polished(std::move(other));
+      if (const auto law = law_of(other); law.gain_on(its_law) > 0.0) {
+        best = std::move(other);
+        its_law = law;
+      }
+    }
+  return best;
+}
+
 double CompassBench::robust_score(const std::vector<Effect>& set) const {
   const auto slow = errors_.means_of(set);
   std::vector<double> squares;

@@ -30,6 +30,8 @@ class CompassBench {
   std::vector<Effect> polished(std::vector<Effect> set) const;
   /// The set itself where that is no likelier.
   std::vector<Effect> in_other_form(std::vector<Effect> set, std::size_t at) const;
+  /// With its lag through other poles or at another place, where that is likelier.
+  std::vector<Effect> told_otherwise(const std::vector<Effect>& set) const;
   /// Where iron and a lag are both there, what iron adds trails, too, or does not.
   std::vector<Effect> in_likelier_form(std::vector<Effect> set) const;
   /// Log-likelihood of all means, bursts or not, less what the set costs.

@@ -87,7 +87,8 @@ std::vector<Effect> CompassSearch::grown(std::vector<Effect> set, Bursts bursts)
         *best <= std::max(clear, bench_.log_gain_of_turning(likeliest)))
       break;
     clearest = std::max(clearest, *best);
-    set = likeliest;
+    // The lag had its form and place before what is there now was taken out.
+    set = bench_.told_otherwise(likeliest);
   }
   return set;
 }

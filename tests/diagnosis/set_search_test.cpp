@@ -475,6 +475,23 @@ TEST(SetSearch, IronBesideALagIsFoundInEitherForm) {
   }
 }
 
+/// A lag has its form and its place before the iron is known that it delays, and which one it is
+/// decides what iron is left: with others, two poles were one and a delay, and hard iron there, too.
+TEST(SetSearch, ALagIsToldAnewBesideTheIronThatItDelays) {
+  for (const double poles : {1.0, 2.0}) {
+    Scenario s = moving();
+    s.effects = {effects::SoftIron{3.0, 70.0},
+                 effects::CompassLag{.time_constant_s = 1.0, .poles = poles}};
+    const auto series = recorded(s, 25, true);
+    const Simulator simulator(series, 1);
+    const auto found = find_set(simulator, series, {});
+    std::set<std::string> names;
+    for (const auto& member : found.members) names.insert(member.effect);
+    EXPECT_EQ(names, (std::set<std::string>{"compass_lag", "soft_iron"})) << poles;
+    EXPECT_NEAR(found.scenario.compass.noise_std_deg, 0.3, 5.0 * 0.3 / 200.0) << poles;
+  }
+}
+
 /// Iron of an eighth of the noise, which gains a thousandth of what the delay does: beside it
 /// nothing of the motion is left.
 TEST(SetSearch, FaintIronBesideADelayIsFound) {
