@@ -46,9 +46,10 @@ double equal_by_chance(const std::vector<double>& differences, double step) {
 }
 
 /// Pairs of samples between which the reference moves by more than rounding and noise could undo,
-/// how many of them do not move as far, and how many are equal.
+/// how many of them do not move as far, and how many are equal, or would be by chance: outliers
+/// fall back on the value before as often as on each beside it.
 struct Apart {
-  double pairs = 0.0, still = 0.0, equal = 0.0;
+  double pairs = 0.0, still = 0.0, equal = 0.0, by_chance = 0.0;
   double far_dps = 0.0;  ///< what neither undoes
   /// Where the gyro only lags, they stand still without being equal.
   bool shows_repeats() const {
@@ -57,7 +58,7 @@ struct Apart {
   }
 };
 Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<double>& z,
-                           const Marks& marks) {
+                           const Marks& marks, double resolution_dps) {
   const auto& reference = conditions.series().rate_ref_dps;
   Apart apart;
   if (reference.empty()) return apart;
@@ -90,6 +91,8 @@ Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<doubl
     apart.still += std::abs(step) <= far ? 1.0 : 0.0;
     apart.equal += step == 0.0 ? 1.0 : 0.0;
   });
+  if (const double grid = marks.lsb_dps > 0.0 ? marks.lsb_dps : resolution_dps; grid > 0.0)
+    apart.by_chance = (apart.still - apart.equal) / (2.0 * std::max(1.0, std::floor(far / grid)));
   return apart;
 }
 
@@ -149,11 +152,12 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
   double beyond = equal - by_chance;
   // So many pairs say that there are none, too.
   constexpr double enough_pairs = 1000.0;
-  const auto apart = kept_apart_by_motion(simulator.conditions(), z, marks);
+  const auto apart =
+      kept_apart_by_motion(simulator.conditions(), z, marks, simulator.resolution_dps());
   if (apart.pairs >= enough_pairs || apart.shows_repeats()) {
     marks.turns_through_grid = apart.pairs > 0.5 * count;
-    beyond = apart.equal / apart.pairs * count;
-    by_chance = 0.0;
+    by_chance = apart.by_chance / apart.pairs * count;
+    beyond = apart.equal / apart.pairs * count - by_chance;
   }
   if (beyond < clear * std::sqrt(by_chance + 1.0) + 0.1 * by_chance || beyond < least_share * count)
     return;

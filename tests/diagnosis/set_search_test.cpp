@@ -476,7 +476,8 @@ TEST(SetSearch, IronBesideALagIsFoundInEitherForm) {
 }
 
 /// A lag has its form and its place before the iron is known that it delays, and which one it is
-/// decides what iron is left: with others, two poles were one and a delay, and hard iron there, too.
+/// decides what iron is left: with others, two poles were one and a delay, and hard iron there,
+/// too.
 TEST(SetSearch, ALagIsToldAnewBesideTheIronThatItDelays) {
   for (const double poles : {1.0, 2.0}) {
     Scenario s = moving();
@@ -516,6 +517,13 @@ TEST(SetSearch, RepeatsBesideACoarseGridColourNoNoise) {
   for (const auto& member : found.members) names.insert(member.effect);
   EXPECT_EQ(names, (std::set<std::string>{"quantization", "scale_factor", "stale_samples"}));
   EXPECT_NEAR(found.scenario.random_error.measurement_noise_std_dps, 0.05, 0.005);
+}
+
+/// Of 1,200 outliers on a grid some eighty fall on the value before, and as many on each beside it.
+TEST(SetSearch, OutliersThatFallOnTheValueBeforeAreNoRepeats) {
+  Scenario s = moving();
+  s.effects = {effects::Outliers{.probability = 0.05, .std_dps = 0.5}, effects::Quantization{0.1}};
+  EXPECT_EQ(found_in(recorded(s, 90, true)), (std::set<std::string>{"outliers", "quantization"}));
 }
 
 /// Noise that warms and heavy tails make as many neighbours on a coarse grid differ by two steps as
