@@ -18,18 +18,22 @@ bool is_compass(const CauseType& cause) { return cause.effect().stage() == Stage
 
 }  // namespace
 
-double SetSearcher::noise_on_grid(const Scenario& begun, const Marks& marks) const {
+double SetSearcher::noise_about_levels(const std::vector<double>& left) const {
   std::vector<double> of_blocks = {0.0};
-  const auto left = bench_.rate_left_by(begun, bench_.masked());
   for (const auto& [first, last] : level_blocks(conditions_)) {
     double squares = 0.0, count = 0.0;
     for (std::size_t i = first; i < last; ++i)
       if (!is_missing(left[i])) squares += left[i] * left[i], count += 1.0;
     if (count > 0.0) of_blocks.push_back(squares / count);
   }
+  return std::sqrt(quantile(of_blocks, 0.5));
+}
+
+double SetSearcher::noise_on_grid(const Scenario& begun, const Marks& marks) const {
   const bool at_rest = conditions_.series().rate_ref_dps.empty();
-  return std::max({white_with_rounding(begun), marks.noise_of_steps_dps,
-                   at_rest ? std::sqrt(quantile(of_blocks, 0.5)) : 0.0});
+  return std::max(
+      {white_with_rounding(begun), marks.noise_of_steps_dps,
+       at_rest ? noise_about_levels(bench_.rate_left_by(begun, bench_.masked())) : 0.0});
 }
 
 FoundSet SetSearcher::run() {
@@ -54,8 +58,10 @@ FoundSet SetSearcher::run() {
   const bool coarse = lsb_of_noise > coarsest && !marks.turns_through_grid;
   if (coarse)
     feigned_ = {.warmth = 1e300, .tails = 1e300};
-  else if (!marks.turns_through_grid)
+  else if (!marks.turns_through_grid) {
     feigned_ = feigned_by_grid(lsb_of_noise);
+    undithered_lsb_dps_ = marks.lsb_dps;
+  }
   if (coarse)
     std::erase_if(candidates_, [](const auto* cause) {
       const auto band = band_of(cause->id);

@@ -99,6 +99,8 @@ class SetSearcher {
   /// Samples within reach of the limit: there noise decides what is clipped, and what is left of it
   /// is no longer centred.
   std::vector<char> near_the_limit(const Marks& marks) const;
+  /// Of samples about the level of their block, rounding included: the median block's.
+  double noise_about_levels(const std::vector<double>& left) const;
   /// What a grid is held against, rounding included. Beside a motion that is not explained, a walk
   /// stands in for noise that steps from sample to sample show; beside noise that remembers, for
   /// noise that samples at rest show about their level.
@@ -148,6 +150,7 @@ class SetSearcher {
   /// Those that do not count for a response in time: it shows where the motion is least known.
   std::vector<char> hidden_from_response_;
   Tails tails_;
+  double undithered_lsb_dps_ = 0.0;  ///< of a grid that no motion turns through
   OfGrid feigned_;
   double feigned_colour_ = 0.0;  ///< feigned_by_repeats()
   bool has_outliers_ = false, has_warm_noise_ = false;

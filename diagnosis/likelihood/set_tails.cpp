@@ -84,6 +84,9 @@ void SetSearcher::judge_tails(const Standing& standing) {
       if (beside[i] != 0) left[i] = no_value;
   }
   tails_ = tails_of(conditions_, left, conditions_.has_temperature());
+  // The less noise is left beside the set, the more of it goes with the level.
+  if (undithered_lsb_dps_ > 0.0)
+    feigned_.warmth = feigned_by_grid(undithered_lsb_dps_ / noise_about_levels(left)).warmth;
   const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
   has_outliers_ = bench_.is_allowed("outliers") &&
                   tails_.outlier_gain > prior_of_sizes + 2.0 * value + 4.0 + feigned_.tails;
