@@ -1,6 +1,7 @@
 #include <gyrostat/diagnosis/gyro_response.hpp>
 
 #include <cassert>
+#include <utility>
 
 #include <gyrostat/core/step.hpp>
 
@@ -24,7 +25,7 @@ std::vector<double> GyroResponse::of(const std::vector<Effect>& effects) const {
   Series& series = work_.local();
   series.gyro_dps = prepared_.gyro_dps;
   apply_in_order(on_gyro, {}, series);
-  auto gyro = series.gyro_dps;
+  auto gyro = std::move(series.gyro_dps);
   for (const std::size_t i : gaps_) gyro[i] = no_value;
   return gyro;
 }

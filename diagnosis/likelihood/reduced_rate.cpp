@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gyrostat/analysis/spectra/welch.hpp>
 #include <gyrostat/core/step.hpp>
@@ -29,28 +30,30 @@ std::vector<double> smoothed(const Conditions& conditions, const std::vector<dou
       }
     local[static_cast<std::size_t>(k)] = number > 0.0 ? sum / number : 0.0;
   }
+  std::vector<char> goes_on(means.size(), 0);
+  for (std::size_t k = 0; k < means.size(); ++k)
+    goes_on[k] = part(k) == part(std::min(k + 1, means.size() - 1)) ? 1 : 0;
   std::vector<double> level(size);
+  std::size_t low = 0, own = 0;  // the mean before a sample, and that of its cluster
   for (std::size_t i = 0; i < size; ++i) {
     const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(cluster) - 0.5;
-    const auto low = static_cast<std::size_t>(
-        std::clamp(std::floor(at), 0.0, static_cast<double>(means.size() - 1)));
+    while (low + 1 < means.size() && at >= static_cast<double>(low + 1)) ++low;
+    while (own + 1 < means.size() && i >= (own + 1) * cluster) ++own;
     const std::size_t high = std::min(low + 1, means.size() - 1);
     const double share = std::clamp(at - static_cast<double>(low), 0.0, 1.0);
-    const std::size_t own = std::min(i / cluster, means.size() - 1);
-    level[i] =
-        part(low) == part(high) ? local[low] + share * (local[high] - local[low]) : local[own];
+    level[i] = goes_on[low] != 0 ? local[low] + share * (local[high] - local[low]) : local[own];
   }
   return level;
 }
 
 }  // namespace
 
-ReducedRate::ReducedRate(const Conditions& conditions, const std::vector<double>& error_dps,
+ReducedRate::ReducedRate(const Conditions& conditions, std::vector<double> error_dps,
                          std::shared_ptr<const RateGrid> grid)
     : grid_(std::move(grid)),
       cluster_s_(conditions.slow_interval_s()),
       is_beside_motion_(conditions.has_motion()) {
-  std::vector<double> values = error_dps;
+  std::vector<double> values = std::move(error_dps);
   const auto& masked = grid_->masked();
   for (std::size_t i = 0; i < values.size(); ++i)
     if (masked[i] != 0) values[i] = no_value;

@@ -13,7 +13,7 @@ namespace gyrostat::gap {
 class ReducedRate {
  public:
   /// `error_dps` is the gyro less the reference rate and whatever else is known, a value a sample.
-  ReducedRate(const Conditions& conditions, const std::vector<double>& error_dps,
+  ReducedRate(const Conditions& conditions, std::vector<double> error_dps,
               std::shared_ptr<const RateGrid> grid);
 
   struct Slow {

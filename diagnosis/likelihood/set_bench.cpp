@@ -110,15 +110,15 @@ std::vector<double> SetBench::rate_error_beside(const Scenario& scenario) const 
 
 std::shared_ptr<const SetFitter> SetBench::fitter_of(const Scenario& scenario) const {
   simulator_.interrupt().check();
-  const auto error = rate_error_beside(scenario);
+  auto error = rate_error_beside(scenario);
   // Likelihoods of other samples are not to be compared.
   constexpr double most_lost = 0.01;
   if (static_cast<double>(missing_in(error) - missing_) >
       most_lost * static_cast<double>(error.size()))
     return nullptr;
-  return std::make_shared<SetFitter>(conditions_,
-                                     std::make_shared<const ReducedRate>(conditions_, error, grid_),
-                                     simulator_.interrupt());
+  return std::make_shared<SetFitter>(
+      conditions_, std::make_shared<const ReducedRate>(conditions_, std::move(error), grid_),
+      simulator_.interrupt());
 }
 
 Standing SetBench::fitted(const Scenario& scenario, std::shared_ptr<const SetFitter> fitter,
