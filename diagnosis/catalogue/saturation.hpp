@@ -1,5 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/motion.hpp>
@@ -23,6 +30,7 @@ struct Diagnosed<effects::Saturation> {
       all.push_back(shaped(e, Trace::rate, effects::Saturation{.of_element = 1.0, .knee = knee},
                            &effects::Saturation::limit_dps, 0.05 * fastest_dps(e.conditions()),
                            1.02 * fastest_dps(e.conditions())));
+    all.push_back({.limit_dps = mean_of_fastest_dps(e), .of_element = 1.0});
     return all;
   }
 
@@ -30,6 +38,28 @@ struct Diagnosed<effects::Saturation> {
 
   static bool is_what_it_is_called(const effects::Saturation& /*effect*/, const Conditions& /*c*/) {
     return true;
+  }
+
+ private:
+  /// What is sensed of the fastest thousandth of the motion: the limit, where that cuts no more
+  /// than the ends of it.
+  static double mean_of_fastest_dps(const Evidence& e) {
+    const auto& rate = e.conditions().series().rate_ref_dps;
+    const auto& error = e.scene.rate_error_dps;
+    std::vector<std::pair<double, double>> of_rates;  // their size, and how far off they are sensed
+    for (const auto& span : e.conditions().spans(Part::train))
+      for (std::size_t i = span.first; i < span.last; ++i)
+        if (!is_missing(rate[i]) && !is_missing(error[i]))
+          of_rates.emplace_back(std::abs(rate[i]), std::copysign(1.0, rate[i]) * error[i]);
+    constexpr std::size_t fewest = 10;
+    const std::size_t count = std::max(fewest, of_rates.size() / 1000);
+    if (of_rates.size() < count) return fastest_dps(e.conditions());
+    std::partial_sort(of_rates.begin(), of_rates.begin() + static_cast<std::ptrdiff_t>(count),
+                      of_rates.end(), std::greater<>());
+    of_rates.resize(count);
+    double sensed = 0.0;
+    for (const auto& [size, off] : of_rates) sensed += size + off;
+    return sensed / static_cast<double>(count);
   }
 };
 

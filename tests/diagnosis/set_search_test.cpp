@@ -519,6 +519,16 @@ TEST(SetSearch, RepeatsBesideACoarseGridColourNoNoise) {
   EXPECT_NEAR(found.scenario.random_error.measurement_noise_std_dps, 0.05, 0.005);
 }
 
+/// Of the element, a tenth of a dps below the fastest rate: so near that it cuts or does not on
+/// neighbouring points of any grid of limits.
+TEST(SetSearch, ALimitJustBelowTheFastestRateIsFound) {
+  Scenario s = moving();
+  s.effects = {effects::ScaleAsymmetry{0.003},
+               effects::Saturation{.limit_dps = 79.9, .of_element = 1.0}};
+  EXPECT_EQ(found_in(recorded(s, 94, true)),
+            (std::set<std::string>{"saturation", "scale_asymmetry"}));
+}
+
 /// Of 1,200 outliers on a grid some eighty fall on the value before, and as many on each beside it.
 TEST(SetSearch, OutliersThatFallOnTheValueBeforeAreNoRepeats) {
   Scenario s = moving();
