@@ -47,7 +47,8 @@ double equal_by_chance(const std::vector<double>& differences, double step) {
 
 /// Pairs of samples between which the reference moves by more than rounding and noise could undo,
 /// how many of them do not move as far, and how many are equal, or would be by chance: outliers
-/// fall back on the value before as often as on each beside it.
+/// fall on the value before as they do on those on either side of it, where a filter that follows
+/// the motion falls on one side alone.
 struct Apart {
   double pairs = 0.0, still = 0.0, equal = 0.0, by_chance = 0.0;
   double far_dps = 0.0;  ///< what neither undoes
@@ -84,15 +85,19 @@ Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<doubl
   const double spread = std::max(quantile(std::move(errors), 0.5) / normal_quartile,
                                  std::numbers::sqrt2 * marks.white_under_grid_dps);
   const double far = apart.far_dps = marks.lsb_dps + beyond_noise * spread;
+  const double grid = marks.lsb_dps > 0.0 ? marks.lsb_dps : resolution_dps;
+  constexpr double beside = 2.0;  // steps
+  double back = 0.0, forth = 0.0;
   each([&](double value, double step, double turned) {
     // About zero, a dead zone may hold them together.
     if (std::abs(turned) <= far || std::abs(value) <= far) return;
     apart.pairs += 1.0;
     apart.still += std::abs(step) <= far ? 1.0 : 0.0;
     apart.equal += step == 0.0 ? 1.0 : 0.0;
+    if (step != 0.0 && std::abs(step) < (beside + 0.5) * grid)
+      (step * turned < 0.0 ? back : forth) += 1.0;
   });
-  if (const double grid = marks.lsb_dps > 0.0 ? marks.lsb_dps : resolution_dps; grid > 0.0)
-    apart.by_chance = (apart.still - apart.equal) / (2.0 * std::max(1.0, std::floor(far / grid)));
+  apart.by_chance = std::sqrt(back * forth) / beside;
   return apart;
 }
 
