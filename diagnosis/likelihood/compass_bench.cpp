@@ -11,6 +11,7 @@
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/heading_left.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
+#include <gyrostat/diagnosis/starts/quantile.hpp>
 #include <gyrostat/diagnosis/starts/signature.hpp>
 
 namespace gyrostat::gap {
@@ -131,11 +132,14 @@ std::vector<Effect> CompassBench::told_otherwise(const std::vector<Effect>& set)
 
 double CompassBench::robust_score(const std::vector<Effect>& set) const {
   const auto slow = errors_.means_of(set);
-  std::vector<double> squares;
+  std::vector<double> means, squares;
   for (const auto& span : conditions_.slow_spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i)
-      if (!is_missing(slow[i])) squares.push_back(slow[i] * slow[i]);
-  if (squares.empty()) return 0.0;
+      if (!is_missing(slow[i])) means.push_back(slow[i]);
+  if (means.empty()) return 0.0;
+  // The initial heading is that of no effect.
+  const double centre = quantile(means, 0.5);
+  for (const double mean : means) squares.push_back((mean - centre) * (mean - centre));
   // Student's law of three degrees of freedom, its scale by expectation-maximisation.
   constexpr double freedom = 3.0;
   const auto n = static_cast<double>(squares.size());

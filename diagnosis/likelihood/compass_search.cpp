@@ -135,6 +135,9 @@ std::vector<Member> CompassSearch::members_of(std::vector<Effect>& set) {
     const auto with = bench_.law_of(set);
     if (without_lag) bench_.shift_beside(rest);
     rest = bench_.polished(rest);
+    // What is told otherwise may do without it.
+    for (std::size_t other = 0; other < rest.size(); ++other)
+      rest = bench_.in_other_form(std::move(rest), other);
     if (without_lag) bench_.shift_beside(rest);
     const double odds = with.gain_on(bench_.law_of(rest)) - bench_.cost(set[k]);
     if (without_lag && odds > least) bench_.unshift();

@@ -491,6 +491,15 @@ TEST(SetSearch, ALagIsToldAnewBesideTheIronThatItDelays) {
   EXPECT_NEAR(found.scenario.compass.noise_std_deg, 0.3, 5.0 * 0.3 / 200.0);
 }
 
+/// On a table that rests in two directions the error beside iron of two degrees is centred
+/// elsewhere than beside none; about that of none, bursts at each turn were as likely.
+TEST(SetSearch, IronThatShowsInTurnsAloneIsNoBursts) {
+  Scenario s = moving();
+  s.motion = motion::RateTable{60.0, 24.0};
+  s.effects = {effects::HardIron{2.0, 39.0}};
+  EXPECT_EQ(found_in(recorded(s, 96, true)), (std::set<std::string>{"hard_iron"}));
+}
+
 /// Iron of an eighth of the noise, which gains a thousandth of what the delay does: beside it
 /// nothing of the motion is left.
 TEST(SetSearch, FaintIronBesideADelayIsFound) {
