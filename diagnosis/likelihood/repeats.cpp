@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/starts/motion.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
@@ -74,11 +75,12 @@ Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<doubl
       for (std::size_t i = span.first + 1 + around; i + around < span.last; ++i)
         if (!is_missing(z[i]) && !is_missing(z[i - 1]) && follows(i) &&
             (marks.limit_dps == 0.0 || std::abs(z[i]) < marks.limit_at(z[i])))
-          look(z[i], z[i] - z[i - 1], reference[i] - reference[i - 1]);
+          look(i, z[i] - z[i - 1], reference[i] - reference[i - 1]);
   };
   std::vector<double> errors;
-  each(
-      [&](double /*z*/, double step, double turned) { errors.push_back(std::abs(step - turned)); });
+  each([&](std::size_t /*i*/, double step, double turned) {
+    errors.push_back(std::abs(step - turned));
+  });
   if (errors.empty()) return apart;
   constexpr double beyond_noise = 5.0;
   // Most of a coarse grid's errors are 0, whatever the noise under it.
@@ -88,9 +90,11 @@ Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<doubl
   const double grid = marks.lsb_dps > 0.0 ? marks.lsb_dps : resolution_dps;
   constexpr double beside = 2.0;  // steps
   double back = 0.0, forth = 0.0;
-  each([&](double value, double step, double turned) {
+  const double widest_zone_dps = 0.5 * fastest_dps(conditions);
+  each([&](std::size_t i, double step, double turned) {
     // About zero, a dead zone may hold them together.
-    if (std::abs(turned) <= far || std::abs(value) <= far) return;
+    const bool may_be_held = std::abs(z[i]) <= far && std::abs(reference[i]) <= widest_zone_dps;
+    if (std::abs(turned) <= far || may_be_held) return;
     apart.pairs += 1.0;
     apart.still += std::abs(step) <= far ? 1.0 : 0.0;
     apart.equal += step == 0.0 ? 1.0 : 0.0;

@@ -91,6 +91,23 @@ TEST(Marks, AGyroThatLagsRepeatsNothing) {
   EXPECT_EQ(marks_in(series).stale_probability, 0.0);
 }
 
+/// A zone that holds the output at rest is no wider than half of the fastest rate: what is still at
+/// rest where the table turns already is repeated.
+TEST(Marks, ARestThatIsReadBesideAFastTurnIsRepeated) {
+  Scenario s = turning_on_a_grid();
+  s.motion = motion::RateTable{60.0, 24.0};
+  Series series = recorded(s, 47, true);
+  std::vector<std::size_t> repeated;
+  for (std::size_t i = 1; i < series.size(); ++i)
+    if (series.rate_ref_dps[i - 1] == 0.0 && std::abs(series.rate_ref_dps[i]) > 30.0) {
+      series.gyro_dps[i] = series.gyro_dps[i - 1];
+      repeated.push_back(i);
+    }
+  const auto marks = marks_in(series);
+  ASSERT_GT(marks.stale_probability, 0.0);
+  for (const std::size_t i : repeated) EXPECT_TRUE(marks.repeats[i]) << i;
+}
+
 /// Ramps of 60 dps and rests; the sensor follows with a pole of eight samples. At the start of a
 /// ramp it has not moved yet, and equals by chance; repeated it is only where it moves.
 TEST(Marks, AFilterThatHasNotBegunToMoveRepeatsNothing) {
