@@ -110,7 +110,8 @@ std::vector<Effect> CompassBench::in_likelier_form(std::vector<Effect> set) cons
 
 std::vector<Effect> CompassBench::told_otherwise(const std::vector<Effect>& set) const {
   const auto lag = std::find_if(set.begin(), set.end(), is_lag);
-  if (lag == set.end()) return set;
+  // Alone, it was begun in each form.
+  if (lag == set.end() || set.size() == 1) return set;
   auto forms = cause_types().named(lag->id(), "effects").told_otherwise(*lag, conditions_);
   forms.push_back(*lag);
   auto rest = set;
