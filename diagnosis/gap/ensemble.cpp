@@ -40,6 +40,16 @@ Moments moments(const std::vector<double>& values, std::size_t left_out) {
   return {mean, std::max(square / (count - 1.0), 1e-12)};
 }
 
+/// Of chi-squared whose logarithm has this variance: trigamma(d / 2), by its first two terms.
+double degrees_of(double variance_of_log) {
+  return (1.0 + std::sqrt(1.0 + 2.0 * variance_of_log)) / variance_of_log;
+}
+
+/// That log(chi-squared / degrees) lies so far below its mean or more.
+double lower_tail_of_log(double below, double degrees) {
+  return chi_squared_cdf(2.0 * std::exp(digamma(0.5 * degrees) - below), degrees);
+}
+
 }  // namespace
 
 Ensemble::Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas,
@@ -106,7 +116,9 @@ Ensemble::Ensemble(const Instrument& instrument, const Eigen::MatrixXd& replicas
       const auto square = moments(squares[l], static_cast<std::size_t>(replica));
       const auto peak = moments(peaks[l], static_cast<std::size_t>(replica));
       const double width = std::sqrt(6.0 * peak.variance) / std::numbers::pi;
-      tails.push_back({square.mean, std::sqrt(square.variance + 0.01),
+      const double variance = square.variance + 0.01;
+      tails.push_back({square.mean, std::sqrt(variance),
+                       std::min(degrees_of(variance), static_cast<double>(lenses_[l].count)),
                        peak.mean - std::numbers::egamma * width, width});
     }
     return tails;
@@ -157,8 +169,10 @@ double Ensemble::least_probability(const Eigen::VectorXd& z, const std::vector<T
   double least = 1.0;
   for (std::size_t l = 0; l < lenses_.size(); ++l) {
     const auto& tail = tails[l];
-    const double off = (std::log(mean_square(z, lenses_[l])) - tail.centre) / tail.spread;
-    least = std::min(least, std::erfc(std::abs(off) / std::numbers::sqrt2));
+    const double off = std::log(mean_square(z, lenses_[l])) - tail.centre;
+    const double beyond =
+        off > 0.0 ? normal_upper_tail(off / tail.spread) : lower_tail_of_log(-off, tail.degrees);
+    least = std::min(least, 2.0 * beyond);
     least = std::min(least,
                      -std::expm1(-std::exp((tail.location - largest(z, lenses_[l])) / tail.width)));
   }

@@ -37,8 +37,9 @@ class Ensemble {
   /// How far the mean square deviation in each lens lies from a replica's, in spreads of its
   /// logarithm; negative where a lens sees less variety than the simulator has.
   Eigen::VectorXd lens_deviations(const Eigen::VectorXd& deviations) const;
-  /// Probability of a replica as far off. Of each lens, the lens deviation and the largest
-  /// deviation are held against the other replicas' (normal and Gumbel by moments); the least of
+  /// Probability of a replica as far off. Of each lens, the mean square deviation and the largest
+  /// deviation are held against the other replicas' (log-normal above, chi-squared of no more
+  /// degrees than readings below, and Gumbel, by moments); the least of
   /// these probabilities is ranked among the replicas' own least ones, and beyond them goes on in
   /// proportion.
   double p_value(const Eigen::VectorXd& readings) const;
@@ -49,7 +50,7 @@ class Ensemble {
 
  private:
   struct Tail {
-    double centre, spread, location, width;
+    double centre, spread, degrees, location, width;
   };
   /// What a column of readings lacks of the credited spread, drawn.
   Eigen::VectorXd made_up(std::uint64_t column) const;

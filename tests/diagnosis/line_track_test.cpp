@@ -2,6 +2,7 @@
 
 #include <gyrostat/diagnosis/likelihood/line_track.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <gyrostat/diagnosis/likelihood/frequency_track.hpp>
+#include <gyrostat/diagnosis/likelihood/line_shape.hpp>
 #include <gyrostat/generators/effects/vibration.hpp>
 #include <gyrostat/tests/diagnosis/known_recordings.hpp>
 
@@ -106,6 +108,27 @@ TEST(LineTrack, NoiseOfABandIsNoLine) {
     called +=
         over_band(effects::Vibration{amplitude_dps / std::numbers::sqrt2, 6.0, 1.2}, k) > clear;
   EXPECT_LE(called, 3);
+}
+
+/// Where a band lies by zero or by half the rate, too, white noise has the envelope of noise. Two
+/// forms of three blocks have a chance of some exp(-4) each to be clear: of 30 draws more than
+/// eight are expected once in 200 tests.
+TEST(LineShape, NoiseIsNoBurstsWhereverItsBandLies) {
+  int called = 0;
+  for (int k = 0; k < 10; ++k) {
+    Series series;
+    const NormalStream noise(static_cast<std::uint64_t>(k), 0, "white");
+    for (std::size_t i = 0; i < 24000; ++i) {
+      series.t_s.push_back(0.05 * static_cast<double>(i));
+      series.gyro_dps.push_back(noise_dps * noise.normal(i));
+    }
+    const Conditions conditions(series);
+    for (const double centre_hz : {0.54, 5.0, 9.46}) {
+      const auto shape = line_shape(conditions, series.gyro_dps, {4e-5, centre_hz, 0.27});
+      called += std::max(shape.bursts, shape.wandering) > clear ? 1 : 0;
+    }
+  }
+  EXPECT_LE(called, 8);
 }
 
 /// The line has 24000 * 0.75 * 0.02^2 / (4 * 0.05^2) = 720 nats, were its track known.

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include <gyrostat/analysis/spectra/welch.hpp>
+#include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/analysis/statistics/proportion.hpp>
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/random.hpp>
@@ -244,6 +245,31 @@ TEST(Ensemble, CreditsAReadingThatNeverVariesWithItsLeastSpread) {
   EXPECT_GE(ensemble.p_value(recording), 0.5 * typical);
   recording[lattice->first] += 100.0 * lattice->least_spread;
   EXPECT_LT(ensemble.p_value(recording), 1e-3);
+}
+
+/// A lens of eight readings that lie so near to the mean as one replica in 100,000: it is said, and
+/// not with a probability of 1e-8, which the left tail of a logarithm's normal law has there.
+TEST(Ensemble, ReadingsNearTheMeanAreAsOddAsChiSquaredHasIt) {
+  const Conditions conditions(rich());
+  const Instrument instrument(conditions, Part::train);
+  constexpr Eigen::Index replicas = 32;
+  Eigen::MatrixXd readings(instrument.size(), replicas + 1);
+  for (Eigen::Index k = 0; k <= replicas; ++k) {
+    const auto noise = white(static_cast<std::size_t>(instrument.size()), std::to_string(k));
+    readings.col(k) = Eigen::Map<const Eigen::VectorXd>(noise.data(), instrument.size());
+  }
+  const auto& lenses = instrument.lenses();
+  const auto eight =
+      std::find_if(lenses.begin(), lenses.end(), [](const auto& lens) { return lens.count == 8; });
+  ASSERT_NE(eight, lenses.end());
+  const Ensemble ensemble(instrument, readings.leftCols(replicas), {});
+  Eigen::VectorXd recording = readings.col(replicas);
+  constexpr double odd = 1e-5;
+  recording.segment(eight->first, 8) = ensemble.mean().segment(eight->first, 8);
+  recording.segment(eight->first, 8) +=
+      std::sqrt(chi_squared_quantile(odd, 8.0) / 8.0) * ensemble.spread().segment(eight->first, 8);
+  EXPECT_GT(ensemble.p_value(recording), odd);
+  EXPECT_LT(ensemble.p_value(recording), 0.01);
 }
 
 /// A hundred samples of ten times the noise are outliers where they are scattered, and none where
