@@ -8,8 +8,8 @@
 
 namespace gyrostat::gap {
 
-/// The slow rate follows the mean square of the vibration, at once, as it is averaged or from
-/// change to change: a start of its own each.
+/// The slow rate follows the mean square of the vibration, at once, as it is averaged, behind or
+/// about each sample, or from change to change: a start of its own each.
 template <>
 struct Diagnosed<effects::VibrationRectification> {
   static constexpr auto signature = Signature::slow;
@@ -24,6 +24,8 @@ struct Diagnosed<effects::VibrationRectification> {
     std::vector<effects::VibrationRectification> all;
     for (const double averaged_s : {0.1, 0.5, 1.0, 2.0, 4.0, 8.0})
       all.push_back({1.0, std::max(averaged_s, least_s)});
+    for (const double averaged_s : {0.1, 0.2, 0.5, 1.0})
+      all.push_back({1.0, std::max(averaged_s, least_s), 0.0, 1.0});
     for (const double averaged_s : {0.1, 2.0})
       all.push_back({1.0, std::max(averaged_s, least_s), 1.0});
     return all;

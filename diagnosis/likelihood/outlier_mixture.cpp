@@ -11,6 +11,7 @@ namespace {
 
 constexpr double least_share = 1e-6, most_share = 0.5;
 constexpr double most_of_all = 0.75;  ///< the narrow one has the rest
+constexpr std::size_t most_wide = 5;
 
 /// Of a component about +size or -size, but for a constant.
 double log_density(double square, double variance, double size) {
@@ -73,7 +74,7 @@ bool improve(OutlierMixture& m, const std::vector<Alike>& alike) {
   std::vector<Sums> sums(m.wide.size());
   Sums narrow;
   for (const auto& [square, count] : alike) {
-    std::array<double, 2> logs{};
+    std::array<double, most_wide> logs{};
     const double of_narrow = log_narrow(m, square);
     double log_sum = of_narrow;
     for (std::size_t k = 0; k < m.wide.size(); ++k)
@@ -156,6 +157,16 @@ OutlierMixture outlier_mixture(const std::vector<double>& squares, double narrow
     consider({{std::min(most_share, common * plain.share), plain.variance / common},
               {std::max(0.05 * plain.share, 3.0 / n), 4.0 * plain.variance}},
              2.0);
+  // Tails that go on as a power do are as many as they have decades of chances.
+  for (std::size_t known = 0; known != best.wide.size() && best.wide.size() < most_wide;) {
+    known = best.wide.size();
+    auto wide = best.wide;
+    const auto last = *std::max_element(wide.begin(), wide.end(), [](const auto& a, const auto& b) {
+      return a.variance < b.variance;
+    });
+    wide.push_back({std::max(0.05 * last.share, 3.0 / n), 4.0 * last.variance});
+    if (known > 1) consider(std::move(wide), 2.0 * static_cast<double>(known));
+  }
   return best;
 }
 

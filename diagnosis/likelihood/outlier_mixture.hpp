@@ -4,7 +4,7 @@
 
 namespace gyrostat::gap {
 
-/// Squares of a narrow normal component and of one or two wide ones.
+/// Squares of a narrow normal component and of one to five wide ones.
 struct OutlierMixture {
   struct Wide {
     double share, variance;
@@ -21,7 +21,7 @@ struct OutlierMixture {
 };
 
 /// By expectation-maximisation (Dempster, Laird and Rubin, J. Roy. Stat. Soc. B 39, 1977), from a
-/// variance of the narrow one. About a size, or with a second wide one, where that gains more than
+/// variance of the narrow one. About a size, or with further wide ones, where that gains more than
 /// it costs.
 OutlierMixture outlier_mixture(const std::vector<double>& squares, double narrow);
 

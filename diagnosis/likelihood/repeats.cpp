@@ -170,10 +170,11 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
   }
   if (beyond < clear * std::sqrt(by_chance + 1.0) + 0.1 * by_chance || beyond < least_share * count)
     return;
-  // Of the repeats by chance, nearly none follow a repeat.
-  const double share = std::clamp(twice / std::max(equal, 1.0), 0.0, 0.95);
-  const double base = count > 0.0 ? equal / count : 0.0;
-  marks.stale_run = share > 1.5 * base ? 1.0 / (1.0 - share) : 1.0;
+  // Where a fresh sample follows each repeat, only those by chance stand beside others, by as much
+  // again as without repeats at the most.
+  const double follow = twice / std::max(equal, 1.0);
+  const double chance = std::max(0.0, equal - beyond) / std::max(count, 1.0);
+  marks.stale_run = follow > 2.0 * chance ? 1.0 / (1.0 - std::min(follow - chance, 0.95)) : 1.0;
   const double repeated = std::clamp(beyond / count, 1e-6, 0.99);
   marks.stale_probability = std::min(1.0, repeated / (marks.stale_run * (1.0 - repeated)));
   marks.repeats.assign(z.size(), 0);

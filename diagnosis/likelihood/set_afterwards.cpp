@@ -34,7 +34,7 @@ Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::st
       if (effect.stage() != Stage::compass) effect = *fitted++;
   }
   some.random_error = fit.scenario.random_error;
-  if (is_in("outliers")) take_out_outliers(some.random_error);
+  leave_to_tails(some, some.random_error);
   if (white_under_grid_dps_ && is_in("quantization"))
     some.random_error.measurement_noise_std_dps = *white_under_grid_dps_;
   return some;
@@ -48,9 +48,8 @@ std::vector<Nameless> SetSearcher::nameless_beside(const Scenario& set) const {
     parts.insert(parts.begin(),
                  {*response_, "a response to the motion without a name, within four samples",
                   end_->scenario.random_error});
-  if (has(set, "outliers"))
-    for (auto& part : parts)
-      if (part.beside) take_out_outliers(*part.beside);
+  for (auto& part : parts)
+    if (part.beside) leave_to_tails(set, *part.beside);
   return parts;
 }
 

@@ -134,8 +134,9 @@ class SetSearcher {
   /// What the innovations say of outliers and of noise over temperature, beside the set.
   void judge_tails(const Standing& standing);
   void add_tails(FoundSet& found) const;
-  /// Of noise fitted to samples that are not far off: without the outliers among them.
-  void take_out_outliers(Arima111<double>& fitted) const;
+  /// Of noise fitted to samples that are not far off, at all temperatures: without the outliers
+  /// among them, and as it is at the reference temperature, where `set` has these effects.
+  void leave_to_tails(const Scenario& set, Arima111<double>& fitted) const;
   void add_nameless_tails(FoundSet& found) const;
   /// The set, and what only the sizes of innovations say, in turn.
   Standing searched_beside_tails(Standing standing);

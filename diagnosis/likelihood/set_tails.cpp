@@ -135,20 +135,26 @@ Standing SetSearcher::searched_beside_tails(Standing standing) {
   return standing;
 }
 
-void SetSearcher::take_out_outliers(Arima111<double>& fitted) const {
-  fitted.measurement_noise_std_dps *= tails_.quiet;
+void SetSearcher::leave_to_tails(const Scenario& set, Arima111<double>& fitted) const {
+  double& deviation = fitted.measurement_noise_std_dps;
+  if (has(set, "outliers")) deviation *= tails_.quiet;
+  if (!has(set, "noise_temperature")) return;
+  // The error of rounding stays as it is.
+  const auto law = law_of(set, conditions_.interval_s());
+  const double rounding = law.white > 0.0 ? law.rounding / law.white : 0.0;
+  const double at_reference = (1.0 + rounding) / tails_.mean_square_of_warmth - rounding;
+  deviation *= std::sqrt(std::max(0.0, at_reference));
 }
 
 void SetSearcher::add_tails(FoundSet& found) const {
+  const auto law = law_of(found.scenario, conditions_.interval_s());
   if (has_outliers_) {
-    take_out_outliers(found.scenario.random_error);
     for (const auto& population : tails_.populations)
       found.scenario.effects.emplace_back(population);
     found.members.push_back({"outliers", tails_.outlier_gain - feigned_.tails - 10.0});
   }
   if (has_warm_noise_) {
     // The error of rounding stays as it is.
-    const auto law = law_of(found.scenario, conditions_.interval_s());
     const double of_what_warms = law.white > 0.0 ? 1.0 + law.rounding / law.white : 1.0;
     found.scenario.effects.push_back(with_values(
         "noise_temperature", {{"relative_per_C", tails_.noise_per_C * of_what_warms},
@@ -156,6 +162,7 @@ void SetSearcher::add_tails(FoundSet& found) const {
                               {"curvature_per_C2", tails_.noise_per_C2 * of_what_warms}}));
     found.members.push_back({"noise_temperature", tails_.temperature_gain - feigned_.warmth - 8.0});
   }
+  leave_to_tails(found.scenario, found.scenario.random_error);
 }
 
 }  // namespace gyrostat::gap

@@ -136,6 +136,8 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
     tails.noise_per_C = warm.slope;
     tails.noise_per_C2 = warm.curvature;
     tails.temperature_gain = std::max(0.0, warm.gain);
+    tails.mean_square_of_warmth = 0.0;
+    for (const double o : off) tails.mean_square_of_warmth += std::pow(warm.gain_at(o), 2) / n;
     // What does not show does not scale the others.
     if (tails.temperature_gain >= 7.0)
       std::transform(off.begin(), off.end(), relative.begin(),

@@ -12,7 +12,8 @@ struct Tails {
   std::vector<effects::Outliers> populations;  ///< of outliers
   double outlier_gain = 0.0;                   ///< log-likelihood beyond normal innovations
   double noise_per_C = 0.0, noise_per_C2 = 0.0, reference_C = 0.0;
-  double temperature_gain = 0.0;  ///< log-likelihood beyond even noise
+  double temperature_gain = 0.0;       ///< log-likelihood beyond even noise
+  double mean_square_of_warmth = 1.0;  ///< of the size relative to that at the reference
   std::vector<char> outliers;     ///< a flag a sample, of all samples: far off
   double quiet = 1.0;  ///< of the deviation of samples without a flag, what is no outliers'
 };

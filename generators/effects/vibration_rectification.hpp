@@ -17,12 +17,14 @@ namespace gyrostat::effects {
 /// rate): + coefficient times the mean square of what the
 /// specific force deviates by from its own mean, of all three axes together. Both means forget with
 /// the time constant; so gravity, and turning it slowly, count for nothing. Or the mean square is
+/// centred: it looks ahead as far as back, for the bias does not wait for a mean. Or it is
 /// that of the stretch between two changes of the vibration: what squares tell of its strength is
 /// noisy, and the vibration of a machine keeps to a strength until it is set to another.
 struct VibrationRectification {
   double coefficient_dps_per_m2ps4 = 0.01;
   double time_constant_s = 2.0;
   double between_its_changes = 0.0;
+  double centred = 0.0;
 
   static constexpr std::string_view title = "the bias depends on the strength of vibration";
   static constexpr Stage stage = Stage::electronics;
@@ -39,6 +41,8 @@ struct VibrationRectification {
         Field{"between_its_changes", &P::between_its_changes, "1",
               Range{.from = 0, .to = 1, .whole = true},
               "1: the mean square is that of a stretch of even vibration"},
+        Field{"centred", &P::centred, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: the mean square looks ahead as far as back"},
     };
   }
 
@@ -62,6 +66,11 @@ struct VibrationRectification {
       averaged = square + kept * (averaged - square);
       squares[i] = between_its_changes > 0.5 ? square : averaged;
     }
+    if (centred > 0.5)
+      for (std::size_t i = squares.size(); i-- > 1;) {
+        const double kept = decay(series.t_s, i);
+        squares[i - 1] += kept * (squares[i] - squares[i - 1]);
+      }
     if (between_its_changes < 0.5 || squares.size() < 2) return squares;
     const double interval_s =
         (series.t_s[squares.size() - 1] - series.t_s[0]) / static_cast<double>(squares.size() - 1);

@@ -129,6 +129,24 @@ TEST(Marks, AFilterThatHasNotBegunToMoveRepeatsNothing) {
   }
 }
 
+/// Each sample is the one before with a chance of 0.15, whatever that was: of the repeats as many
+/// follow a repeat, and where a fresh one follows each, none.
+TEST(Marks, RepeatsMayFollowOneAnother) {
+  constexpr double share = 0.15;
+  Series series = recorded(moving(), 44, true), even = series;
+  const NormalStream chance(44, 0, "chance");
+  for (std::size_t i = 1; i < series.size(); ++i)
+    if (chance.uniform(i) < share) series.gyro_dps[i] = series.gyro_dps[i - 1];
+  const auto marks = marks_in(series);
+  // 18000 samples of the part that is read, 2700 of them repeats: 5 standard errors.
+  EXPECT_NEAR(marks.stale_run, 1.0 / (1.0 - share),
+              5.0 * std::sqrt(share / 2700.0) / std::pow(1.0 - share, 1.5));
+  const double repeated = marks.stale_probability * marks.stale_run;
+  EXPECT_NEAR(repeated / (1.0 + repeated), share, 5.0 * std::sqrt(share / 18000.0));
+  effects::StaleSamples{share, 1.0}.apply(even, {1, 0});
+  EXPECT_LT(marks_in(even).stale_run, 1.01);
+}
+
 /// A sensor whose clock is slower than the recorder's: a repeat each 1 / p + 1 samples, and between
 /// them no two samples are 16 away from any. By chance, distances spread as far as their mean: of
 /// hundreds, never a third of it.

@@ -68,6 +68,29 @@ TEST(OutlierMixture, OfOneWideOneHasNoSecond) {
   EXPECT_NEAR(found.wide[0].share, 0.01, 5.0 * 1.5 * std::sqrt(0.01 / samples));
 }
 
+/// Student's law of three degrees of freedom, whose tails go on as a power: as many normal ones as
+/// its decades have samples for are as likely as itself, to what a value costs.
+TEST(OutlierMixture, OfTailsThatGoOnHasEnough) {
+  const NormalStream size(4, 0, "size");
+  constexpr double degrees = 3.0;
+  std::vector<double> squares;
+  double likelihood = 0.0, sum = 0.0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    double chi_squared = 0.0;
+    for (std::uint64_t k = 1; k < 4; ++k) chi_squared += std::pow(size.normal(4 * i + k), 2);
+    squares.push_back(std::pow(size.normal(4 * i), 2) * degrees / chi_squared);
+    sum += squares.back();
+    likelihood -= 0.5 * (degrees + 1.0) * std::log1p(squares.back() / degrees);
+  }
+  constexpr auto n = static_cast<double>(samples);
+  const double normalised = std::lgamma(0.5 * (degrees + 1.0)) - std::lgamma(0.5 * degrees) -
+                            0.5 * std::log(0.5 * degrees);
+  const double gain_of_student = likelihood + n * normalised + 0.5 * n * (std::log(sum / n) + 1.0);
+  const auto found = outlier_mixture(squares, 1.0);
+  EXPECT_GE(found.wide.size(), 3);
+  EXPECT_NEAR(gain_of(found, squares), gain_of_student, std::log(n));
+}
+
 /// What chance gives three values more: above 12 nats in one of 1e4.
 TEST(OutlierMixture, OfNormalValuesGainsNothing) {
   EXPECT_LT(outlier_mixture(squares_of({}, 3), 1.0).gain, 12.0);

@@ -467,6 +467,27 @@ TEST(VibrationRectification, OfAStepIsForgotten) {
     EXPECT_NEAR(bias[i], 0.5 * 4.0 * std::pow(k, i + 1) * (1.0 - std::pow(k, i)), 1e-12) << i;
 }
 
+/// The bias of ten seconds' shake is centred in time where the mean is, and a time constant later
+/// where it looks back alone; both are less what the mean of the vibration takes to settle.
+TEST(VibrationRectification, CentredWaitsForNothing) {
+  for (const double centred : {0.0, 1.0}) {
+    auto series = silent(even_times(1000, 10.0));
+    series.acc_x_mps2.assign(series.size(), 0.0);
+    series.acc_y_mps2.assign(series.size(), 0.0);
+    for (std::size_t i = 0; i < series.size(); ++i)
+      series.acc_z_mps2.push_back(9.8 + (i / 100 != 4 ? 0.0 : i % 2 == 0 ? 3.0 : -3.0));
+    effects::VibrationRectification{
+        .coefficient_dps_per_m2ps4 = 0.5, .time_constant_s = 2.0, .centred = centred}
+        .apply(series, {1, 0});
+    double sum = 0.0, moment = 0.0;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      sum += series.gyro_dps[i];
+      moment += series.t_s[i] * series.gyro_dps[i];
+    }
+    EXPECT_NEAR(moment / sum, 45.0 + (centred > 0.5 ? 0.0 : 2.0), 0.2) << centred;
+  }
+}
+
 /// Of two stretches, each in proportion to its own mean square from its first sample on.
 TEST(VibrationRectification, BetweenItsChangesKeepsToALevel) {
   auto series = silent(even_times(4000, 50.0));
