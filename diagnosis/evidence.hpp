@@ -17,6 +17,9 @@ struct Evidence {
   /// The rate under the baseline's effects, and the heading under none, without noise
   /// (take_undisturbed()).
   std::vector<double> rate_dps = {}, heading_deg = {};
+  /// Samples of the gyro that do not count, a flag each, or nothing: what is clipped or repeated
+  /// says another thing of the motion.
+  std::vector<char> hidden = {};
 
   const Conditions& conditions() const { return simulator.conditions(); }
 };

@@ -49,7 +49,8 @@ std::vector<double> smoothed(const Conditions& conditions, const std::vector<dou
 }  // namespace
 
 ReducedRate::ReducedRate(const Conditions& conditions, std::vector<double> error_dps,
-                         std::shared_ptr<const RateGrid> grid)
+                         std::shared_ptr<const RateGrid> grid,
+                         const std::vector<double>& of_means_dps)
     : grid_(std::move(grid)),
       cluster_s_(conditions.slow_interval_s()),
       is_beside_motion_(conditions.has_motion()) {
@@ -78,7 +79,8 @@ ReducedRate::ReducedRate(const Conditions& conditions, std::vector<double> error
         }
     slow.means.resize(static_cast<Eigen::Index>(slow.points.size()));
     for (std::size_t k = 0; k < slow.points.size(); ++k)
-      slow.means[static_cast<Eigen::Index>(k)] = means[slow.points[k]];
+      slow.means[static_cast<Eigen::Index>(k)] =
+          means[slow.points[k]] + (of_means_dps.empty() ? 0.0 : of_means_dps[slow.points[k]]);
   }
   if (points > 0.0) noise_of_means_ = inverse_shares / points;
   if (grid_->hides_any()) {

@@ -13,8 +13,9 @@ namespace gyrostat::gap {
 class ReducedRate {
  public:
   /// `error_dps` is the gyro less the reference rate and whatever else is known, a value a sample.
+  /// Means of clusters have `of_means_dps` besides, a value each, or nothing.
   ReducedRate(const Conditions& conditions, std::vector<double> error_dps,
-              std::shared_ptr<const RateGrid> grid);
+              std::shared_ptr<const RateGrid> grid, const std::vector<double>& of_means_dps = {});
 
   struct Slow {
     std::vector<std::size_t> points;  ///< clusters, rising

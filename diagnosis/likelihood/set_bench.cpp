@@ -32,6 +32,11 @@ bool is_taken_out(const Effect& effect) {
          effect.stage() != Stage::compass;
 }
 
+bool feels_acceleration(const Effect& effect) {
+  const auto needs = effect.type().needs;
+  return std::find(needs.begin(), needs.end(), &Series::acc_x_mps2) != needs.end();
+}
+
 SetBench::SetBench(const Simulator& simulator, const Series& recording,
                    std::vector<std::string> without)
     : simulator_(simulator),
@@ -76,11 +81,22 @@ Scenario SetBench::plain() const {
   return s;
 }
 
+std::vector<double> SetBench::felt_under(const Scenario& scenario) const {
+  std::vector<Effect> felt;
+  for (const auto& effect : scenario.effects)
+    if (feels_acceleration(effect)) felt.push_back(effect);
+  if (felt.empty()) return {};
+  auto rate = simulator_.response().of(felt);
+  const auto& still = simulator_.response().still();
+  for (std::size_t i = 0; i < rate.size(); ++i) rate[i] -= still[i];
+  return rate;
+}
+
 std::vector<double> SetBench::gyro_beside(const Scenario& scenario) const {
   auto gyro = recording_.gyro_dps;
   std::vector<Effect> taken_out;
   for (const auto& effect : scenario.effects)
-    if (is_taken_out(effect)) taken_out.push_back(effect);
+    if (is_taken_out(effect) || feels_acceleration(effect)) taken_out.push_back(effect);
   if (response_) taken_out.push_back(*response_);
   if (taken_out.empty()) return gyro;
   const auto with = simulator_.response().of(taken_out);
@@ -116,8 +132,15 @@ std::shared_ptr<const SetFitter> SetBench::fitter_of(const Scenario& scenario) c
   if (static_cast<double>(missing_in(error) - missing_) >
       most_lost * static_cast<double>(error.size()))
     return nullptr;
+  // What an acceleration does is fitted to means of clusters, from which it is not taken out.
+  auto felt = felt_under(scenario);
+  for (std::size_t i = 0; i < felt.size(); ++i)
+    if (masked()[i] != 0) felt[i] = no_value;
   return std::make_shared<SetFitter>(
-      conditions_, std::make_shared<const ReducedRate>(conditions_, std::move(error), grid_),
+      conditions_,
+      std::make_shared<const ReducedRate>(
+          conditions_, std::move(error), grid_,
+          felt.empty() ? std::vector<double>{} : conditions_.slow_means(felt)),
       simulator_.interrupt());
 }
 
@@ -137,7 +160,11 @@ Evidence SetBench::evidence_of(const Standing& standing) const {
   Series left = recording_;
   left.gyro_dps = gyro_beside(standing.scenario);
   Evidence evidence{simulator_, recording_, Scene(conditions_, left), standing.scenario};
-  evidence.level_gain = level_gain_of(conditions_, evidence.scene.rate_error_dps);
+  evidence.hidden = masked();
+  auto counted = evidence.scene.rate_error_dps;
+  for (std::size_t i = 0; i < counted.size(); ++i)
+    if (evidence.hidden[i] != 0) counted[i] = no_value;
+  evidence.level_gain = level_gain_of(conditions_, counted);
   // A further effect sees the rate as those have it sensed.
   std::erase_if(evidence.baseline.effects, [](const auto& e) { return !e.is_response(); });
   if (response_) evidence.baseline.effects.push_back(*response_);

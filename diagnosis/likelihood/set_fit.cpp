@@ -111,9 +111,16 @@ SetFitter::Regressors SetFitter::regressors_of(const Scenario& scenario) const {
         column = Eigen::Map<const Eigen::VectorXd>(with.gyro_dps.data(), column.size());
       }
       // In units of its own spread, so that one prior holds for all.
+      const double largest = column.cwiseAbs().maxCoeff();
       column.array() -= column.mean();
-      const double spread = std::sqrt(column.squaredNorm() / static_cast<double>(column.size()));
-      column /= std::max(spread, 1e-300);
+      double spread = std::sqrt(column.squaredNorm() / static_cast<double>(column.size()));
+      constexpr double rounding = 1e-12;
+      if (!(spread > rounding * largest)) {
+        column.setZero();
+        spread = 0.0;
+      } else {
+        column /= spread;
+      }
       found.spreads.push_back(spread);
     }
   }
@@ -175,7 +182,9 @@ void SetFitter::take_coefficients(const RateTerms& terms, SetFit& fit) const {
     const auto* cause = cause_types().find(effect.id());
     if (cause == nullptr || cause->signature != Signature::slow) continue;
     for (const auto field : amplitudes_of(effect, *cause)) {
-      effect.value(field) = found[static_cast<Eigen::Index>(at)] / spreads[at];
+      // Of an axis along which nothing changes there is no size.
+      const double size = found[static_cast<Eigen::Index>(at)];
+      effect.value(field) = spreads[at] > 0.0 ? size / spreads[at] : 0.0;
       ++at;
     }
   }

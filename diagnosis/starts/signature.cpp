@@ -19,7 +19,8 @@ Eigen::VectorXd reduce(const Evidence& evidence, Trace trace, const std::vector<
   for (const auto& span : evidence.conditions().spans(Part::train)) {
     WalkingLevel level(evidence.level_gain);
     for (std::size_t i = span.first; i < span.last; ++i)
-      if (is_missing(values[i]))
+      if (is_missing(values[i]) ||
+          (trace == Trace::rate && !evidence.hidden.empty() && evidence.hidden[i] != 0))
         kept.push_back(0.0);
       else
         kept.push_back(trace == Trace::rate ? level.innovation(values[i]) : values[i]);

@@ -12,6 +12,7 @@
 
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 #include <gyrostat/generators/effects/list.hpp>
+#include <gyrostat/generators/environment/acceleration/list.hpp>
 #include <gyrostat/tests/diagnosis/known_recordings.hpp>
 
 namespace gyrostat::gap::set_search_test {
@@ -733,6 +734,30 @@ TEST(SetSearch, ALineThatIsThereForMinutesIsFound) {
     if (i % 60 < 20)
       series.gyro_dps[i] += 0.08 * std::sin(2.0 * std::numbers::pi * 6.3 * series.t_s[i]);
   EXPECT_EQ(found_in(series), std::set<std::string>{"vibration_bursts"});
+}
+
+/// A scale of its own each way, behind a limit that a third of the motion goes beyond: what is
+/// clipped says nothing of it.
+TEST(SetSearch, AnAsymmetryIsFoundBesideALimitThatIsReached) {
+  Scenario s = moving();
+  s.effects = {effects::ScaleAsymmetry{.error = 0.0175}, effects::Saturation{60.0}};
+  EXPECT_EQ(found_in(recorded(s, 52, true)),
+            (std::set<std::string>{"saturation", "scale_asymmetry"}));
+}
+
+/// What a shaker does to a gyro that feels acceleration is within a cluster of samples, too, and no
+/// line besides.
+TEST(SetSearch, AShakerThatIsFeltIsNoVibration) {
+  Scenario s = still();
+  s.acceleration = acceleration::Shaking{.amplitude_mps2 = 5.0, .frequency_hz = 4.3};
+  s.effects = {effects::GSensitivity{.x_dps_per_mps2 = 0.0, .z_dps_per_mps2 = 0.02}};
+  Series series = recorded(s, 53, false);
+  // And it stands on one edge, then on another.
+  for (std::size_t i = series.size() / 3; i < 2 * series.size() / 3; ++i) {
+    series.acc_z_mps2[i] -= 9.8;
+    series.gyro_dps[i] -= 9.8 * 0.02;
+  }
+  EXPECT_EQ(found_in(series), std::set<std::string>{"g_sensitivity"});
 }
 
 /// Noise that belongs in R is there, for quantised and for coloured sensors alike.
