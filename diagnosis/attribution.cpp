@@ -51,8 +51,9 @@ void Diagnosing::attribute() {
   }
   result_.enriched = with_drift(found_.scenario, recording_);
   // What lacks most without it comes first.
-  auto names = weighed(found_.members);
-  if (is_found_without_a_doubtful(names)) names = weighed(found_.members);
+  auto names = weighed(found_.members, "weighing each effect");
+  if (is_found_without_a_doubtful(names))
+    names = weighed(found_.members, "weighing each effect again");
   std::vector<std::size_t> order(names.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

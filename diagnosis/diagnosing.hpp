@@ -64,7 +64,7 @@ class Diagnosing {
   /// misses the recording, its likelihood is not the recording's, and an effect that is not clear
   /// and without which the readings of the train part are foretold as well is the form of another
   /// one: it goes.
-  std::vector<std::string> weighed(std::vector<Member> members);
+  std::vector<std::string> weighed(std::vector<Member> members, const std::string& phase);
   /// Whether the search without the least clear of these effects, and without its rivals, finds a
   /// set with which the simulator does not miss the recording, as it does with all of them: it then
   /// stands. The likelihood of the noise is Gaussian, and what is nearly as likely may have another

@@ -26,7 +26,8 @@ bool Diagnosing::is_missed_by(const Rung& rung) const {
   return enriched.p_value(observed_[0]) < thresholds::strictness_after * options_.significance;
 }
 
-std::vector<std::string> Diagnosing::weighed(std::vector<Member> members) {
+std::vector<std::string> Diagnosing::weighed(std::vector<Member> members,
+                                             const std::string& phase) {
   auto whole = rung({}, result_.enriched, lacking_replicas);
   for (;;) {
     std::vector<std::string> names;
@@ -36,7 +37,7 @@ std::vector<std::string> Diagnosing::weighed(std::vector<Member> members) {
     result_.effects.clear();
     held_out_without_.clear();
     for (const auto& m : members) {
-      tell("weighing each effect",
+      tell(phase,
            0.65 + 0.1 * static_cast<double>(result_.effects.size()) /
                       static_cast<double>(members.size()),
            m.effect);
@@ -90,7 +91,7 @@ bool Diagnosing::is_found_without_a_doubtful(const std::vector<std::string>& nam
   without.push_back(doubtful->effect);
   for (const auto& rival : found_.rivals)
     if (rival.instead_of == doubtful->effect) without.push_back(rival.effect);
-  tell("looking for effects", search_share, "without " + doubtful->effect);
+  tell("looking again", search_share, "without " + doubtful->effect);
   auto with = std::exchange(found_, find_set(simulator_, recording_, {.without = without}));
   const auto other = rung({}, with_drift(found_.scenario, recording_), lacking_replicas);
   if (is_missed_by(other)) {

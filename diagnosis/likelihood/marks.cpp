@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include <gyrostat/core/step.hpp>
@@ -83,6 +84,22 @@ double white_under_grid(double lsb_dps, double equal) {
   return low;
 }
 
+/// By how far the multiples of the step miss the values: their mean direction about one step; 0
+/// where they miss none by a hundredth of it, or are not agreed.
+double offset_of(const Conditions& conditions, const std::vector<double>& z, double lsb_dps) {
+  constexpr double agreed = 0.9, least = 0.01;
+  std::complex<double> sum;
+  double count = 0.0;
+  for (const auto& span : conditions.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i) {
+      if (is_missing(z[i])) continue;
+      sum += std::polar(1.0, 2.0 * std::numbers::pi * std::fmod(z[i] / lsb_dps, 1.0));
+      count += 1.0;
+    }
+  const double offset = std::arg(sum) / (2.0 * std::numbers::pi);
+  return std::abs(sum) > agreed * count && std::abs(offset) > least ? offset * lsb_dps : 0.0;
+}
+
 }  // namespace
 
 Marks marks_of(const Simulator& simulator, const Series& recording) {
@@ -90,6 +107,8 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
   const auto& z = recording.gyro_dps;
   marks.noise_of_steps_dps = noise_of(simulator.conditions(), z);
   marks.lsb_dps = grid_step(simulator, z, marks.noise_of_steps_dps);
+  if (marks.lsb_dps > 0.0)
+    marks.grid_offset_dps = offset_of(simulator.conditions(), z, marks.lsb_dps);
   marks.silent =
       silent_zone(simulator.conditions(), z, std::max(marks.lsb_dps, simulator.resolution_dps()));
   double equal_at_rest = 0.0, at_rest = 0.0;

@@ -16,7 +16,7 @@ struct Marks {
   double white_under_grid_dps = 0.0;  ///< white noise that moves as many samples across the grid
   /// Where the output rests on two or three values: what the noise is about.
   std::optional<double> level_on_grid_dps;
-  double grid_offset_dps = 0.0;    ///< a value of the grid, there
+  double grid_offset_dps = 0.0;    ///< a value of the grid
   double stale_probability = 0.0;  ///< chance that a repeat begins at a sample; 0: no repeats
   double stale_run = 1.0;          ///< mean length of a repeat
   bool stale_is_regular = false;   ///< whether repeats begin at even distances

@@ -129,6 +129,16 @@ TEST(Marks, AFilterThatHasNotBegunToMoveRepeatsNothing) {
   }
 }
 
+/// A bias that was taken out after the converter moves the grid.
+TEST(Marks, AGridMayBeOffZero) {
+  for (const double offset_dps : {0.0, 0.03, -0.05}) {
+    Series series = recorded(still(), 45, false);
+    effects::Quantization{0.12, offset_dps}.apply(series, {1, 0});
+    EXPECT_NEAR(marks_in(series).lsb_dps, 0.12, 1e-9);
+    EXPECT_NEAR(marks_in(series).grid_offset_dps, offset_dps, 1e-6) << offset_dps;
+  }
+}
+
 /// Each sample is the one before with a chance of 0.15, whatever that was: of the repeats as many
 /// follow a repeat, and where a fresh one follows each, none.
 TEST(Marks, RepeatsMayFollowOneAnother) {
