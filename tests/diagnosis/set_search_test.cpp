@@ -2,6 +2,7 @@
 
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -10,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 #include <gyrostat/generators/effects/list.hpp>
 #include <gyrostat/generators/environment/acceleration/list.hpp>
