@@ -39,9 +39,8 @@ class Ensemble {
   Eigen::VectorXd lens_deviations(const Eigen::VectorXd& deviations) const;
   /// Probability of a replica as far off. Of each lens, the mean square deviation and the largest
   /// deviation are held against the other replicas' (log-normal above, chi-squared of no more
-  /// degrees than readings below, and Gumbel, by moments); the least of
-  /// these probabilities is ranked among the replicas' own least ones, and beyond them goes on in
-  /// proportion.
+  /// degrees than readings below, and Gumbel, by moments); the least of these probabilities is
+  /// ranked among the replicas' own least ones, and beyond them goes on in proportion.
   double p_value(const Eigen::VectorXd& readings) const;
   /// Readings that leave the spread with a family-wise probability below `level`.
   std::vector<Departure> departures(const Eigen::VectorXd& readings, double level) const;

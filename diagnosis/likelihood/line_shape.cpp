@@ -58,7 +58,7 @@ LineShape shape_in_blocks(const Conditions& conditions, const std::vector<double
   LineShape shape;
   const double memory_s = 1.0 / (std::numbers::pi * std::max(line.bandwidth_hz, 1e-9));
   // A wave and its mirror about zero, or about half the rate, turn apart by a whole turn: else
-  // noise has no exponential.
+  // the squared envelope of noise is not exponential.
   const double apart_hz = std::min(line.centre_hz, 0.5 * conditions.rate_hz() - line.centre_hz);
   const double block_s = std::max(block_of_memory * memory_s, 1.0 / std::max(apart_hz, 1e-9));
   const std::size_t block = std::max(

@@ -19,6 +19,12 @@ std::ptrdiff_t missing_in(const std::vector<double>& values) {
   return std::count_if(values.begin(), values.end(), [](double v) { return is_missing(v); });
 }
 
+/// Slow and fast: its sizes are fitted to means of clusters, and what is within them is taken out.
+bool feels_acceleration(const Effect& effect) {
+  const auto needs = effect.type().needs;
+  return std::find(needs.begin(), needs.end(), &Series::acc_x_mps2) != needs.end();
+}
+
 }  // namespace
 
 bool has(const Scenario& scenario, std::string_view effect) {
@@ -30,11 +36,6 @@ bool is_taken_out(const Effect& effect) {
   const auto* cause = cause_types().find(effect.id());
   return cause != nullptr && cause->signature == Signature::repeated &&
          effect.stage() != Stage::compass;
-}
-
-bool feels_acceleration(const Effect& effect) {
-  const auto needs = effect.type().needs;
-  return std::find(needs.begin(), needs.end(), &Series::acc_x_mps2) != needs.end();
 }
 
 SetBench::SetBench(const Simulator& simulator, const Series& recording,
@@ -81,15 +82,18 @@ Scenario SetBench::plain() const {
   return s;
 }
 
+std::vector<double> SetBench::added_by(const std::vector<Effect>& effects) const {
+  auto added = simulator_.response().of(effects);
+  const auto& still = simulator_.response().still();
+  for (std::size_t i = 0; i < added.size(); ++i) added[i] -= still[i];
+  return added;
+}
+
 std::vector<double> SetBench::felt_under(const Scenario& scenario) const {
   std::vector<Effect> felt;
   for (const auto& effect : scenario.effects)
     if (feels_acceleration(effect)) felt.push_back(effect);
-  if (felt.empty()) return {};
-  auto rate = simulator_.response().of(felt);
-  const auto& still = simulator_.response().still();
-  for (std::size_t i = 0; i < rate.size(); ++i) rate[i] -= still[i];
-  return rate;
+  return felt.empty() ? std::vector<double>{} : added_by(felt);
 }
 
 std::vector<double> SetBench::gyro_beside(const Scenario& scenario) const {
@@ -99,9 +103,8 @@ std::vector<double> SetBench::gyro_beside(const Scenario& scenario) const {
     if (is_taken_out(effect) || feels_acceleration(effect)) taken_out.push_back(effect);
   if (response_) taken_out.push_back(*response_);
   if (taken_out.empty()) return gyro;
-  const auto with = simulator_.response().of(taken_out);
-  const auto& still = simulator_.response().still();
-  for (std::size_t i = 0; i < gyro.size(); ++i) gyro[i] -= with[i] - still[i];
+  const auto added = added_by(taken_out);
+  for (std::size_t i = 0; i < gyro.size(); ++i) gyro[i] -= added[i];
   return gyro;
 }
 
@@ -110,9 +113,8 @@ std::vector<double> SetBench::sensed_rate(const Scenario& scenario) const {
   std::vector<Effect> responses;
   for (const auto& effect : scenario.effects)
     if (effect.is_response()) responses.push_back(effect);
-  const auto with = simulator_.response().of(responses);
-  const auto& still = simulator_.response().still();
-  for (std::size_t i = 0; i < rate.size(); ++i) rate[i] += with[i] - still[i];
+  const auto added = added_by(responses);
+  for (std::size_t i = 0; i < rate.size(); ++i) rate[i] += added[i];
   return rate;
 }
 

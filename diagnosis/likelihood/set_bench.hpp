@@ -29,8 +29,6 @@ struct Standing {
 bool has(const Scenario& scenario, std::string_view effect);
 /// Same in every replica and not slow: taken out of the recording, sample by sample.
 bool is_taken_out(const Effect& effect);
-/// Slow and fast: its sizes are fitted to means of clusters, and what is within them is taken out.
-bool feels_acceleration(const Effect& effect);
 
 /// Fits sets of effects to the train part of one recording, of which some samples may not count.
 class SetBench {
@@ -98,6 +96,8 @@ class SetBench {
   Standing with_started(const Standing& standing, const CauseType& cause,
                         const Evidence& left) const;
   bool is_read_off(const Effect& effect) const;
+  /// To the rate that turns, a value a sample.
+  std::vector<double> added_by(const std::vector<Effect>& effects) const;
   /// What the acceleration adds to the rate, a value a sample; empty where no effect says so.
   std::vector<double> felt_under(const Scenario& scenario) const;
   /// The recording's gyro without what is the same in every replica of the scenario.
