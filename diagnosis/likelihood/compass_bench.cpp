@@ -11,6 +11,7 @@
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/heading_left.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
+#include <gyrostat/diagnosis/likelihood/walking_level.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 #include <gyrostat/diagnosis/starts/signature.hpp>
 
@@ -24,7 +25,7 @@ CompassBench::CompassBench(const Simulator& simulator, const Series& recording,
       conditions_(simulator.conditions()),
       recording_(recording),
       baseline_(baseline),
-      errors_(conditions_, recording, baseline),
+      errors_(conditions_, recording),
       cost_of_a_value_(0.5 * std::log(static_cast<double>(recording.size()))) {
   forget_bursts();
 }
@@ -82,12 +83,17 @@ std::vector<Effect> CompassBench::starts(const CauseType& cause,
 }
 
 std::vector<Effect> CompassBench::polished(std::vector<Effect> set) const {
-  auto law = law_of(set);
+  auto left = errors_.of(set);
+  auto law = errors_.law_of_errors(left, bursts_.hidden);
   for (int pass = 0; pass < 4; ++pass) {
-    auto better = compass_step(errors_, conditions_, bursts_.hidden, set);
-    const auto its_law = law_of(better);
+    simulator_.interrupt().check();
+    auto better =
+        compass_step(errors_, conditions_, bursts_.hidden, set, left, WalkingLevel(law.level_gain));
+    auto its_left = errors_.of(better);
+    const auto its_law = errors_.law_of_errors(its_left, bursts_.hidden);
     if (its_law.gain_on(law) <= 0.0) break;
     set = std::move(better);
+    left = std::move(its_left);
     law = its_law;
   }
   return set;

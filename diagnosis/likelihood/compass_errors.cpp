@@ -1,7 +1,9 @@
 #include <gyrostat/diagnosis/likelihood/compass_errors.hpp>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
+#include <utility>
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/core/values.hpp>
@@ -10,9 +12,12 @@
 
 namespace gyrostat::gap {
 
-CompassErrors::CompassErrors(const Conditions& conditions, const Series& recording,
-                             const Scenario& baseline)
-    : conditions_(conditions), recording_(recording), baseline_(baseline) {
+CompassErrors::CompassErrors(const Conditions& conditions, const Series& recording)
+    : conditions_(conditions), recording_(recording) {
+  Series held;
+  hold_influences(conditions.series(), held);
+  turning_.t_s = std::move(held.t_s);
+  turning_.rate_ref_dps = std::move(held.rate_ref_dps);
   const auto error = of({});
   double sine = 0.0, cosine = 0.0;
   for (const auto& span : conditions_.spans(Part::train))
@@ -26,12 +31,11 @@ CompassErrors::CompassErrors(const Conditions& conditions, const Series& recordi
 }
 
 std::vector<double> CompassErrors::of(const std::vector<Effect>& effects) const {
-  Scenario quiet = baseline_;
+  Scenario quiet;
   quiet.effects = effects;
-  quiet.compass.noise_std_deg = 0.0;
   quiet.compass.initial_heading_deg = centre_deg_;
-  Series ideal;
-  synthesise_heading_under(quiet, conditions_.series(), {}, ideal);
+  Series ideal = turning_;
+  turn_compass(quiet, {}, ideal);
   // Since the sample before, or until the next.
   const auto turned = [&, last = ideal.size() - 1](std::size_t i) {
     const std::size_t from = shift_ > 0.0 ? std::max<std::size_t>(i, 1) - 1 : i;
@@ -93,35 +97,42 @@ void CompassErrors::shift_beside(const std::vector<Effect>& effects,
   shift_ = std::clamp(shift_ + shift_of(of(effects), hidden, gain), -1.0, 1.0);
 }
 
-CompassErrors::Law CompassErrors::law_of(const std::vector<Effect>& effects,
-                                         const std::vector<char>& hidden) const {
-  const auto error = of(effects);
-  std::vector<double> seen;
-  for (const auto& span : conditions_.spans(Part::train))
-    for (std::size_t i = span.first; i < span.last; ++i)
-      if (!is_missing(error[i]) && !is_hidden(hidden, i)) seen.push_back(error[i]);
-  const auto count = static_cast<double>(seen.size());
-  if (count < 10.0) return {0.0, 1.0, 0.0};
-  const auto law_at = [&](double gain) -> Law {
-    WalkingLevel level(gain);
+CompassErrors::Law CompassErrors::law_of_errors(const std::vector<double>& errors,
+                                                const std::vector<char>& hidden) const {
+  struct AtGain {
+    WalkingLevel level;
     double square = 0.0, lagged = 0.0, before = 0.0;
-    for (const double e : seen) {
-      const double innovation = level.innovation(e);
-      square += innovation * innovation;
-      lagged += innovation * before;
-      before = innovation;
+  };
+  constexpr std::array gains = {0.0, 1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1};
+  std::vector<AtGain> each;
+  for (const double gain : gains) each.push_back({WalkingLevel(gain)});
+  double count = 0.0;
+  // All gains side by side: each waits for its own level, and none for another's.
+  for (const auto& span : conditions_.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i) {
+      if (is_missing(errors[i]) || is_hidden(hidden, i)) continue;
+      count += 1.0;
+      for (auto& at : each) {
+        const double innovation = at.level.innovation(errors[i]);
+        at.square += innovation * innovation;
+        at.lagged += innovation * at.before;
+        at.before = innovation;
+      }
     }
+  if (count < 10.0) return {0.0, 1.0, 0.0};
+  const auto law_at = [&](std::size_t k) -> Law {
+    const auto& [level, square, lagged, before] = each[k];
     // Neighbours that are alike count as fewer.
     const double alike = std::clamp(lagged / std::max(square, 1e-300), 0.0, 0.99);
     const double effective = count * (1.0 - alike) / (1.0 + alike);
-    return {std::max(effective, 10.0), std::max(square / count, 1e-18), gain,
+    return {std::max(effective, 10.0), std::max(square / count, 1e-18), gains[k],
             level.log_known() / count};
   };
   constexpr double clear = 5.0;
-  Law best = law_at(0.0);
-  const Law still = best;
-  for (const double gain : {1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1}) {
-    const Law law = law_at(gain);
+  const Law still = law_at(0);
+  Law best = still;
+  for (std::size_t k = 1; k < gains.size(); ++k) {
+    const Law law = law_at(k);
     if (law.gain_on(still) > clear && law.gain_on(best) > 0.0) best = law;
   }
   return best;

@@ -11,7 +11,7 @@ namespace gyrostat::gap {
 /// What a recording's heading differs by from that of the reference, with effects on the compass.
 class CompassErrors {
  public:
-  CompassErrors(const Conditions& conditions, const Series& recording, const Scenario& baseline);
+  CompassErrors(const Conditions& conditions, const Series& recording);
 
   struct Law {
     double count;          ///< effective number of values
@@ -34,7 +34,10 @@ class CompassErrors {
   /// Of white noise about a level that walks where that is clearly likelier, as it does where the
   /// rates of the reference do not add up to its heading; clusters that are `hidden` (a flag each)
   /// do not count.
-  Law law_of(const std::vector<Effect>& effects, const std::vector<char>& hidden) const;
+  Law law_of(const std::vector<Effect>& effects, const std::vector<char>& hidden) const {
+    return law_of_errors(of(effects), hidden);
+  }
+  Law law_of_errors(const std::vector<double>& errors, const std::vector<char>& hidden) const;
   double centre_deg() const { return centre_deg_; }
   /// Errors are no longer taken beside a shift of time.
   void unshift() { shift_ = 0.0; }
@@ -52,7 +55,8 @@ class CompassErrors {
 
   const Conditions& conditions_;
   const Series& recording_;
-  Scenario baseline_;
+  /// What a heading comes from.
+  Series turning_;
   double centre_deg_ = 0.0, shift_ = 0.0;
 };
 

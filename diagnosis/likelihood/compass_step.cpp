@@ -9,7 +9,6 @@
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/core/values.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
-#include <gyrostat/diagnosis/likelihood/walking_level.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -20,7 +19,8 @@ constexpr double fixed = 1e30;
 }  // namespace
 
 std::vector<Effect> compass_step(const CompassErrors& errors, const Conditions& conditions,
-                                 const std::vector<char>& hidden, const std::vector<Effect>& set) {
+                                 const std::vector<char>& hidden, const std::vector<Effect>& set,
+                                 const std::vector<double>& here, const WalkingLevel& level) {
   struct Place {
     std::size_t effect, field;
     double step;
@@ -34,7 +34,6 @@ std::vector<Effect> compass_step(const CompassErrors& errors, const Conditions& 
             {k, f,
              set[k].fields()[f].unit == "deg" ? 0.01 : 1e-3 * std::abs(set[k].value(f)) + 1e-6});
   }
-  const auto here = errors.of(set);
   std::vector<std::vector<double>> moved(places.size());
   tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t c) {
     auto other = set;
@@ -44,8 +43,6 @@ std::vector<Effect> compass_step(const CompassErrors& errors, const Conditions& 
   const auto columns = static_cast<Eigen::Index>(places.size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns, columns);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(columns), row(columns);
-  // Least squares about the level that walks, or about the mean.
-  const WalkingLevel level(errors.law_of(set, hidden).level_gain);
   WalkingLevel of_error = level;
   std::vector<WalkingLevel> of_columns(places.size(), level);
   for (const auto& span : conditions.spans(Part::train))

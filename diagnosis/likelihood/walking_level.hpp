@@ -16,22 +16,22 @@ class WalkingLevel {
 
   /// 0 of the first value.
   double innovation(double value) {
-    const double gain = std::max(gain_, 1.0 / ++count_);
-    const double known = 1.0 - gain, off = value - level_;
-    level_ += gain * off;
-    if (gain == gain_) {
-      log_known_ += log_of_known_;
+    const double off = value - level_;
+    if (gain_ * (count_ + 1.0) >= 1.0) {
+      ++steady_;
+      level_ += gain_ * off;
       return root_known_ * off;
     }
-    if (known <= 0.0) return 0.0;
-    log_known_ += std::log(known);
-    return std::sqrt(known) * off;
+    const double gain = 1.0 / ++count_;
+    level_ += gain * off;
+    return std::sqrt(1.0 - gain) * off;
   }
-  /// Logarithm of the white noise's share of the variance, summed up over all innovations.
-  double log_known() const { return log_known_; }
+  /// Logarithm of the white noise's share of the variance, summed up over all innovations: shares
+  /// of 1/2, 2/3, … multiply to one over their count.
+  double log_known() const { return steady_ * log_of_known_ - std::log(std::max(count_, 1.0)); }
 
  private:
-  double gain_, root_known_, log_of_known_, count_ = 0.0, level_ = 0.0, log_known_ = 0.0;
+  double gain_, root_known_, log_of_known_, count_ = 0.0, steady_ = 0.0, level_ = 0.0;
 };
 
 }  // namespace gyrostat::gap
