@@ -7,6 +7,7 @@
 #include <gyrostat/diagnosis/likelihood/nameless_mean.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 #include <gyrostat/diagnosis/model_fit.hpp>
+#include <gyrostat/diagnosis/significance.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
 #include <gyrostat/diagnosis/views.hpp>
 
@@ -70,12 +71,8 @@ void Diagnosing::localise() {
   for (const auto& m : found_.members) most_odds = std::max(most_odds, m.log_odds);
   result_.unexplained = found_.unexplained;
   result_.log_score_gained = found_.log_score_gained;
-  constexpr double level_of_odds =
-      1.0 - thresholds::level_of_lenses - thresholds::level_of_unexplained;
   result_.p_before =
-      std::min({1.0, result_.p_after / thresholds::level_of_lenses,
-                p_of_the_oddest(found_.unexplained) / thresholds::level_of_unexplained,
-                std::exp(-most_odds) / level_of_odds});
+      p_of_the_clearest(result_.p_after, p_of_the_oddest(found_.unexplained), most_odds);
   result_.where = departures_of(*train_);
   took("localisation");
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include <fcntl.h>
@@ -81,7 +83,16 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   void send(int signal) const { kill(pid_, signal); }
-  std::string err_so_far() const { return output_.read("err"); }
+  /// Waits until it has said so on stderr; false where it ended without.
+  bool says(std::string_view text) const {
+    for (bool has_ended = false;; std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
+      if (output_.read("err").find(text) != std::string::npos) return true;
+      if (has_ended) return false;
+      siginfo_t ended{};
+      waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT);
+      has_ended = ended.si_pid != 0;
+    }
+  }
 
   Ended wait() {
     int status = 0;

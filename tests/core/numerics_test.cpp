@@ -1,9 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
@@ -188,16 +186,18 @@ TEST_F(Numerics, DowndateRefusesExactlyWhereTheDifferenceIsNotPositiveDefinite) 
     }
 }
 
+Dense inverse(const Dense& symmetric) { return invert_symmetric(symmetric).inverse; }
+
 /// The paper's own form, [A eq. 15] in terms of covariance.
 Dense inflated(const Dense& P, const Eigen::VectorXd& mu) {
   const Dense twice_mu = 2.0 * Dense(mu.asDiagonal());
-  return (P.inverse() - twice_mu).inverse();
+  return inverse(inverse(P) - twice_mu);
 }
 
 /// P^-1 - 2 mu is positive definite exactly while this is below 1.
 double breaking_scale(const Dense& root, const Eigen::VectorXd& mu) {
   const Dense middle = 2.0 * root.transpose() * Dense(mu.asDiagonal()) * root;
-  return Eigen::SelfAdjointEigenSolver<Dense>(middle).eigenvalues().maxCoeff();
+  return symmetric_eigen(middle).values.maxCoeff();
 }
 
 TEST_F(Numerics, InflateIsTheRiskSensitiveUpdateInInformationForm) {
@@ -212,7 +212,7 @@ TEST_F(Numerics, InflateIsTheRiskSensitiveUpdateInInformationForm) {
   }
 }
 
-/// (P^-1 - 2 mu)^-1 = P (I - 2 mu P)^-1, which needs no inverse of P.
+/// (P^-1 - 2 mu)^-1 = L (I - 2 L^T mu L)^-1 L^T with P = L L^T, which needs no inverse of P.
 TEST_F(Numerics, InflateStandsASingularCovariance) {
   for (int k = 0; k < repetitions; ++k) {
     Square root = random_root();
@@ -220,8 +220,9 @@ TEST_F(Numerics, InflateStandsASingularCovariance) {
     root.col(5).setZero();
     Column mu = random<n, 1>().cwiseAbs();
     mu *= 0.8 / breaking_scale(root, mu);
-    const Dense P = square(root), twice_mu = 2.0 * Dense(mu.asDiagonal());
-    const Dense expected = P * (Dense::Identity(n, n) - twice_mu * P).inverse();
+    const Dense L = root, twice_mu = 2.0 * Dense(mu.asDiagonal());
+    const Dense within = inverse(Dense::Identity(n, n) - L.transpose() * twice_mu * L);
+    const Dense expected = L * within * L.transpose();
     ASSERT_TRUE((inflate_root<double, n>(root, mu)));
     expect_close(square(root), expected, 1e-11);
   }
@@ -336,8 +337,8 @@ TEST_F(Numerics, TheMeasurementUpdateAddsInformation) {
     const Vector<double, 2> z = random<2, 1>();
     const auto innovation = measurement_update<double, 3, 2>(state, H, R, z);
     ASSERT_TRUE(innovation.sound);
-    const Dense h = H, weight = Dense(R).inverse(), prior = Dense(before.covariance).inverse();
-    const Dense posterior = Dense(prior + h.transpose() * weight * h).inverse();
+    const Dense h = H, weight = inverse(R), prior = inverse(before.covariance);
+    const Dense posterior = inverse(prior + h.transpose() * weight * h);
     const Dense x = before.mean, P = before.covariance;
     expect_close(state.covariance, posterior);
     expect_close(state.mean, posterior * (prior * x + h.transpose() * weight * Dense(z)));

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <gyrostat/core/filters/thermal_kf.hpp>
@@ -15,6 +14,7 @@
 #include <gyrostat/core/filters/thermal_mlr.hpp>
 #include <gyrostat/core/filters/thermal_stf.hpp>
 #include <gyrostat/core/models/thermal.hpp>
+#include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/numerics/linear.hpp>
 #include <gyrostat/core/random.hpp>
 
@@ -380,15 +380,15 @@ TEST(ThermalLsm, WithAHugePriorIsOrdinaryLeastSquaresOverItsWindow) {
     const auto epochs = epochs_of(filter, record(80, 2.0, 0.05));
     ASSERT_EQ(epochs.size(), 80U);
     const auto used = std::min<std::ptrdiff_t>(window, std::ssize(epochs));
-    Eigen::MatrixX3d X(used, 3);
+    Eigen::MatrixXd X(used, 3);
     Eigen::VectorXd y(used);
     for (std::ptrdiff_t k = 0; k < used; ++k) {
       const auto& epoch = epochs[epochs.size() - static_cast<std::size_t>(used - k)];
       X.row(k) = epoch.regressors.transpose();
       y(k) = epoch.bias_dps;
     }
-    const Eigen::Vector3d expected = X.colPivHouseholderQr().solve(y);
-    const Eigen::Matrix3d covariance = 1e-4 * (X.transpose() * X).inverse();
+    const Eigen::Vector3d expected = least_squares(X, y).solution;
+    const Eigen::Matrix3d covariance = 1e-4 * invert_symmetric(X.transpose() * X).inverse;
     const auto& found = filter.rule().coefficients();
     for (int i = 0; i < 3; ++i) {
       const double std = std::sqrt(covariance(i, i));
@@ -408,7 +408,7 @@ TEST(ThermalKf, WithAHugePriorIsLeastSquaresThatCountsEachEpochThrice) {
   ThermalKf<double> filter(p);
   const auto epochs = epochs_of(filter, record(80, 2.0, 0.05));
   const auto n = std::ssize(epochs);
-  Eigen::MatrixX3d X(n, 3);
+  Eigen::MatrixXd X(n, 3);
   Eigen::VectorXd y(n);
   for (std::ptrdiff_t k = 0; k < n; ++k) {
     const double weight =
@@ -416,8 +416,8 @@ TEST(ThermalKf, WithAHugePriorIsLeastSquaresThatCountsEachEpochThrice) {
     X.row(k) = weight * epochs[static_cast<std::size_t>(k)].regressors.transpose();
     y(k) = weight * epochs[static_cast<std::size_t>(k)].bias_dps;
   }
-  const Eigen::Vector3d expected = X.colPivHouseholderQr().solve(y);
-  const Eigen::Matrix3d covariance = 1e-4 * (X.transpose() * X).inverse();
+  const Eigen::Vector3d expected = least_squares(X, y).solution;
+  const Eigen::Matrix3d covariance = 1e-4 * invert_symmetric(X.transpose() * X).inverse;
   for (int i = 0; i < 3; ++i)
     EXPECT_NEAR(filter.rule().coefficients().mean(i), expected(i),
                 1e-3 * std::sqrt(covariance(i, i)));

@@ -296,8 +296,7 @@ void expect_orderly_end(int signal) {
       {"name": "long", "trials": 4000, "scenario": {"duration_s": 400, "rate_hz": 50},
        "filters": ["none"]}, {"name": "never"}]})");
   Program program(folder.path(), {"run", "long.json", "--format", "json"});
-  while (program.err_so_far().find("long: ") == std::string::npos)
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  ASSERT_TRUE(program.says("long: "));
   program.send(signal);
   const auto ended = program.wait();
   EXPECT_EQ(ended.exit_code, 4);
