@@ -77,8 +77,9 @@ void Diagnosing::attribute() {
   const auto after = scoring_->of(rungs_.back().replicas[0]);
   result_.recovered = (after.value - before.value) / std::max(1e-9, after.expected - before.value);
   see_what_is_left();
-  const bool misses = after.deficit() > thresholds::deficit_of_a_miss ||
-                      result_.p_after < thresholds::strictness_after * options_.significance;
+  const bool misses =
+      result_.p_after < thresholds::strictness_after * options_.significance ||
+      (result_.p_after < thresholds::departure && after.deficit() > thresholds::deficit_of_a_miss);
   const bool open = result_.recovered < thresholds::recovery && misses;
   const double p_left = p_of_the_oddest(found_.unexplained);
   const bool is_no_form = p_left < thresholds::p_of_the_unknown &&

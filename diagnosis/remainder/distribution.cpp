@@ -38,8 +38,12 @@ double likelihood_ratio(const std::vector<double>& rising, const std::vector<dou
 }
 
 std::string in_words(double from, double to, double share) {
-  return fmt::format("{} tails of the noise (one sample in {:.0f} beyond {:.2g} dps, not {:.2g})",
-                     to > from ? "heavier" : "lighter", 1.0 / share, to, from);
+  // As many digits as tell them apart.
+  int digits = 2;
+  while (digits < 6 && fmt::format("{:.{}g}", from, digits) == fmt::format("{:.{}g}", to, digits))
+    ++digits;
+  return fmt::format("{} tails of the noise (one sample in {:.0f} beyond {:.{}g} dps, not {:.{}g})",
+                     to > from ? "heavier" : "lighter", 1.0 / share, to, digits, from, digits);
 }
 
 }  // namespace

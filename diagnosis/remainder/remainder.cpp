@@ -40,7 +40,7 @@ std::vector<Nameless> with_what_replicas_lack(const Simulator& simulator, const 
     if (same == more.end())
       more.push_back(*part);
     else
-      *same = {part->effect, same->in_words + " and has " + part->in_words};
+      *same = {part->effect, same->in_words + ", with " + part->in_words};
     const double with = score_of(more);
     if (with <= score) return false;
     score = with;

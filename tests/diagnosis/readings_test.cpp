@@ -218,6 +218,27 @@ TYPED_TEST(LensContract, IsAbsentWhereItsChannelIs) {
   }
 }
 
+/// Noise on a grid of twice its size: of the steps between samples 52 % are none where the level is
+/// on the grid, and 46 % where it is between; their median is none or one step of the grid, which
+/// moved the share of large ones by e^7.
+TEST(Exceedances, HardlyMoveWithTheLevelOnACoarseGrid) {
+  const auto at_level = [](double level_dps) {
+    Series s = rich();
+    const auto noise = white(s.size());
+    s.rate_ref_dps.clear();
+    for (std::size_t i = 0; i < s.size(); ++i)
+      s.gyro_dps[i] = 0.1 * std::round((level_dps + 0.05 * noise[i]) / 0.1);
+    const Conditions conditions(s);
+    const lenses::Exceedances lens(conditions, Part::train);
+    std::vector<double> shares(lens.at.size());
+    lens.read(Scene(conditions, s), shares);
+    return shares;
+  };
+  const auto on = at_level(0.0), between = at_level(0.05);
+  ASSERT_EQ(on.size(), lenses::Exceedances::beyond.size());
+  for (std::size_t k = 0; k < on.size(); ++k) EXPECT_NEAR(on[k], between[k], 2.5) << k;
+}
+
 /// What all replicas read alike has the least spread that its lens credits it with: a recording
 /// that differs by half of that is none that the simulator could not make, and one that differs by
 /// a hundred of them is.
