@@ -97,7 +97,9 @@ Standing SetSearcher::responding_without_names(Standing standing) {
   }
   if (auto response = whole_response(bench_, still)) {
     bench_.take_out_response(std::move(response));
-    if (auto fit = bench_.refitted(still); fit.score > named.score + clear_response) return fit;
+    // What bends leaves more than a linear response explains: together they stand where that is
+    // clear alone.
+    if (auto fit = bench_.refitted(still); fit.score > named.score - clear_response) return fit;
   }
   bench_.take_out_response(std::nullopt);
   bench_.mask_only(masked);
