@@ -1,7 +1,6 @@
 #include <gyrostat/diagnosis/diagnosing.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/likelihood/nameless_mean.hpp>

@@ -43,7 +43,7 @@ double CompassBench::log_gain_of_turning(const std::vector<Effect>& set) const {
       if (errors_.is_hidden(bursts_.hidden, i)) left[i] = no_value;
       if (!is_missing(left[i])) seen += 1.0;
     }
-  const auto law = law_of(set);
+  const auto law = errors_.law_of_errors(left, bursts_.hidden);
   return gap::log_gain_of_turning(conditions_, left, law.level_gain,
                                   law.count / std::max(seen, 1.0));
 }

@@ -93,8 +93,9 @@ bool CompassErrors::is_hidden(const std::vector<char>& hidden, std::size_t sampl
 
 void CompassErrors::shift_beside(const std::vector<Effect>& effects,
                                  const std::vector<char>& hidden) {
-  const double gain = law_of(effects, hidden).level_gain;
-  shift_ = std::clamp(shift_ + shift_of(of(effects), hidden, gain), -1.0, 1.0);
+  const auto errors = of(effects);
+  const double gain = law_of_errors(errors, hidden).level_gain;
+  shift_ = std::clamp(shift_ + shift_of(errors, hidden, gain), -1.0, 1.0);
 }
 
 CompassErrors::Law CompassErrors::law_of_errors(const std::vector<double>& errors,
