@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/diagnosing.hpp>
@@ -50,15 +51,18 @@ void Diagnosing::attribute() {
     return;
   }
   result_.enriched = with_drift(found_.scenario, recording_);
-  // What lacks most without it comes first.
   auto names = weighed(found_.members, "weighing each effect");
   if (is_found_without_a_doubtful(names))
     names = weighed(found_.members, "weighing each effect again");
   std::vector<std::size_t> order(names.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return result_.effects[a].lack > result_.effects[b].lack;
-  });
+  // What lacks most without it comes first, and what may not be there after what is.
+  const auto place = [&](std::size_t k) {
+    const auto& effect = result_.effects[k];
+    return std::pair(effect.log_odds >= thresholds::clear_odds, effect.lack);
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return place(a) > place(b); });
   std::vector<Included> effects;
   std::vector<LogScore> lacking;
   std::vector<std::string> ordered;

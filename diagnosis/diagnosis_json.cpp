@@ -1,5 +1,6 @@
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -35,6 +36,11 @@ namespace {
 
 /// JSON has no NaN.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+/// With what has no name, where there is such.
+const Scenario& best_of(const Diagnosis& d) {
+  return d.remainder.parts.empty() ? d.enriched : d.remainder.scenario;
+}
 
 /// The scenario with the effects, as a study has it.
 Json study_json(const Diagnosis& d, const Scenario& scenario) {
@@ -160,9 +166,29 @@ Json to_json(const Diagnosis& d) {
   return json;
 }
 
+bool depends_on_conditions(const Diagnosis& d) {
+  const auto has = [&](std::string_view channel) {
+    return std::find(d.channels.begin(), d.channels.end(), channel) != d.channels.end();
+  };
+  if (has("rate_ref_dps")) return true;
+  const auto& scenario = best_of(d);
+  const auto& drift = scenario.thermal_drift;
+  if (has("temperature_C") && (drift.a_dps_per_C != 0.0 || drift.b_dps_s_per_C != 0.0)) return true;
+  const auto acts_on = [](const Effect& effect, const auto channel) {
+    const auto& needs = effect.type().needs;
+    return std::find(needs.begin(), needs.end(), channel) != needs.end();
+  };
+  return std::any_of(scenario.effects.begin(), scenario.effects.end(), [&](const auto& effect) {
+    return std::any_of(channels.begin(), channels.end(), [&](const auto& channel) {
+      return channel.values != &Series::gyro_dps && channel.values != &Series::heading_deg &&
+             has(channel.name) && acts_on(effect, channel.values);
+    });
+  });
+}
+
 Json scenario_json(const Diagnosis& d, const std::string& name) {
   const bool completed = !d.remainder.parts.empty();
-  const auto& best = completed ? d.remainder.scenario : d.enriched;
+  const auto& best = best_of(d);
   const auto title =
       completed ? fmt::format(
                       "{}: a simulator that comes {:.0f} % closer to it, {:.0f} % by effects that "

@@ -76,8 +76,7 @@ void Simulator::to_resolution(Series& series) const {
     for (double& z : series.gyro_dps) z = resolution_dps_ * std::nearbyint(z / resolution_dps_);
 }
 
-/// Without b T': the lenses take the drift's slope out of the slow values, and of a recorded
-/// temperature, which has steps, it would make spikes.
+/// Without b T': the lenses take the drift's slope out of the slow values.
 Scenario Simulator::simulable(Scenario scenario) {
   scenario.thermal_drift.b_dps_s_per_C = 0.0;
   return scenario;

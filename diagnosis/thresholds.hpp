@@ -36,7 +36,8 @@ inline constexpr double p_of_the_unexplained = 0.01, p_of_the_unknown = 0.001;
 inline constexpr double p_of_the_unseen = 1e-4;
 /// What a form of nature's own leaves, of what the set gained.
 inline constexpr double share_of_form = 0.01;
-/// Log odds above which an effect is not doubted because readings do not show it: 99 to 1.
+/// Log odds above which an effect is not doubted because readings do not show it, and comes before
+/// those below: 99 to 1.
 inline constexpr double clear_odds = 4.6;
 /// Least probability of a cause in the verdict's set.
 inline constexpr double member_probability = 0.05;

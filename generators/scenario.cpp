@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <gyrostat/generators/environment/temperature/recorded.hpp>
 #include <gyrostat/generators/random_error.hpp>
 
 namespace gyrostat {
@@ -23,17 +24,27 @@ void apply_stage(Stage stage, const Scenario& scenario, const Noise& noise, Seri
     if (effect.stage() == stage) effect.apply(series, own_noise(scenario.effects, effect, noise));
 }
 
-void linear_drift(const ThermalDrift<double>& drift, Series& series) {
+/// T' is the change between samples; of a recorded temperature, which has steps that would make
+/// spikes of it, that over ten seconds [B eq. 5].
+void linear_drift(const ThermalDrift<double>& drift, bool is_recorded, Series& series) {
   const auto& T = series.temperature_C;
   if (T.empty()) {
     series.thermal_bias_dps.assign(series.size(), drift.c_dps);
     return;
   }
+  constexpr double half_s = 5.0;
+  const auto& t = series.t_s;
+  const std::size_t last = series.size() - 1;
   series.thermal_bias_dps.resize(series.size());
-  for (std::size_t i = 0; i < series.size(); ++i) {
-    const std::size_t from = i == 0 ? 0 : i - 1;
-    const std::size_t to = i == 0 ? std::min<std::size_t>(1, series.size() - 1) : i;
-    const double slope = from == to ? 0.0 : (T[to] - T[from]) / (series.t_s[to] - series.t_s[from]);
+  for (std::size_t i = 0, from = 0, to = std::min<std::size_t>(1, last); i <= last; ++i) {
+    if (is_recorded) {
+      while (t[from] < t[i] - half_s) ++from;
+      while (to < last && t[to] < t[i] + half_s) ++to;
+    } else if (i > 0) {
+      from = i - 1;
+      to = i;
+    }
+    const double slope = from == to ? 0.0 : (T[to] - T[from]) / (t[to] - t[from]);
     series.thermal_bias_dps[i] =
         drift.a_dps_per_C * T[i] + drift.b_dps_s_per_C * slope + drift.c_dps;
   }
@@ -55,8 +66,8 @@ void add_noise(const Scenario& scenario, const Noise& noise, Series& series) {
                   series.gyro_dps);
 }
 
-void drift(const Scenario& scenario, const Noise& noise, Series& series) {
-  linear_drift(scenario.thermal_drift, series);
+void drift(const Scenario& scenario, bool is_recorded, const Noise& noise, Series& series) {
+  linear_drift(scenario.thermal_drift, is_recorded, series);
   apply_stage(Stage::sensing, scenario, noise, series);
 }
 
@@ -170,7 +181,7 @@ void synthesise_conditions(const Scenario& scenario, const Noise& noise, Series&
     follow(*scenario.acceleration, series,
            std::array{&Series::acc_x_mps2, &Series::acc_y_mps2, &Series::acc_z_mps2});
   apply_stage(Stage::environment, scenario, noise, series);
-  drift(scenario, noise, series);
+  drift(scenario, scenario.temperature.as<temperature::Recorded>() != nullptr, noise, series);
 }
 
 void turn_compass(const Scenario& scenario, const Noise& noise, Series& series) {
@@ -194,7 +205,7 @@ void hold_influences(const Series& conditions, Series& series) {
 void synthesise_rate_under(const Scenario& scenario, const Series& conditions, const Noise& noise,
                            Series& series) {
   hold_influences(conditions, series);
-  drift(scenario, noise, series);
+  drift(scenario, false, noise, series);
   measure_rate(scenario, noise, series);
   copy_gaps(conditions.gyro_dps, series.gyro_dps);
   for (const auto channel : influences) copy_gaps(conditions.*channel, series.*channel);

@@ -61,7 +61,8 @@ struct Scenario {
 
 /// The signal of `scenario` under `noise`, with its truth, into `series` (whose memory is reused):
 ///   gyro = rate_ref + thermal_bias + random_error + white noise (or recorded noise),
-/// altered by each effect at its stage. T' of the linear drift is the derivative between samples.
+/// altered by each effect at its stage. T' of the linear drift is the derivative between samples;
+/// of a recorded temperature, which has steps, it is the change over ten seconds [B eq. 5].
 ///
 /// Example: the signal of trial 17, as any other program makes it from the same seed.
 ///

@@ -121,9 +121,10 @@ Standing SetSearcher::best_from(const Standing& standing, std::vector<Standing> 
     if (beginning.score < -1e299) continue;
     gains_ = gains;
     auto other = searched(beginning);
-    double worth = other.score;
-    for (const auto& effect : other.scenario.effects)
-      if (!has(standing.scenario, effect.id())) worth -= least;
+    // What stands in the place of another is no further effect.
+    const auto further = static_cast<double>(other.scenario.effects.size()) -
+                         static_cast<double>(standing.scenario.effects.size());
+    const double worth = other.score - least * std::max(0.0, further);
     if (worth <= most) continue;
     most = worth;
     best = std::move(other);

@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/words.hpp>
+#include <gyrostat/experiments/study/json.hpp>
 #include <gyrostat/recordings/clock.hpp>
 #include <gyrostat/recordings/format_type.hpp>
 #include <gyrostat/recordings/recording.hpp>
@@ -137,6 +140,24 @@ struct RecordingOption {
             .topic = topic,
             .rate_hz = rate_hz,
             .resample_hz = resample_hz};
+  }
+
+  /// As a study in `folder` names it.
+  Json source_for(const std::filesystem::path& folder) const {
+    namespace fs = std::filesystem;
+    const auto from_root = [](const fs::path& path) {
+      return (fs::current_path() / path).lexically_normal();
+    };
+    Json source = {{"file", from_root(file).lexically_proximate(from_root(folder)).string()}};
+    const auto how = layout();
+    if (!axis.empty()) source["axis"] = axis;
+    if (!how.columns.empty()) source["columns"] = how.columns;
+    if (!how.units.empty()) source["units"] = how.units;
+    if (!preset.empty()) source["preset"] = preset;
+    if (!topic.empty()) source["topic"] = topic;
+    if (rate_hz > 0.0) source["rate_hz"] = rate_hz;
+    if (resample_hz > 0.0) source["resample_hz"] = resample_hz;
+    return source;
   }
 
   /// All of it, evenly sampled; says in `log` as what it was read and what was done to it. `wanted`

@@ -10,6 +10,7 @@
 
 #include <gyrostat/analysis/metric_type.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
+#include <gyrostat/experiments/study/scenario_reading.hpp>
 #include <gyrostat/results/render/interval.hpp>
 
 namespace gyrostat {
@@ -268,7 +269,7 @@ Json with_tuned_values(const Study& study, const std::vector<CellTuning>& all,
   const auto folder = fs::absolute(study.path).parent_path();
   const auto out_folder = fs::absolute(out).parent_path();
   for (auto& cell : json["cells"])
-    for (const auto* source : {"from_recording", "from_fleet"}) {
+    for (const auto* source : scenario_sources) {
       if (!cell.contains("scenario") || !cell["scenario"].contains(source)) continue;
       auto& file = cell["scenario"][source]["file"];
       const auto path = (folder / file.get<std::string>()).lexically_normal();

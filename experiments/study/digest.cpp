@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <gyrostat/experiments/study/design.hpp>
+#include <gyrostat/experiments/study/scenario_reading.hpp>
 
 namespace gyrostat {
 namespace {
@@ -65,7 +66,7 @@ std::string study_digest(const Json& study, const std::string& path) {
       cell.erase("stop");
       cell.erase("failure");
       if (cell.contains("pieces")) resolve_file(cell["pieces"], folder);
-      for (const auto* source : {"from_recording", "from_fleet"})
+      for (const auto* source : scenario_sources)
         if (cell.contains("scenario") && cell["scenario"].contains(source))
           resolve_file(cell["scenario"][source], folder);
       canonical["cells"].push_back(std::move(cell));

@@ -4,6 +4,8 @@
 
 #include <gyrostat/experiments/study/fleet_reading.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
+#include <gyrostat/generators/environment/acceleration/recorded.hpp>
+#include <gyrostat/generators/environment/motion/recorded.hpp>
 #include <gyrostat/generators/environment/temperature/quiet_room.hpp>
 #include <gyrostat/generators/environment/temperature/recorded.hpp>
 
@@ -58,6 +60,40 @@ void read_recorded(JsonObject object, const std::string& folder, FittedRecording
   }
 }
 
+/// Sets sampling, temperature, rates and acceleration to those of a recording, as far as it has
+/// them.
+void read_conditions(JsonObject object, const std::string& folder, Scenario& scenario) {
+  const RecordingSource source(object, folder);
+  const double from_s = object.number("from_s", 0.0, ranges::non_negative, "s");
+  const double to_s = object.number("to_s", 1e12, ranges::positive, "s");
+  object.finish();
+  const auto series = cut(source.read().series, from_s, to_s, object.place());
+  const auto held = std::make_shared<Series>();
+  hold_influences(series, *held);
+  scenario.sampling = {.duration_s = static_cast<double>(series.size()) / series.rate_hz(),
+                       .rate_hz = series.rate_hz()};
+  if (!held->temperature_C.empty()) scenario.temperature = temperature::Recorded{held};
+  if (!series.rate_ref_dps.empty()) scenario.motion = motion::Recorded{held};
+  if (!held->cross_rate_1_dps.empty())
+    scenario.cross_motion_1 = motion::Recorded{held, &Series::cross_rate_1_dps};
+  if (!held->cross_rate_2_dps.empty())
+    scenario.cross_motion_2 = motion::Recorded{held, &Series::cross_rate_2_dps};
+  if (!held->acc_x_mps2.empty() && !held->acc_y_mps2.empty() && !held->acc_z_mps2.empty())
+    scenario.acceleration = acceleration::Recorded{held};
+}
+
+/// A profile other than "recorded", which the scenario already has where there is such a recording,
+/// unless that could not be read.
+template <class Chosen>
+void read_profile(JsonObject& object, bool recordings_read, std::optional<Chosen>& profile) {
+  if (object.text("profile", "") != "recorded")
+    profile = read_plugin<Chosen>(object, "profile");
+  else if (recordings_read && (!profile || profile->id() != "recorded"))
+    throw InputError(object.place(),
+                     "'recorded' needs a recording that has it, under \"conditions_from\" (or, "
+                     "for a temperature, \"from_recording\") in this scenario");
+}
+
 /// Which parameters the object under `key` gives.
 void note_stated(JsonObject& object, const std::string& key, std::span<const FieldInfo> fields,
                  std::set<std::string>& stated) {
@@ -92,6 +128,9 @@ Scenario read_scenario(JsonObject object, const std::string& folder, FittedRecor
   const bool recording_read = object.with_child("from_recording", [&](JsonObject& recorded) {
     read_recorded(recorded, folder, fits, scenario);
   });
+  const bool conditions_read = object.with_child("conditions_from", [&](JsonObject& recorded) {
+    read_conditions(recorded, folder, scenario);
+  });
   object.fields(scenario.sampling);
   const auto nested = [&](const std::string& key, auto& parameters) {
     object.with_child(key, [&](JsonObject& child) {
@@ -109,25 +148,17 @@ Scenario read_scenario(JsonObject object, const std::string& folder, FittedRecor
                     "above 0 beside \"{}\"",
                     drawn_from ? "from_fleet" : "from_recording"));
   nested("thermal_drift", scenario.thermal_drift);
-  object.with_child("temperature", [&](JsonObject& temperature) {
-    if (temperature.text("profile", "") != "recorded")
-      scenario.temperature = read_plugin<Temperature>(temperature, "profile");
-    else if (recording_read && !scenario.temperature.as<temperature::Recorded>())
-      throw InputError(temperature.place(),
-                       "'recorded' needs a \"from_recording\" with temperature in this scenario");
-  });
-  object.with_child("motion", [&](JsonObject& motion) {
-    scenario.motion = read_plugin<Motion>(motion, "profile");
-  });
-  object.with_child("cross_motion_1", [&](JsonObject& motion) {
-    scenario.cross_motion_1 = read_plugin<Motion>(motion, "profile");
-  });
-  object.with_child("cross_motion_2", [&](JsonObject& motion) {
-    scenario.cross_motion_2 = read_plugin<Motion>(motion, "profile");
-  });
-  object.with_child("acceleration", [&](JsonObject& acceleration) {
-    scenario.acceleration = read_plugin<Acceleration>(acceleration, "profile");
-  });
+  const auto followed = [&](const std::string& key, auto profile) {
+    object.with_child(key, [&](JsonObject& child) {
+      read_profile(child, recording_read && conditions_read, profile);
+    });
+    return profile;
+  };
+  scenario.temperature = *followed("temperature", std::optional(scenario.temperature));
+  scenario.motion = *followed("motion", std::optional(scenario.motion));
+  scenario.cross_motion_1 = followed("cross_motion_1", scenario.cross_motion_1);
+  scenario.cross_motion_2 = followed("cross_motion_2", scenario.cross_motion_2);
+  scenario.acceleration = followed("acceleration", scenario.acceleration);
   object.with_child("compass",
                     [&](JsonObject& compass) { scenario.compass = read_compass(compass); });
   if (object.has("effects")) scenario.effects.clear();

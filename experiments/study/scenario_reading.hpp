@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -9,6 +10,9 @@
 namespace gyrostat {
 
 class Fleet;
+
+/// Keys of a scenario whose objects name a "file".
+inline constexpr std::array scenario_sources = {"from_recording", "from_fleet", "conditions_from"};
 
 /// A scenario from its JSON, as a study's "scenario" has it; recordings are relative to `folder`.
 /// With "from_fleet" it is the nominal one, and what each trial's is drawn from is put into

@@ -65,13 +65,10 @@ Json parameters(std::span<const FieldInfo> fields) {
 
 Json reference(const std::string& definition) { return {{"$ref", "#/definitions/" + definition}}; }
 
-/// An object that names a plug-in of `Type` under `chooser` and gives its parameters beside it;
-/// `others` are names that stand for no plug-in.
+/// An object that names a plug-in of `Type` under `chooser` and gives its parameters beside it.
 template <class Type>
-Json plugin(const std::string& chooser, std::string_view meaning,
-            const std::vector<std::string>& others = {}) {
+Json plugin(const std::string& chooser, std::string_view meaning) {
   const auto& types = Registry<Type>::all();
-  auto names = types.ids();
   auto rules = Json::array();
   const auto add_rule = [&](std::string_view name, std::string_view title, Json properties) {
     Json allowed = {{chooser, true}};
@@ -82,12 +79,10 @@ Json plugin(const std::string& chooser, std::string_view meaning,
           {{"description", title}, {"properties", allowed}, {"additionalProperties", false}}}});
   };
   for (const auto& type : types) add_rule(type.id, type.title, parameters(type.fields));
-  for (const auto& name : others)
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   return {{"type", "object"},
           {"description", meaning},
           {"required", {chooser}},
-          {"properties", {{chooser, one_of(names, meaning)}}},
+          {"properties", {{chooser, one_of(types.ids(), meaning)}}},
           {"allOf", rules}};
 }
 
@@ -115,6 +110,10 @@ Json scenario() {
       {{"from_s", number(ranges::non_negative, 0, "start of the span, s from the first sample")},
        {"to_s", number(ranges::positive, "end of the span, s from the first sample")},
        {"fit", fit_method()}});
+  properties["conditions_from"] = recording(
+      "sampling, temperature, rates and acceleration of a recording; other keys override",
+      {{"from_s", number(ranges::non_negative, 0, "start of the span, s from the first sample")},
+       {"to_s", number(ranges::positive, "end of the span, s from the first sample")}});
   properties["from_fleet"] =
       object({{"file", text("the fleet, as `gyrostat diagnose A.csv B.csv ... --json` writes it, "
                             "relative to the study's folder")}},
@@ -126,7 +125,7 @@ Json scenario() {
   properties["thermal_drift"] =
       object(parameters(field_infos_of<ThermalDrift<double>>), "a T + b T' + c");
   properties["temperature"] =
-      plugin<TemperatureType>("profile", "temperature over time", {"recorded"});
+      plugin<TemperatureType>("profile", "temperature over time");
   properties["motion"] = plugin<MotionType>("profile", "true rate over time");
   properties["cross_motion_1"] = plugin<MotionType>(
       "profile", "rate about the next axis in the order x, y, z, x; none: it is not told");

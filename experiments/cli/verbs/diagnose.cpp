@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <iterator>
 
@@ -15,6 +16,7 @@
 #include <gyrostat/experiments/cli/watched.hpp>
 #include <gyrostat/experiments/findings/diagnosis_page.hpp>
 #include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
+#include <gyrostat/experiments/findings/fleet_page.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
@@ -26,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* diagnose_examples = R"(Examples:
   gyrostat diagnose REC.csv                          every axis that it has, and what they share
-  gyrostat diagnose REC.csv --html GAP.html --json GAP.json
+  gyrostat diagnose REC.csv --html GAP.html --json GAP.json     of several axes, a page each, too
   gyrostat diagnose REC.csv --out-figures FIGURES    every picture as SVG
   gyrostat diagnose REC.csv --scenario STUDY.json    a study whose simulator has the effect
   gyrostat diagnose REC.csv --axis z                 one of its axes
@@ -54,12 +56,11 @@ void refuse(const Given& options, const std::string& why) {
     if (is_given) throw InputError(option, why);
 }
 
-/// What is of one diagnosis.
-Given of_one(const DiagnoseArguments& arguments) {
+/// What is written of each diagnosis.
+Given of_each(const DiagnoseArguments& arguments) {
   return {{"--html", !arguments.html_out.empty()},
           {"--scenario", !arguments.scenario_out.empty()},
-          {"--out-figures", !arguments.figures_out.empty()},
-          {"--claim", !arguments.claim.empty()}};
+          {"--out-figures", !arguments.figures_out.empty()}};
 }
 
 bool any(const Given& options) {
@@ -97,18 +98,48 @@ void give_claim(DiagnoseArguments& arguments) {
   arguments.watch.give_baseline(arguments.options);
 }
 
-void write_one(const DiagnoseArguments& arguments, const gap::Diagnosis& diagnosis,
-               const std::string& name) {
-  if (!arguments.json_out.empty())
-    write_atomically(arguments.json_out, gap::to_json(diagnosis).dump(1) + '\n');
+/// The study whose simulator has the effects, under the recording's conditions where these matter.
+nlohmann::ordered_json enriched_study(const DiagnoseArguments& arguments, const ToDiagnose& of,
+                                      const gap::Diagnosis& diagnosis, const std::string& name,
+                                      const fs::path& out) {
+  auto study = gap::scenario_json(diagnosis, name);
+  if (of.recording.file == "-" || !gap::depends_on_conditions(diagnosis)) return study;
+  auto source = of.recording.source_for(fs::absolute(out).parent_path());
+  if (arguments.span.from_s > 0.0) source["from_s"] = arguments.span.from_s;
+  if (arguments.span.to_s < SpanOption{}.to_s) source["to_s"] = arguments.span.to_s;
+  study["cells"][0]["scenario"]["conditions_from"] = std::move(source);
+  return study;
+}
+
+/// All but the JSON; `suffix` tells the files of several apart.
+void write_one(const DiagnoseArguments& arguments, const ToDiagnose& of,
+               const gap::Diagnosis& diagnosis, const std::string& name,
+               const std::string& suffix = {}) {
+  const auto told_apart = [&](const fs::path& path) {
+    return path.parent_path() / (path.stem().string() + suffix + path.extension().string());
+  };
   if (!arguments.html_out.empty())
-    write_atomically(arguments.html_out, gap::diagnosis_page(diagnosis, name));
-  if (!arguments.scenario_out.empty())
-    write_atomically(arguments.scenario_out, gap::scenario_json(diagnosis, name).dump(2) + '\n');
+    write_atomically(told_apart(arguments.html_out), gap::diagnosis_page(diagnosis, name));
+  if (const fs::path out = arguments.scenario_out; !out.empty())
+    write_atomically(told_apart(out),
+                     enriched_study(arguments, of, diagnosis, name, out).dump(2) + '\n');
   if (!arguments.figures_out.empty())
     for (const auto& picture : gap::diagnosis_pictures(diagnosis))
-      write_atomically(fs::path(arguments.figures_out) / (picture.id + ".svg"),
+      write_atomically(fs::path(arguments.figures_out) / (picture.id + suffix + ".svg"),
                        picture_file(picture));
+}
+
+/// "_x" of axis x.
+std::string suffix_of(std::string name) {
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+  return '_' + name;
+}
+
+std::string called(const ToDiagnose& one) {
+  auto name = fs::path(one.recording.file).filename().string();
+  if (!one.recording.axis.empty()) name += ", axis " + one.recording.axis;
+  return name;
 }
 
 void print_one(const DiagnoseArguments& arguments, const gap::Diagnosis& diagnosis,
@@ -153,12 +184,11 @@ int run(DiagnoseArguments& arguments, Console& console) {
     throw InputError("--fleet",
                      "1 recording; allowed: 2 or more, as A.csv B.csv, or one of several axes");
   if (all.size() > 1)
-    refuse(of_one(arguments),
-           "is of one recording and axis, which --axis chooses; of several there are tables and "
-           "--json");
+    refuse({{"--claim", !arguments.claim.empty()}},
+           "is of one recording and axis, which --axis chooses");
   give_claim(arguments);
   if (arguments.watch.json_lines) {
-    refuse(of_one(arguments), "is of one diagnosis; --jsonl prints lines");
+    refuse(of_each(arguments), "is written beside tables, not --jsonl");
     refuse({{"--json", !arguments.json_out.empty()}}, "is written beside tables, not --jsonl");
     return diagnose_in_lines(all, arguments.span, arguments.options, rules, console);
   }
@@ -166,8 +196,10 @@ int run(DiagnoseArguments& arguments, Console& console) {
     if (!out.empty()) require_writable(out, file);
   if (!arguments.figures_out.empty()) make_result_folder(arguments.figures_out);
   const std::string kind = !further.empty() ? "sensor" : all.size() > 1 ? "axis" : "part";
-  const auto parts = any(of_one(arguments)) ? Parts::refused : Parts::allowed;
+  const bool is_written = any(of_each(arguments)) || !arguments.claim.empty();
+  const auto parts = is_written ? Parts::refused : Parts::allowed;
   std::vector<gap::FleetMember> members;
+  std::vector<const ToDiagnose*> of_member;
   for (const auto& one : all) {
     if (all.size() > 1) console.log << fmt::format("{} {}\n", kind, one.name);
     auto some = diagnosed(one, arguments.span, arguments.options, parts, console);
@@ -177,6 +209,7 @@ int run(DiagnoseArguments& arguments, Console& console) {
       console.log << "stopped early: nothing was written\n";
       return stopped;
     }
+    of_member.insert(of_member.end(), some->size(), &one);
     std::move(some->begin(), some->end(), std::back_inserter(members));
   }
   if (members.empty())
@@ -184,13 +217,25 @@ int run(DiagnoseArguments& arguments, Console& console) {
   // Of a long recording, a stretch may be all that is left.
   const bool is_whole = members.size() == 1 && members.front().name == all.front().name;
   if (is_whole) {
-    auto name = fs::path(file).filename().string();
-    if (const auto& axis = all.front().recording.axis; !axis.empty()) name += ", axis " + axis;
-    write_one(arguments, members.front().diagnosis, name);
-    print_one(arguments, members.front().diagnosis, name, format, console);
+    const auto name = called(all.front());
+    const auto& diagnosis = members.front().diagnosis;
+    if (!arguments.json_out.empty())
+      write_atomically(arguments.json_out, gap::to_json(diagnosis).dump(1) + '\n');
+    write_one(arguments, all.front(), diagnosis, name);
+    print_one(arguments, diagnosis, name, format, console);
   } else {
     if (!arguments.json_out.empty())
       write_atomically(arguments.json_out, members_json(members, kind).dump(1) + '\n');
+    std::vector<std::string> pages;
+    for (std::size_t k = 0; k < members.size() && is_written; ++k) {
+      const auto suffix = suffix_of(members[k].name);
+      write_one(arguments, *of_member[k], members[k].diagnosis, called(*of_member[k]), suffix);
+      const fs::path page = arguments.html_out;
+      pages.push_back(page.stem().string() + suffix + page.extension().string());
+    }
+    if (!arguments.html_out.empty())
+      write_atomically(arguments.html_out,
+                       gap::fleet_page(members, kind, pages, fs::path(file).filename().string()));
     print_several(members, kind, format, console);
   }
   return judge_health(members, file, rules, console);

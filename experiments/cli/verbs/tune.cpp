@@ -45,15 +45,7 @@ Json study_around(const TuneArguments& arguments, std::ostream& log) {
   constexpr double longest_s = 600.0;
   const auto& input = arguments.input;
   const auto recording = input.read_all(log);
-  const auto layout = input.layout();
-  Json source = {{"file", fs::path(input.file).filename().string()}};
-  if (!input.axis.empty()) source["axis"] = input.axis;
-  if (!layout.columns.empty()) source["columns"] = layout.columns;
-  if (!layout.units.empty()) source["units"] = layout.units;
-  if (!input.preset.empty()) source["preset"] = input.preset;
-  if (!input.topic.empty()) source["topic"] = input.topic;
-  if (input.rate_hz > 0.0) source["rate_hz"] = input.rate_hz;
-  if (input.resample_hz > 0.0) source["resample_hz"] = input.resample_hz;
+  const auto source = input.source_for(fs::path(input.file).parent_path());
   std::vector<std::string> filters = arguments.request.methods;
   if (filters.empty())
     for (const auto& method : all_methods(ParameterSource::calibration))

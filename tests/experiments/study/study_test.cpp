@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -73,6 +74,7 @@ TEST(Study, EveryPluginCanBeChosenByItsName) {
     EXPECT_EQ(study.cells[0].scenario.effects[0].id(), id);
   }
   for (const auto& id : motion_types().ids()) {
+    if (id == "recorded") continue;  // needs a recording
     const auto study =
         study_of(R"({"cells": [{"scenario": {"motion": {"profile": ")" + id + R"("}}}]})");
     EXPECT_EQ(study.cells[0].scenario.motion.id(), id);
@@ -82,6 +84,7 @@ TEST(Study, EveryPluginCanBeChosenByItsName) {
     EXPECT_FALSE(other.cells[0].scenario.cross_motion_1);
   }
   for (const auto& id : acceleration_types().ids()) {
+    if (id == "recorded") continue;
     const auto study =
         study_of(R"({"cells": [{"scenario": {"acceleration": {"profile": ")" + id + R"("}}}]})");
     EXPECT_EQ(study.cells[0].scenario.acceleration.value().id(), id);
@@ -211,6 +214,83 @@ TEST(FromRecording, PlaysTheRecordedTemperatureBack) {
   ASSERT_EQ(again.size(), recorded.size());
   for (std::size_t i = 0; i < again.size(); ++i)
     ASSERT_NEAR(again.temperature_C[i], recorded.temperature_C[i], 1e-6) << again.t_s[i];
+}
+
+/// A logger's steps, of which a derivative between samples would make spikes of 3 dps.
+TEST(FromRecording, StepsOfTheTemperatureMakeNoSpikesOfTheDrift) {
+  TestFolder folder;
+  std::string text = "t_s,gyro_dps,temperature_C\n";
+  for (int i = 0; i < 24000; ++i) {
+    const double t = 0.05 * i, slope = 0.02 * std::cos(t / 150.0);
+    const double temperature = 30.0 + 3.0 * std::sin(t / 150.0);
+    text += fmt::format("{},{},{}\n", t, 0.3 * slope + 0.02 * std::sin(1e4 * std::sin(1e3 * i)),
+                        0.5 * std::round(temperature / 0.5));
+  }
+  folder.write("rec.csv", text);
+  auto scenario = study_of(folder, R"({"cells": [{"scenario": {
+      "from_recording": {"file": "rec.csv"}, "duration_s": 1200,
+      "random_error": {"measurement_noise_std_dps": 0.02}}}]})")
+                      .cells[0]
+                      .scenario;
+  ASSERT_EQ(scenario.temperature.id(), "recorded");
+  scenario.thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.3, .c_dps = 0.0};
+  Series series;
+  synthesise(scenario, {1, 0}, series);
+  double most = 0.0;
+  for (const double drift : series.thermal_bias_dps) most = std::max(most, std::abs(drift));
+  EXPECT_NEAR(most, 0.3 * 0.5 / 10.0, 1e-4);  // one step in ten seconds
+}
+
+// --------------------------------------------------------------- conditions_from
+
+TEST(ConditionsFrom, PlaysTheRecordedConditionsBack) {
+  TestFolder folder;
+  std::string text =
+      "t_s,gyro_dps,rate_ref_dps,temperature_C,acc_x_mps2,acc_y_mps2,acc_z_mps2,heading_deg\n";
+  for (int i = 0; i < 400; ++i)
+    text += fmt::format("{},{},{},{},{},{},{},0\n", 100 + 0.05 * i, 0.01 * (i % 7), i % 40 - 20,
+                        i == 7 ? "" : fmt::format("{}", 25 + 0.01 * i), 0.1 * (i % 3), 0.2, 9.8);
+  folder.write("rec.csv", text);
+  folder.write("under.json", R"({"cells": [{"filters": ["none"], "scenario": {
+      "conditions_from": {"file": "rec.csv", "from_s": 5, "to_s": 15},
+      "effects": [{"effect": "scale_factor", "error": 0.01}]}}]})");
+  ASSERT_EQ(run_program(folder, {"simulate", "under.json", "--out", "again.csv"}).exit_code, 0);
+  const auto recorded = read_recording(folder.path() / "rec.csv").series;
+  const auto again = read_recording(folder.path() / "again.csv").series;
+  ASSERT_EQ(again.size(), 200);
+  EXPECT_NEAR(again.rate_hz(), 20.0, 1e-9);
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    ASSERT_NEAR(again.rate_ref_dps[i], recorded.rate_ref_dps[100 + i], 1e-6);
+    ASSERT_NEAR(again.temperature_C[i], recorded.temperature_C[100 + i], 1e-6);
+    ASSERT_NEAR(again.acc_x_mps2[i], recorded.acc_x_mps2[100 + i], 1e-6);
+  }
+}
+
+TEST(ConditionsFrom, WhatTheStudySaysItselfStandsAboveTheRecording) {
+  TestFolder folder;
+  std::string text = "t_s,gyro_dps,temperature_C\n";
+  for (int i = 0; i < 400; ++i) text += fmt::format("{},0.0{},31\n", 0.05 * i, i % 7);
+  folder.write("rec.csv", text);
+  const auto study = study_of(folder, R"({"cells": [{"scenario": {
+      "conditions_from": {"file": "rec.csv"}, "duration_s": 6, "rate_hz": 10,
+      "motion": {"profile": "sinusoidal"}}}]})");
+  const auto& scenario = study.cells[0].scenario;
+  EXPECT_EQ(scenario.sampling.samples(), 60);
+  EXPECT_EQ(scenario.temperature.id(), "recorded");
+  EXPECT_EQ(scenario.motion.id(), "sinusoidal");
+  EXPECT_FALSE(scenario.acceleration);
+}
+
+TEST(ConditionsFrom, AProfileThatTheRecordingLacksIsToldWithItsPlace) {
+  TestFolder folder;
+  std::string text = "t_s,gyro_dps\n";
+  for (int i = 0; i < 400; ++i) text += fmt::format("{},0.0{}\n", 0.05 * i, i % 7);
+  folder.write("rec.csv", text);
+  EXPECT_THAT([&] { study_of(folder, R"({"cells": [{"scenario": {
+      "conditions_from": {"file": "rec.csv"}, "motion": {"profile": "recorded"}}}]})"); },
+              testing::ThrowsMessage<InputError>(testing::AllOf(
+                  testing::HasSubstr("cells[0].scenario.motion"),
+                  testing::HasSubstr("'recorded' needs a recording that has it"))));
 }
 
 }  // namespace
