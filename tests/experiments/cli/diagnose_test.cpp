@@ -155,9 +155,31 @@ TEST(Diagnose, TakesEveryAxisUnlessOneIsChosen) {
   EXPECT_EQ(axes_of({}), "xz");
   EXPECT_EQ(axes_of({"--axis", "all"}), "xz");
   EXPECT_EQ(axes_of({"--axis", "z"}), "z");
-  const auto page = run_program(folder, {"diagnose", "two.csv", "--html", "page.html"});
-  EXPECT_EQ(page.exit_code, 2);
-  EXPECT_THAT(page.err, HasSubstr("one recording and axis, which --axis chooses"));
+  const auto claim = run_program(folder, {"diagnose", "two.csv", "--claim", "study.json"});
+  EXPECT_EQ(claim.exit_code, 2);
+  EXPECT_THAT(claim.err, HasSubstr("one recording and axis, which --axis chooses"));
+}
+
+TEST(Diagnose, WritesAPageAndAStudyOfEachAxis) {
+  const TestFolder folder;
+  std::string csv = "t_s,gyro_x_dps,gyro_z_dps,temperature_C\n";
+  for (int i = 0; i < 1200; ++i)
+    csv += fmt::format("{:.2f},{},{},{}\n", 0.05 * i, 0.05 * std::sin(1e4 * std::sin(1e3 * i)),
+                       0.05 * std::sin(1e4 * std::cos(1e3 * i)), 20 + 0.01 * i);
+  folder.write("two.csv", csv);
+  const auto ran = run_program(folder, {"diagnose", "two.csv", "--html", "page.html", "--scenario",
+                                        "study.json", "--out-figures", "figures"});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const auto page = folder.read("page.html");
+  for (const std::string axis : {"x", "z"}) {
+    EXPECT_THAT(page, HasSubstr("<a href=\"page_" + axis + ".html\">" + axis + "</a>"));
+    EXPECT_THAT(folder.read("page_" + axis + ".html"), HasSubstr("two.csv, axis " + axis));
+    EXPECT_THAT(folder.read("figures/allan_" + axis + ".svg"), HasSubstr("<svg"));
+    const auto study = Json::parse(folder.read("study_" + axis + ".json"));
+    const auto& conditions = study["cells"][0]["scenario"]["conditions_from"];
+    EXPECT_EQ(conditions, Json({{"file", "two.csv"}, {"axis", axis}}));
+    EXPECT_EQ(run_program(folder, {"validate", "study_" + axis + ".json"}).exit_code, 0);
+  }
 }
 
 TEST(Diagnose, AColumnOfTheGyroIsChosenAndOthersAreOfTheMotion) {
