@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -22,6 +23,18 @@ struct Diagnosed<effects::GSensitivity> {
   /// Of all axes, or of one.
   static std::vector<effects::GSensitivity> guesses(const Beside& /*beside*/) {
     return {{1.0, 1.0, 1.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+  }
+
+  /// What one axis does not say, another effect that goes with the acceleration would.
+  static std::vector<effects::GSensitivity> told_otherwise(const effects::GSensitivity& effect,
+                                                           const Conditions& /*c*/) {
+    if (chosen_parameters(effect) == 0) return {};
+    const double hardly =
+        1e-9 * std::max({std::abs(effect.x_dps_per_mps2), std::abs(effect.y_dps_per_mps2),
+                         std::abs(effect.z_dps_per_mps2)});
+    const auto at_least_hardly = [&](double value) { return value == 0.0 ? hardly : value; };
+    return {{at_least_hardly(effect.x_dps_per_mps2), at_least_hardly(effect.y_dps_per_mps2),
+             at_least_hardly(effect.z_dps_per_mps2)}};
   }
 
   static std::size_t chosen_parameters(const effects::GSensitivity& effect) {

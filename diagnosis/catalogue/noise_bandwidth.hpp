@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/likelihood/marks.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
 #include <gyrostat/generators/effects/noise_bandwidth.hpp>
 
@@ -14,7 +15,8 @@ namespace gyrostat::gap {
 template <>
 struct Diagnosed<effects::NoiseBandwidth> {
   static constexpr auto signature = Signature::none;
-  static constexpr std::array free_parameters = {&effects::NoiseBandwidth::cutoff_hz};
+  static constexpr std::array free_parameters = {&effects::NoiseBandwidth::cutoff_hz,
+                                                 &effects::NoiseBandwidth::after_dps};
 
   /// Its poles are, and of what time it is.
   static std::size_t chosen_parameters(const effects::NoiseBandwidth& effect) {
@@ -35,7 +37,30 @@ struct Diagnosed<effects::NoiseBandwidth> {
     return all;
   }
 
-  static void enter(const effects::NoiseBandwidth& effect, NoiseLaw& law) { law.filter = effect; }
+  /// With white noise after it, which a line, a second filter or more poles would stand in for, or
+  /// without.
+  static std::vector<effects::NoiseBandwidth> told_otherwise(const effects::NoiseBandwidth& effect,
+                                                             const Conditions& c) {
+    auto plain = effect;
+    plain.after_dps = 0.0;
+    if (effect.after_dps > 0.0) return {plain};
+    const double after_dps = 0.5 * noise_of_steps(c, c.series().gyro_dps);
+    std::vector<effects::NoiseBandwidth> all;
+    for (const auto& form :
+         {effects::NoiseBandwidth{.poles = 1.0}, effects::NoiseBandwidth{.poles = 2.0},
+          effects::NoiseBandwidth{.poles = 2.0, .maximally_flat = 1.0},
+          effects::NoiseBandwidth{.poles = 2.0, .maximally_flat = 1.0, .continuous = 1.0}}) {
+      all.push_back(form);
+      all.back().cutoff_hz = effect.cutoff_hz;
+      all.back().after_dps = after_dps;
+    }
+    return all;
+  }
+
+  static void enter(const effects::NoiseBandwidth& effect, NoiseLaw& law) {
+    law.filter = effect;
+    law.rounding += effect.after_dps * effect.after_dps;
+  }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 

@@ -15,19 +15,6 @@ namespace {
 
 constexpr std::size_t values_inspected = 50'000;
 
-/// Of what changes from sample to sample beside the reference rate, robustly.
-double noise_of(const Conditions& conditions, const std::vector<double>& z) {
-  const auto& reference = conditions.series().rate_ref_dps;
-  const auto known = [&](std::size_t i) { return reference.empty() ? 0.0 : reference[i]; };
-  std::vector<double> steps;
-  for (const auto& span : conditions.spans(Part::train))
-    for (std::size_t i = span.first + 1; i < span.last; ++i)
-      if (const double step = z[i] - known(i) - z[i - 1] + known(i - 1); !is_missing(step))
-        steps.push_back(std::abs(step));
-  return steps.empty() ? 0.0
-                       : quantile(std::move(steps), 0.5) / (std::numbers::sqrt2 * normal_quartile);
-}
-
 /// The step of the values' grid, where so few values are used that they repeat, or where a motion
 /// spreads values over many steps that are not small to the noise.
 double grid_step(const Simulator& simulator, const std::vector<double>& z, double noise_dps) {
@@ -102,10 +89,22 @@ double offset_of(const Conditions& conditions, const std::vector<double>& z, dou
 
 }  // namespace
 
+double noise_of_steps(const Conditions& conditions, const std::vector<double>& z) {
+  const auto& reference = conditions.series().rate_ref_dps;
+  const auto known = [&](std::size_t i) { return reference.empty() ? 0.0 : reference[i]; };
+  std::vector<double> steps;
+  for (const auto& span : conditions.spans(Part::train))
+    for (std::size_t i = span.first + 1; i < span.last; ++i)
+      if (const double step = z[i] - known(i) - z[i - 1] + known(i - 1); !is_missing(step))
+        steps.push_back(std::abs(step));
+  return steps.empty() ? 0.0
+                       : quantile(std::move(steps), 0.5) / (std::numbers::sqrt2 * normal_quartile);
+}
+
 Marks marks_of(const Simulator& simulator, const Series& recording) {
   Marks marks;
   const auto& z = recording.gyro_dps;
-  marks.noise_of_steps_dps = noise_of(simulator.conditions(), z);
+  marks.noise_of_steps_dps = noise_of_steps(simulator.conditions(), z);
   marks.lsb_dps = grid_step(simulator, z, marks.noise_of_steps_dps);
   if (marks.lsb_dps > 0.0)
     marks.grid_offset_dps = offset_of(simulator.conditions(), z, marks.lsb_dps);

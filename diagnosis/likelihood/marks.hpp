@@ -33,6 +33,9 @@ struct Marks {
   }
 };
 
+/// Standard deviation of what changes from sample to sample beside the reference rate, robustly.
+double noise_of_steps(const Conditions& conditions, const std::vector<double>& gyro_dps);
+
 /// Reads the train part for the numbers, all samples for the flags.
 Marks marks_of(const Simulator& simulator, const Series& recording);
 

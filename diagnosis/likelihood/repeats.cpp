@@ -46,6 +46,28 @@ double equal_by_chance(const std::vector<double>& differences, double step) {
   return ones * std::pow(std::max(ones / twos, 1.0), 1.0 / 3.0);
 }
 
+/// The step of a grid that something slow has moved, as a firmware's compensation does: neighbours
+/// differ by hardly anything or by about a whole number of steps; 0 where they do not.
+double step_of_moved_grid(const std::vector<double>& differences) {
+  constexpr double hardly = 0.05, most_of_them = 0.95, ends = 0.005;
+  std::vector<double> sizes;
+  for (const double d : differences)
+    if (d != 0.0 && !is_missing(d)) sizes.push_back(std::abs(d));
+  std::sort(sizes.begin(), sizes.end());
+  const auto few = static_cast<std::size_t>(ends * static_cast<double>(sizes.size()));
+  double widest = 1.0 / hardly, step = 0.0;
+  for (std::size_t i = few + 1; i + few < sizes.size(); ++i)
+    if (const double ratio = sizes[i] / sizes[i - 1]; ratio > widest) {
+      widest = ratio;
+      step = sizes[i];
+    }
+  if (step == 0.0) return 0.0;
+  const auto whole = std::count_if(sizes.begin(), sizes.end(), [&](double size) {
+    return std::abs(size / step - std::nearbyint(size / step)) < hardly;
+  });
+  return static_cast<double>(whole) > most_of_them * static_cast<double>(sizes.size()) ? step : 0.0;
+}
+
 /// Pairs of samples between which the reference moves by more than rounding and noise could undo,
 /// how many of them do not move as far, and how many are equal, or would be by chance: outliers
 /// fall on the value before as they do on those on either side of it, where a filter that follows
@@ -146,13 +168,13 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
       equal += 1.0;
       if (z[i - 1] == z[i - 2]) twice += 1.0;
     }
+  const double grid = marks.lsb_dps > 0.0 ? marks.lsb_dps : step_of_moved_grid(differences);
   double by_chance = 0.0;
-  if (marks.lsb_dps > 0.0)
-    by_chance = equal_by_chance(differences, marks.lsb_dps);
+  if (grid > 0.0)
+    by_chance = equal_by_chance(differences, grid);
   else if (simulator.resolution_dps() > 0.0)
     by_chance = equal_by_chance(differences, simulator.resolution_dps());
-  if (by_chance < 0.0)
-    by_chance = simulator.resolution_dps() > 0.0 && marks.lsb_dps == 0.0 ? 0.0 : equal;
+  if (by_chance < 0.0) by_chance = simulator.resolution_dps() > 0.0 && grid == 0.0 ? 0.0 : equal;
   // Nor where the rates between which a motion rests lie between the values of a coarse grid.
   constexpr double coarse = 2.0;
   if (!simulator.conditions().series().rate_ref_dps.empty() &&

@@ -196,7 +196,8 @@ Standing SetBench::without(const Standing& standing, std::size_t effect) const {
   const double to_reach = standing.score - little;
   // What is told otherwise may do without it.
   for (std::size_t k = 0; k < rest.effects.size(); ++k)
-    if (band_of(rest.effects[k].id()) == band) best = told_otherwise(best, k, to_reach);
+    if (const auto id = rest.effects[k].id(); band_of(id) == band || id == "g_sensitivity")
+      best = told_otherwise(best, k, to_reach);
   if (ArimaLaw::of(rest.random_error).walk_dps < small)
     if (auto other = refitted(with_walk_of_at_least(rest, small)); other.score > best.score)
       best = std::move(other);

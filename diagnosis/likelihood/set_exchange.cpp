@@ -44,16 +44,22 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
         return id == effect.id() || (is_line(id) && is_line(effect.id()));
       };
       const auto others = each_added(rest);
-      double second = rest.score;
+      // What has moved without it has moved for its rivals as for itself, put there anew.
+      constexpr double moved = 10.0;
+      double anew = standing.score;
+      for (const auto& other : others)
+        if (other.score > standing.score - moved && is_the_same(other))
+          anew = std::min(anew, other.score);
+      double least_lost = standing.score - rest.score;
       const Standing* best = &rest;
       for (const auto& other : others) {
         if (other.score > best->score) best = &other;
         if (other.score < -1e299 || is_the_same(other)) continue;
-        second = std::max(second, other.score);
-        if (other.score > standing.score - 3.0)
+        least_lost = std::min(least_lost, anew - other.score);
+        if (other.score > anew - 3.0)
           found.rivals.push_back({other.scenario.effects.back(),
                                   std::string(other.scenario.effects.back().id()),
-                                  std::string(effect.id()), other.score - standing.score});
+                                  std::string(effect.id()), other.score - anew});
       }
       // From other parameters, what the others are worth beside it is as before.
       constexpr double little = 3.0;
@@ -81,7 +87,7 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
       const std::string name(standing.scenario.effects[k].id());
       const auto known = std::find_if(found.members.begin(), found.members.end(),
                                       [&](const auto& m) { return m.effect == name; });
-      const double odds = std::min(standing.score - second, most_odds);
+      const double odds = std::min(least_lost, most_odds);
       if (known == found.members.end())
         found.members.push_back({name, odds});
       else

@@ -24,7 +24,7 @@ EffectBand band_of_last(const Standing& standing) {
 /// A sensor has lines as it has them; every other effect is there once.
 bool may_repeat(const Scenario& scenario, std::string_view effect) {
   constexpr std::ptrdiff_t most_lines = 3;
-  return effect == "vibration" &&
+  return (effect == "vibration" || effect == "sinusoidal") &&
          std::count_if(scenario.effects.begin(), scenario.effects.end(),
                        [&](const auto& e) { return e.id() == effect; }) < most_lines;
 }
@@ -168,11 +168,15 @@ Standing SetSearcher::settled(Standing standing) const {
     }
   }
   if (auto fit = bench_.polished(standing); fit.score > standing.score) standing = std::move(fit);
-  if (standing.scenario.effects.empty() || band_of_last(standing) != EffectBand::motion)
-    return standing;
-  for (std::size_t k = 0; k + 1 < standing.scenario.effects.size(); ++k)
-    if (is_of_response(standing.scenario.effects[k].id()))
+  if (standing.scenario.effects.empty()) return standing;
+  const auto band = band_of_last(standing);
+  for (std::size_t k = 0; k < standing.scenario.effects.size(); ++k) {
+    const auto id = standing.scenario.effects[k].id();
+    const bool is_last = k + 1 == standing.scenario.effects.size();
+    if (band == EffectBand::motion ? is_of_response(id) && !is_last
+                                   : band == EffectBand::fast && id == "noise_bandwidth")
       standing = bench_.told_otherwise(standing, k);
+  }
   return standing;
 }
 

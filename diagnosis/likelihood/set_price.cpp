@@ -19,11 +19,12 @@ bool has_white_noise(const Scenario& scenario) {
          ArimaLaw::of(e).variance() <= e.measurement_noise_std_dps * e.measurement_noise_std_dps;
 }
 
-/// How many parameters a fit moves; one that is 0 of what is taken out belongs to another form.
+/// How many parameters a fit moves, amplitudes of slow signatures aside; one that is 0 belongs to
+/// another form.
 std::size_t sizes_of(const Effect& effect, const CauseType& cause) {
-  if (!is_taken_out(effect)) return cause.free_parameters.size() - cause.amplitudes;
+  const auto first = is_taken_out(effect) ? 0 : static_cast<std::ptrdiff_t>(cause.amplitudes);
   return static_cast<std::size_t>(
-      std::count_if(cause.free_parameters.begin(), cause.free_parameters.end(),
+      std::count_if(cause.free_parameters.begin() + first, cause.free_parameters.end(),
                     [&](auto name) { return effect.value(field_of(effect, name)) != 0.0; }));
 }
 

@@ -20,12 +20,14 @@ namespace gyrostat::effects {
 /// poles, each exact between samples, or Butterworth's of the same order by the bilinear transform
 /// (Oppenheim and Schafer, "Discrete-Time Signal Processing", 3rd ed., 7.2); or either in
 /// continuous time before noise is sampled, of which what is above half the sampling rate is folded
-/// below it. The noise keeps its density well below the cutoff.
+/// below it. The noise keeps its density well below the cutoff. What comes after the filter, as a
+/// converter does, adds white noise of its own.
 struct NoiseBandwidth {
   double cutoff_hz = 20.0;
   double poles = 1.0;
   double maximally_flat = 0.0;
   double continuous = 0.0;
+  double after_dps = 0.0;
 
   static constexpr std::string_view title = "an output filter colours the white noise";
   static constexpr Stage stage = Stage::noise;
@@ -43,15 +45,49 @@ struct NoiseBandwidth {
               "1: Butterworth's poles; 0: equal ones"},
         Field{"continuous", &P::continuous, "1", Range{.from = 0, .to = 1, .whole = true},
               "1: before sampling, of four poles at most; 0: a recursion over samples"},
+        Field{"after_dps", &P::after_dps, "dps", ranges::non_negative,
+              "standard deviation of the white noise after the filter"},
     };
   }
 
   static constexpr int most_poles = 8;
   static constexpr NoiseBandwidth absent() { return {.cutoff_hz = 1e9}; }
 
-  void apply(Series& series, const Noise& /*noise*/) const {
+  void apply(Series& series, const Noise& noise) const {
     const std::size_t samples = samples_with(series, needs);
     if (samples < 2) return;
+    pass(series, samples);
+    if (after_dps == 0.0) return;
+    const auto after = noise.stream("noise_bandwidth/after");
+    for (std::size_t i = 0; i < samples; ++i) series.gyro_dps[i] += after_dps * after.normal(i);
+  }
+
+  /// Multiplies by |H|² at angles (radians a sample), where a sampling interval is `interval_s`.
+  void multiply_gain(std::span<const double> angles, std::span<const double> cosines,
+                     double interval_s, std::span<double> gain) const {
+    if (is_folded()) {
+      const FoldedGain folded(cutoff_hz * interval_s, sampled_poles(), maximally_flat > 0.5);
+      for (std::size_t k = 0; k < gain.size(); ++k)
+        gain[k] *= folded(0.5 * angles[k] / std::numbers::pi);
+      return;
+    }
+    if (maximally_flat > 0.5) {
+      if (cutoff_hz * interval_s >= 0.5) return;
+      const double edge = std::tan(std::numbers::pi * cutoff_hz * interval_s);
+      for (std::size_t k = 0; k < gain.size(); ++k)
+        gain[k] /= 1.0 + std::pow(std::tan(0.5 * angles[k]) / edge, 2.0 * poles);
+      return;
+    }
+    const double pole = std::exp(-2.0 * std::numbers::pi * cutoff_hz * interval_s);
+    for (std::size_t k = 0; k < gain.size(); ++k) {
+      const double of_one =
+          (1.0 - pole) * (1.0 - pole) / (1.0 - 2.0 * pole * cosines[k] + pole * pole);
+      gain[k] *= poles == 1.0 ? of_one : std::pow(of_one, poles);
+    }
+  }
+
+ private:
+  void pass(Series& series, std::size_t samples) const {
     const auto count =
         static_cast<std::size_t>(std::clamp(std::lround(poles), 1L, long{most_poles}));
     const auto filter = [&](auto&& passed) {
@@ -83,31 +119,6 @@ struct NoiseBandwidth {
     });
   }
 
-  /// Multiplies by |H|² at angles (radians a sample), where a sampling interval is `interval_s`.
-  void multiply_gain(std::span<const double> angles, std::span<const double> cosines,
-                     double interval_s, std::span<double> gain) const {
-    if (is_folded()) {
-      const FoldedGain folded(cutoff_hz * interval_s, sampled_poles(), maximally_flat > 0.5);
-      for (std::size_t k = 0; k < gain.size(); ++k)
-        gain[k] *= folded(0.5 * angles[k] / std::numbers::pi);
-      return;
-    }
-    if (maximally_flat > 0.5) {
-      if (cutoff_hz * interval_s >= 0.5) return;
-      const double edge = std::tan(std::numbers::pi * cutoff_hz * interval_s);
-      for (std::size_t k = 0; k < gain.size(); ++k)
-        gain[k] /= 1.0 + std::pow(std::tan(0.5 * angles[k]) / edge, 2.0 * poles);
-      return;
-    }
-    const double pole = std::exp(-2.0 * std::numbers::pi * cutoff_hz * interval_s);
-    for (std::size_t k = 0; k < gain.size(); ++k) {
-      const double of_one =
-          (1.0 - pole) * (1.0 - pole) / (1.0 - 2.0 * pole * cosines[k] + pole * pole);
-      gain[k] *= poles == 1.0 ? of_one : std::pow(of_one, poles);
-    }
-  }
-
- private:
   std::size_t sampled_poles() const {
     return static_cast<std::size_t>(
         std::clamp(std::lround(poles), 1L, static_cast<long>(SampledLowPass::most_poles)));

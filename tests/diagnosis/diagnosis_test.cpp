@@ -219,7 +219,7 @@ TEST(Diagnosis, NamesNothingElseWhenTheCauseIsNotInTheCatalogue) {
 /// next.
 TEST(Diagnosis, ANameThatMissesTheRecordingIsNotAlone) {
   Scenario s = still();
-  s.effects = {effects::NoiseAveraging{.length = 2.5}};
+  s.effects = {effects::NoiseAveraging{.length = 4.0}};
   DiagnosisOptions options;
   options.without = {"noise_averaging"};
   const auto d = diagnose(recorded(s, 12, false), options);

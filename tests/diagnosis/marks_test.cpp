@@ -139,6 +139,18 @@ TEST(Marks, AGridMayBeOffZero) {
   }
 }
 
+/// A firmware that takes a slow bias out of rounded rates moves their grid by a millionth of a
+/// step: neighbours that are equal are so by chance.
+TEST(Marks, AGridThatIsMovedSlowlyMakesNoRepeats) {
+  Series series = recorded(still(), 43, false);
+  effects::Quantization{0.06}.apply(series, {1, 0});
+  for (std::size_t i = 0; i < series.size(); ++i)
+    series.gyro_dps[i] += 1e-6 * std::nearbyint(2e3 * std::sin(2e-3 * series.t_s[i]));
+  EXPECT_EQ(marks_in(series).stale_probability, 0.0);
+  effects::StaleSamples{0.1, 1.0}.apply(series, {1, 0});
+  EXPECT_GT(marks_in(series).stale_probability, 0.03);  // not all of them are told from chance
+}
+
 /// Each sample is the one before with a chance of 0.15, whatever that was: of the repeats as many
 /// follow a repeat, and where a fresh one follows each, none.
 TEST(Marks, RepeatsMayFollowOneAnother) {

@@ -83,6 +83,8 @@ INSTANTIATE_TEST_SUITE_P(
         Effect(effects::NoiseBandwidth{
             .cutoff_hz = 7.0, .poles = 2.0, .maximally_flat = 1.0, .continuous = 1.0}),
         Effect(effects::NoiseBandwidth{.cutoff_hz = 4.0, .poles = 2.0, .continuous = 1.0}),
+        Effect(effects::NoiseBandwidth{
+            .cutoff_hz = 3.0, .poles = 2.0, .maximally_flat = 1.0, .after_dps = 0.02}),
         Effect(effects::NoiseAveraging{.length = 1.4}),
         Effect(effects::NoiseAveraging{.length = 1.7, .stages = 2.0}),
         Effect(effects::AngleQuantization{.coefficient_deg = 0.003}),

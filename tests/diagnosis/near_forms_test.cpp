@@ -1,0 +1,84 @@
+// Effects in forms that other sensors have them in: each is one effect, under its own name.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include <gyrostat/diagnosis/likelihood/set_search.hpp>
+#include <gyrostat/generators/effects/list.hpp>
+#include <gyrostat/generators/environment/acceleration/list.hpp>
+#include <gyrostat/tests/diagnosis/known_recordings.hpp>
+
+namespace gyrostat::gap::near_forms_test {
+namespace {
+
+std::set<std::string> names_in(const FoundSet& found) {
+  std::set<std::string> names;
+  for (const auto& member : found.members) names.insert(member.effect);
+  return names;
+}
+
+/// A filter and the converter's noise after it: four poles, a broad line and a second filter stood
+/// in for them.
+TEST(NearForms, FilteredNoiseWithWhiteNoiseAfterItIsOneEffect) {
+  Scenario s = still();
+  s.random_error.measurement_noise_std_dps = 0.1;
+  s.effects = {effects::NoiseBandwidth{
+      .cutoff_hz = 2.5, .poles = 2.0, .maximally_flat = 1.0, .after_dps = 0.012}};
+  const Series series = recorded(s, 61, false);
+  const Simulator simulator(series, 1);
+  const auto found = find_set(simulator, series, {});
+  EXPECT_EQ(names_in(found), std::set<std::string>{"noise_bandwidth"});
+  const auto& effect = *found.scenario.effects.front().as<effects::NoiseBandwidth>();
+  EXPECT_NEAR(effect.cutoff_hz, 2.5, 0.05);
+  // Of some 10,000 values above the cutoff: 5 standard errors.
+  EXPECT_NEAR(effect.after_dps, 0.012, 5.0 * 0.012 / std::sqrt(2.0 * 10000.0));
+}
+
+TEST(NearForms, ALineWithAHarmonicIsOneEffect) {
+  Series series = recorded(still(), 62, false);
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const double turn = 2.0 * std::numbers::pi * 3.1 * series.t_s[i];
+    series.gyro_dps[i] += 0.02 * std::sin(turn) + 0.006 * std::sin(2.0 * turn + 1.0);
+  }
+  const Simulator simulator(series, 1);
+  EXPECT_EQ(names_in(find_set(simulator, series, {})), std::set<std::string>{"sinusoidal"});
+}
+
+/// An arm that turns is accelerated as it turns: the scale of its rate stood in for what is felt
+/// along one axis, beside what is felt along another.
+TEST(NearForms, WhatIsFeltAlongThreeAxesNeedsNoScale) {
+  Scenario s = moving();
+  s.acceleration = acceleration::Level{};
+  Series series = recorded(s, 63, true);
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const double rate = series.rate_ref_dps[i];
+    series.acc_x_mps2[i] = 3.0 * std::sin(0.05 * series.t_s[i]);
+    series.acc_y_mps2[i] = 0.05 * rate + 0.3 * std::sin(0.7 * series.t_s[i]);
+    series.gyro_dps[i] += 0.02 * series.acc_x_mps2[i] + 0.04 * series.acc_y_mps2[i];
+  }
+  const Simulator simulator(series, 1);
+  EXPECT_EQ(names_in(find_set(simulator, series, {})), std::set<std::string>{"g_sensitivity"});
+}
+
+/// What lags by a fiftieth of a sample is late by as much: no recording tells them apart, and both
+/// are in the answer.
+TEST(NearForms, ALagFarBelowASampleMayBeAShift) {
+  Scenario s = moving();
+  s.effects = {effects::SensorBandwidth{.cutoff_hz = 160.0, .continuous = 1.0}};
+  const Series series = recorded(s, 64, true);
+  const Simulator simulator(series, 1);
+  const auto found = find_set(simulator, series, {});
+  ASSERT_EQ(found.members.size(), 1);
+  EXPECT_LT(found.members.front().log_odds, 2.0);
+  std::set<std::string> either = {found.members.front().effect};
+  for (const auto& rival : found.rivals) either.insert(rival.effect);
+  EXPECT_TRUE(either.contains("sensor_bandwidth"));
+  EXPECT_TRUE(either.contains("time_offset"));
+}
+
+}  // namespace
+}  // namespace gyrostat::gap::near_forms_test
