@@ -27,6 +27,28 @@ std::vector<Where> Diagnosing::departures_of(const Ensemble& ensemble) const {
   return found;
 }
 
+/// What closes most beside those before it comes next, and what may not be there after what is.
+std::vector<std::size_t> Diagnosing::by_what_each_closes(const std::vector<std::string>& names) {
+  std::vector<std::size_t> order, left(names.size());
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  const auto worth = [&](std::size_t k) {
+    std::vector<std::string> some = {names[k]};
+    for (const std::size_t before : order) some.push_back(names[before]);
+    const bool is_clear = result_.effects[k].log_odds >= thresholds::clear_odds;
+    const auto with = rung(names[k], with_effects(some), lacking_replicas);
+    return std::pair(is_clear, scoring_->of(with.replicas[0]).value);
+  };
+  while (left.size() > 1) {
+    std::vector<std::pair<bool, double>> worths;
+    for (const std::size_t k : left) worths.push_back(worth(k));
+    const auto most = std::max_element(worths.begin(), worths.end()) - worths.begin();
+    order.push_back(left[static_cast<std::size_t>(most)]);
+    left.erase(left.begin() + most);
+  }
+  order.push_back(left.front());
+  return order;
+}
+
 /// One effect of the set after another.
 void Diagnosing::climb(const std::vector<std::string>& order) {
   std::vector<std::string> names;
@@ -54,15 +76,7 @@ void Diagnosing::attribute() {
   auto names = weighed(found_.members, "weighing each effect");
   if (is_found_without_a_doubtful(names))
     names = weighed(found_.members, "weighing each effect again");
-  std::vector<std::size_t> order(names.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  // What lacks most without it comes first, and what may not be there after what is.
-  const auto place = [&](std::size_t k) {
-    const auto& effect = result_.effects[k];
-    return std::pair(effect.log_odds >= thresholds::clear_odds, effect.lack);
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return place(a) > place(b); });
+  const auto order = by_what_each_closes(names);
   std::vector<Included> effects;
   std::vector<LogScore> lacking;
   std::vector<std::string> ordered;

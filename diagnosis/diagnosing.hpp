@@ -81,6 +81,7 @@ class Diagnosing {
   /// The scenario with those of the set's effects that have one of the names, its noise fitted.
   Scenario with_effects(std::vector<std::string> names);
   void add_intervals(Included& included) const;
+  std::vector<std::size_t> by_what_each_closes(const std::vector<std::string>& names);
   void climb(const std::vector<std::string>& order);
   /// What the recording still shows that the simulator, enriched, does not.
   void see_what_is_left();
