@@ -33,7 +33,8 @@ std::string effects_in_words(const Diagnosis& d) {
 
 std::string claimed_effects(const Diagnosis& d) {
   std::vector<std::string> effects;
-  for (const auto& verdict : d.verdict_set) effects.push_back(verdict.text());
+  for (const auto& verdict : d.verdict_set)
+    if (!verdict.is_unknown()) effects.push_back(verdict.text());
   return fmt::format("{}", fmt::join(effects, ", then "));
 }
 
@@ -104,8 +105,8 @@ std::string answer(const Diagnosis& d) {
   if (d.claimed && d.verdict.is_unknown())
     return "The recording has something that the claimed simulator lacks.";
   if (d.claimed)
-    return fmt::format("With what is claimed, {}, the simulator comes {}.", claimed_effects(d),
-                       closeness(d));
+    return fmt::format("With what is claimed, {}, the simulator comes {}.{}", claimed_effects(d),
+                       closeness(d), what_is_left_in_words(d));
   const char* with = d.effects.size() > 1 ? "these" : "that";
   if (d.verdict.is_unknown()) {
     const std::string unknown =
@@ -157,8 +158,13 @@ std::string transfer_in_words(const Diagnosis& d) {
 std::string next_in_words(const Diagnosis& d) {
   if (d.next.what.empty()) return "";
   if (d.next.expected_power == 0.0) return fmt::format("Record next: {}.", d.next.what);
+  const double percent = 100.0 * d.next.expected_power;
+  if (!d.next.tells_apart())
+    return fmt::format("No recording that was tried in simulation tells {} from {}; the best, {}, "
+                       "is right in {:.0f} %.",
+                       d.next.first, d.next.second, d.next.what, percent);
   return fmt::format("To tell {} from {}: {} (right in {:.0f} % of simulated recordings).",
-                     d.next.first, d.next.second, d.next.what, 100.0 * d.next.expected_power);
+                     d.next.first, d.next.second, d.next.what, percent);
 }
 
 std::string detectable_in_words(const Diagnosis& d) {

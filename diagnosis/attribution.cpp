@@ -151,11 +151,12 @@ void Diagnosing::judge_claim() {
   result_.enriched = scenario;
   std::vector<std::string> names;
   for (const auto& effect : scenario.effects) {
+    if (std::find(names.begin(), names.end(), effect.id()) != names.end()) continue;
     names.emplace_back(effect.id());
-    result_.verdict_set.push_back(Verdict::cause(names.back()));
+    cannot_rule_out(Verdict::cause(names.back()));
     const auto alone = with_effects({names.back()});
     result_.causes.push_back({.effect = names.back(), .scenario = alone});
-    result_.causes.back().probability = 1.0;
+    result_.causes.back().probability = no_value;  // it is claimed, whatever the odds
   }
   if (names.empty())
     rungs_.push_back(rung("the noise claimed", scenario, options_.candidate_replicas));
@@ -170,6 +171,7 @@ void Diagnosing::judge_claim() {
     result_.verdict = result_.verdict_set.front();
   else if (result_.p_after <= options_.significance)
     result_.verdict = Verdict::unknown();
+  if (result_.p_after < thresholds::p_of_the_unexplained) cannot_rule_out(Verdict::unknown());
 }
 
 void Diagnosing::see_what_is_left() {
@@ -178,12 +180,16 @@ void Diagnosing::see_what_is_left() {
   result_.where_after = departures_of(enriched);
 }
 
-bool Diagnosing::only_the_compass_is_left() const {
-  const auto& effects = result_.enriched.effects;
+bool Diagnosing::is_left_in_the_compass_alone() const {
   const auto& where = result_.where_after;
   return !where.empty() && std::all_of(where.begin(), where.end(), [](const auto& w) {
     return w.channel == "heading_deg";
-  }) && std::none_of(effects.begin(), effects.end(), [](const auto& effect) {
+  });
+}
+
+bool Diagnosing::only_the_compass_is_left() const {
+  const auto& effects = result_.enriched.effects;
+  return is_left_in_the_compass_alone() && std::none_of(effects.begin(), effects.end(), [](const auto& effect) {
     return effect.stage() == Stage::compass;
   });
 }

@@ -146,7 +146,8 @@ void Diagnosing::look_ahead() {
     const bool may_be_unknown = std::find(set.begin(), set.end(), Verdict::unknown()) != set.end();
     if (second != nullptr || may_be_unknown)
       result_.next = wider_recording(simulator_.conditions(), result_.duration_s,
-                                     result_.causes.empty() ? "" : result_.causes.front().effect);
+                                     result_.causes.empty() ? "" : result_.causes.front().effect,
+                                     is_left_in_the_compass_alone());
     return;
   }
   tell("looking for the next experiment", 0.95);

@@ -85,6 +85,7 @@ class Diagnosing {
   void climb(const std::vector<std::string>& order);
   /// What the recording still shows that the simulator, enriched, does not.
   void see_what_is_left();
+  bool is_left_in_the_compass_alone() const;
   /// What effects of the rate leave is seen in the heading alone: it casts no doubt on them.
   bool only_the_compass_is_left() const;
   /// With what has no name.

@@ -93,7 +93,7 @@ Json to_json(const Diagnosis& d) {
   json["causes"] = Json::array();
   for (const auto& c : d.causes)
     json["causes"].push_back({{"effect", c.effect},
-                              {"probability", c.probability},
+                              {"probability", number(c.probability)},
                               {"gap_after", c.gap_after},
                               {"closed", c.closed},
                               {"log_score", c.log_score},

@@ -64,7 +64,7 @@ std::vector<Table> diagnosis_tables(const Diagnosis& d, const std::string& name)
     causes.rows.push_back({c.effect, c.probability, c.log_score, c.recovered, c.gap_after, c.closed,
                            fmt::format("{}", fmt::join(parameters, "; "))});
   }
-  if (!d.causes.empty())
+  if (!d.causes.empty() && !d.claimed)
     causes.notes.push_back(
         "posterior probability: of being what the recording has and the simulator lacks; the "
         "inclusion probability of an effect, times what its set recovers where something is left");

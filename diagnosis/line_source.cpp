@@ -109,6 +109,7 @@ std::optional<LineWitness> witness_of(const Series& recording, const std::vector
                      .source = source,
                      .channel = std::string(most.channel->name),
                      .coherence = most.coherence.squared,
+                     .has_accelerometer = felt.channel != nullptr,
                      .p_value = most.p_value()};
 }
 
@@ -146,9 +147,9 @@ std::string in_words(const std::vector<LineWitness>& lines) {
           fmt::format("The {} is in {}: mechanical, the sensor is shaken.", name, seen));
     else if (line.source == LineSource::undecided)
       words.push_back(fmt::format(
-          "The {} is {} in {}; a longer recording with an accelerometer beside it would tell "
-          "whether the sensor is shaken.",
-          name, is_there ? "clearly" : "perhaps", seen));
+          "The {} is {} in {}; a longer recording{} would tell whether the sensor is shaken.", name,
+          is_there ? "clearly" : "perhaps", seen,
+          line.has_accelerometer ? "" : " with an accelerometer beside it"));
     else if (is_there)
       words.push_back(
           fmt::format("The {} is in {}, and not in the accelerometer: electronic, "

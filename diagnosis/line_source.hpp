@@ -24,6 +24,7 @@ struct LineWitness {
   LineSource source = LineSource::undecided;
   std::string channel;
   double coherence = 0.0;  ///< magnitude squared
+  bool has_accelerometer = false;
   double p_value = 1.0;  ///< of so much by chance, in any of the channels and frequencies looked at
 };
 

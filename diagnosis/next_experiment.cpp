@@ -33,8 +33,9 @@ std::vector<Proposal> proposals(const Scenario& like, double recorded_s) {
     s.motion = motion;
     return Proposal{std::move(what), s};
   };
-  const double hour = 3600.0;
-  return {make(fmt::format("static at constant temperature for {:.3g} h", 4.0 * recorded_s / hour),
+  const double hour = 3600.0, night = 10.0 * hour;
+  return {make("static at constant temperature for 10 h", night, still, motion::Stationary{}),
+          make(fmt::format("static at constant temperature for {:.3g} h", 4.0 * recorded_s / hour),
                4.0 * recorded_s, still, motion::Stationary{}),
           make("static, temperature cycles of 20 min between 23 and 57 °C for 2 h", 2 * hour,
                temperature::Cycle{23.0, 57.0, 1200.0}, motion::Stationary{}),
@@ -84,14 +85,23 @@ NextExperiment next_experiment(const Scenario& first, const Scenario& second, do
 }
 
 NextExperiment wider_recording(const Conditions& conditions, double recorded_s,
-                               const std::string& nearest) {
+                               const std::string& nearest, bool of_compass_alone) {
+  const double longer_h = 4.0 * recorded_s / 3600.0;
+  if (of_compass_alone)
+    return {.what = fmt::format("the compass for {:.3g} h at rest, far from iron and from currents, "
+                                "and once more where it is used: what stays is its own",
+                                longer_h),
+            .first = nearest,
+            .second = Verdict::unknown().text()};
   const auto& series = conditions.series();
   constexpr double least_span_C = 4.0;
   const auto& T = series.temperature_C;
   const bool warms =
       !T.empty() &&
       *std::max_element(T.begin(), T.end()) - *std::min_element(T.begin(), T.end()) >= least_span_C;
-  std::string what = fmt::format("{:.3g} h at rest", 4.0 * recorded_s / 3600.0);
+  constexpr double least_h = 2.0;  // six of the cycles
+  std::string what =
+      fmt::format("{:.3g} h at rest", warms ? longer_h : std::max(longer_h, least_h));
   if (!warms) what += ", over temperature cycles of 20 min between 23 and 57 °C (temperature_C)";
   if (conditions.motion_dps_s().empty()) what += ", then turns on a rate table (rate_ref_dps)";
   if (series.acc_x_mps2.empty()) what += ", with the accelerometer beside it (acc_x_mps2, ...)";
