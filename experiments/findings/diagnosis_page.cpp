@@ -19,7 +19,9 @@ std::string head(const Diagnosis& d, const std::string& name) {
        {in_words(d.line_sources), remainder_in_words(d), transfer_in_words(d), next_in_words(d)})
     if (!more.empty()) out += fmt::format("<p>{}</p>\n", escaped(more));
   return out + fmt::format(
-                   "<p class=\"note\">{:.0f} s at {:.4g} Hz, {} samples.</p>\n<p class=\"note "
+                   "<p class=\"note\">{:.0f} s at {:.4g} Hz, {} samples. What is said to be off or "
+                   "mended is of the part that was fitted, its pictures are of the part that was "
+                   "held back.</p>\n<p class=\"note "
                    "hint\" hidden>Pictures: drag to zoom, double-click to see all; point at a dot "
                    "for its numbers.</p>\n",
                    d.duration_s, d.rate_hz, d.samples);

@@ -2,6 +2,7 @@
 
 #include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -73,6 +74,18 @@ TEST(DiagnosisPictures, LensesThatAreStillOffComeFirst) {
   EXPECT_THAT(lens_pictures(half_closed()).front().picture.note,
               HasSubstr("Still off: at averaging time τ = 0.01 s the recording has 0.2 dps, the "
                         "simulator 0.3 dps"));
+}
+
+TEST(DiagnosisPictures, WhatIsOffWhereItWasHeldBackIsNotMended) {
+  auto d = half_closed();
+  auto& band = d.bands[1];
+  band.observed.back() = band.after.back() + 6.0 * band.after_spread.back();
+  const auto all = lens_pictures(d);
+  const auto mended = std::find_if(all.begin(), all.end(), [](const auto& lens) {
+    return lens.picture.title.ends_with("Mended");
+  });
+  EXPECT_EQ(mended->picture.title, "✗ Mended");
+  EXPECT_THAT(mended->picture.note, HasSubstr("Still off where it was held back."));
 }
 
 TEST(DiagnosisPictures, NoiseIsInPhysicalUnitsOnLogarithmicAxes) {
