@@ -160,9 +160,10 @@ std::string next_in_words(const Diagnosis& d) {
   if (d.next.expected_power == 0.0) return fmt::format("Record next: {}.", d.next.what);
   const double percent = 100.0 * d.next.expected_power;
   if (!d.next.tells_apart())
-    return fmt::format("No recording that was tried in simulation tells {} from {}; the best, {}, "
-                       "is right in {:.0f} %.",
-                       d.next.first, d.next.second, d.next.what, percent);
+    return fmt::format(
+        "No recording that was tried in simulation tells {} from {}; the best, {}, "
+        "is right in {:.0f} %.",
+        d.next.first, d.next.second, d.next.what, percent);
   return fmt::format("To tell {} from {}: {} (right in {:.0f} % of simulated recordings).",
                      d.next.first, d.next.second, d.next.what, percent);
 }

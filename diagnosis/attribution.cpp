@@ -182,16 +182,15 @@ void Diagnosing::see_what_is_left() {
 
 bool Diagnosing::is_left_in_the_compass_alone() const {
   const auto& where = result_.where_after;
-  return !where.empty() && std::all_of(where.begin(), where.end(), [](const auto& w) {
-    return w.channel == "heading_deg";
-  });
+  return !where.empty() && std::all_of(where.begin(), where.end(),
+                                       [](const auto& w) { return w.channel == "heading_deg"; });
 }
 
 bool Diagnosing::only_the_compass_is_left() const {
   const auto& effects = result_.enriched.effects;
-  return is_left_in_the_compass_alone() && std::none_of(effects.begin(), effects.end(), [](const auto& effect) {
-    return effect.stage() == Stage::compass;
-  });
+  return is_left_in_the_compass_alone() &&
+         std::none_of(effects.begin(), effects.end(),
+                      [](const auto& effect) { return effect.stage() == Stage::compass; });
 }
 
 }  // namespace gyrostat::gap

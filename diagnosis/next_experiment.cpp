@@ -88,11 +88,12 @@ NextExperiment wider_recording(const Conditions& conditions, double recorded_s,
                                const std::string& nearest, bool of_compass_alone) {
   const double longer_h = 4.0 * recorded_s / 3600.0;
   if (of_compass_alone)
-    return {.what = fmt::format("the compass for {:.3g} h at rest, far from iron and from currents, "
-                                "and once more where it is used: what stays is its own",
-                                longer_h),
-            .first = nearest,
-            .second = Verdict::unknown().text()};
+    return {
+        .what = fmt::format("the compass for {:.3g} h at rest, far from iron and from currents, "
+                            "and once more where it is used: what stays is its own",
+                            longer_h),
+        .first = nearest,
+        .second = Verdict::unknown().text()};
   const auto& series = conditions.series();
   constexpr double least_span_C = 4.0;
   const auto& T = series.temperature_C;

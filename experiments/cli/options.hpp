@@ -102,8 +102,9 @@ struct RecordingOption {
             "CSV, CSV.gz, or a log in any format of `gyrostat list formats`; - is standard "
             "input")
         ->required();
-    verb->add_option("--axis", axis,
-                     "x, y or z where the recording has three axes; diagnose: all unless one is chosen")
+    verb->add_option(
+            "--axis", axis,
+            "x, y or z where the recording has three axes; diagnose: all unless one is chosen")
         ->check(CLI::Validator(
             [](const std::string& text) {
               return text == "x" || text == "y" || text == "z" || text == "all"
@@ -200,11 +201,11 @@ struct RecordingOption {
       if (at >= span.from_s && at < span.to_s) return;
       (at < span.from_s ? before : after) = at;
     }
-    throw InputError(file + ": --from, --to",
-                     fmt::format("the recording pauses between {:g} and {:g} s{}{}", span.from_s,
-                                 span.to_s,
-                                 before < 0.0 ? "" : fmt::format("; it was there to {:.6g} s", before),
-                                 after < 0.0 ? "" : fmt::format("; it is there from {:.6g} s", after)));
+    throw InputError(
+        file + ": --from, --to",
+        fmt::format("the recording pauses between {:g} and {:g} s{}{}", span.from_s, span.to_s,
+                    before < 0.0 ? "" : fmt::format("; it was there to {:.6g} s", before),
+                    after < 0.0 ? "" : fmt::format("; it is there from {:.6g} s", after)));
   }
 
   /// Short bursts with long pauses, which only an Allan deviation is told by.

@@ -328,9 +328,10 @@ std::vector<LensPicture> lens_pictures(const Diagnosis& d) {
     if (after != nullptr)
       picture.note = fmt::format("Still off: {}.", told(*after));
     else if (is_mended_in_part)
-      picture.note = fmt::format("Still off where it was held back. Mended where it was fitted: "
-                                 "without the effects {}.",
-                                 told(*before));
+      picture.note = fmt::format(
+          "Still off where it was held back. Mended where it was fitted: "
+          "without the effects {}.",
+          told(*before));
     else if (before != nullptr)
       picture.note = fmt::format("Mended: without the effects {}.", told(*before));
     const auto* decisive = after != nullptr ? after : before;

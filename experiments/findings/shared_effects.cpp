@@ -30,6 +30,9 @@ SharedParameter over_members(const std::vector<MemberValue>& all, const Effect& 
   const auto n = static_cast<double>(all.size());
   if (std::any_of(all.begin(), all.end(), [](const auto& k) { return !(k.error > 0.0); })) {
     for (const auto& k : all) p.mean += k.value / n;
+    double squares = 0.0;
+    for (const auto& k : all) squares += (k.value - p.mean) * (k.value - p.mean);
+    p.spread = std::sqrt(squares / (n - 1.0));
     return p;
   }
   const double degrees = n - 1.0;
@@ -132,7 +135,7 @@ std::vector<Table> member_tables(const std::vector<FleetMember>& members, const 
              .columns = {{kind, ""},
                          {"verdict", ""},
                          {"effects", ""},
-                         {"p", "1"},
+                         {"p as it stands", "1"},
                          {"gap", "spreads"},
                          {"closed", "1"},
                          {"with nameless", "1"}}};

@@ -24,7 +24,8 @@ struct SharedParameter {
   double mean, mean_low, mean_high;        ///< 95 % (Hartung and Knapp, Statistics in Medicine 20,
                                            ///< 2001); NaN where no error is known
   double spread, spread_low, spread_high;  ///< standard deviation between members, 95 % (Q profile:
-                                           ///< Viechtbauer, Statistics in Medicine 26, 2007)
+                                           ///< Viechtbauer, Statistics in Medicine 26, 2007); of
+                                           ///< the values themselves where no error is known
   double p_equal;  ///< that chance alone makes equal members differ so (Cochran's Q)
 };
 

@@ -124,8 +124,7 @@ Json scenario() {
       object(parameters(field_infos_of<Arima111<double>>), "ARIMA(1,1,1) and white noise");
   properties["thermal_drift"] =
       object(parameters(field_infos_of<ThermalDrift<double>>), "a T + b T' + c");
-  properties["temperature"] =
-      plugin<TemperatureType>("profile", "temperature over time");
+  properties["temperature"] = plugin<TemperatureType>("profile", "temperature over time");
   properties["motion"] = plugin<MotionType>("profile", "true rate over time");
   properties["cross_motion_1"] = plugin<MotionType>(
       "profile", "rate about the next axis in the order x, y, z, x; none: it is not told");

@@ -286,11 +286,14 @@ TEST(ConditionsFrom, AProfileThatTheRecordingLacksIsToldWithItsPlace) {
   std::string text = "t_s,gyro_dps\n";
   for (int i = 0; i < 400; ++i) text += fmt::format("{},0.0{}\n", 0.05 * i, i % 7);
   folder.write("rec.csv", text);
-  EXPECT_THAT([&] { study_of(folder, R"({"cells": [{"scenario": {
-      "conditions_from": {"file": "rec.csv"}, "motion": {"profile": "recorded"}}}]})"); },
-              testing::ThrowsMessage<InputError>(testing::AllOf(
-                  testing::HasSubstr("cells[0].scenario.motion"),
-                  testing::HasSubstr("'recorded' needs a recording that has it"))));
+  EXPECT_THAT(
+      [&] {
+        study_of(folder, R"({"cells": [{"scenario": {
+      "conditions_from": {"file": "rec.csv"}, "motion": {"profile": "recorded"}}}]})");
+      },
+      testing::ThrowsMessage<InputError>(
+          testing::AllOf(testing::HasSubstr("cells[0].scenario.motion"),
+                         testing::HasSubstr("'recorded' needs a recording that has it"))));
 }
 
 }  // namespace
