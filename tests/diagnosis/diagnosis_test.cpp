@@ -142,6 +142,13 @@ TEST(Diagnosis, JudgesACauseThatWasFoundElsewhere) {
   EXPECT_EQ(right.verdict.text(), "outliers");
   EXPECT_GT(right.closed, 0.8);
   EXPECT_LT(wrong.closed, 0.3);
+  const auto rules_out_unknown = [](const Diagnosis& d) {
+    return std::find(d.verdict_set.begin(), d.verdict_set.end(), Verdict::unknown()) ==
+           d.verdict_set.end();
+  };
+  EXPECT_TRUE(rules_out_unknown(right));
+  EXPECT_FALSE(rules_out_unknown(wrong));
+  EXPECT_FALSE(wrong.next.what.empty());
 }
 
 TEST(Diagnosis, WhatHasNoNameIsNoVerdictBesideACause) {
