@@ -72,7 +72,7 @@ void Diagnosing::localise() {
   result_.log_score_gained = found_.log_score_gained;
   result_.p_before =
       p_of_the_clearest(result_.p_after, p_of_the_oddest(found_.unexplained), most_odds);
-  result_.where = departures_of(*train_);
+  result_.where = result_.where_after = departures_of(*train_);
   took("localisation");
 }
 

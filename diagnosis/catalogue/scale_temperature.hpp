@@ -5,7 +5,7 @@
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
-#include <gyrostat/diagnosis/starts/remedies.hpp>
+#include <gyrostat/diagnosis/starts/needs.hpp>
 #include <gyrostat/generators/effects/scale_factor.hpp>
 #include <gyrostat/generators/effects/scale_temperature.hpp>
 
@@ -36,7 +36,7 @@ struct Diagnosed<effects::ScaleTemperature> {
   }
 
   static std::string why_not_assessable(const Conditions& c) {
-    if (auto why = needs::told_motion(c); !why.empty()) return why;
+    if (auto why = needs::motion(c); !why.empty()) return why;
     const auto why = needs::warming(c);
     return why.empty() ? why : why + ": turn the sensor while it warms";
   }

@@ -4,7 +4,7 @@
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
-#include <gyrostat/diagnosis/starts/remedies.hpp>
+#include <gyrostat/diagnosis/starts/needs.hpp>
 #include <gyrostat/generators/effects/time_offset.hpp>
 
 namespace gyrostat::gap {
@@ -41,7 +41,7 @@ struct Diagnosed<effects::TimeOffset> {
     return {constant, effects::TimeOffset{constant.offset_s + by[0] * step_s, by[1] * step_ppm}};
   }
 
-  static std::string why_not_assessable(const Conditions& c) { return needs::told_motion(c); }
+  static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }
 
   static bool is_what_it_is_called(const effects::TimeOffset& /*effect*/, const Conditions& /*c*/) {
     return true;

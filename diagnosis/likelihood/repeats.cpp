@@ -49,7 +49,8 @@ double equal_by_chance(const std::vector<double>& differences, double step) {
 /// The step of a grid that something slow has moved, as a firmware's compensation does: neighbours
 /// differ by hardly anything or by about a whole number of steps; 0 where they do not.
 double step_of_moved_grid(const std::vector<double>& differences) {
-  constexpr double hardly = 0.05, most_of_them = 0.95, ends = 0.005;
+  constexpr double hardly = 0.01, most_of_them = 0.95, ends = 0.005;
+  constexpr double least_steps = 0.2;  // where the noise is not far below a step
   std::vector<double> sizes;
   for (const double d : differences)
     if (d != 0.0 && !is_missing(d)) sizes.push_back(std::abs(d));
@@ -61,7 +62,10 @@ double step_of_moved_grid(const std::vector<double>& differences) {
       widest = ratio;
       step = sizes[i];
     }
-  if (step == 0.0) return 0.0;
+  const auto steps = std::count_if(sizes.begin(), sizes.end(),
+                                   [&](double size) { return size > 0.5 * step; });
+  if (step == 0.0 || static_cast<double>(steps) < least_steps * static_cast<double>(sizes.size()))
+    return 0.0;
   const auto whole = std::count_if(sizes.begin(), sizes.end(), [&](double size) {
     return std::abs(size / step - std::nearbyint(size / step)) < hardly;
   });

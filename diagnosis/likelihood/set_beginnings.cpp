@@ -65,11 +65,24 @@ Standing SetSearcher::responding_anew(const Standing& standing) {
     return !bench_.is_marked(effect.id()) && band_of(effect.id()) == EffectBand::motion;
   });
   const auto response = bench_.response();
+  const auto gains = gains_;
   bench_.take_out_response(std::nullopt);
   const auto rest = bench_.refitted(still);
   const auto left = bench_.evidence_of(rest);
   auto best = best_from(standing, {bench_.with(rest, cause_types().named(other, "effects"), &left)},
                         EffectBand::motion);
+  if (best.score > standing.score && hides_response()) {
+    // What is late by the one or the other shows where the motion is least known.
+    const auto masked = bench_.masked();
+    bench_.mask_only(hidden_from_response_);
+    const bool is_likelier = bench_.refitted(best.scenario).score >
+                             bench_.refitted(standing.scenario).score;
+    bench_.mask_only(masked);
+    if (!is_likelier) {
+      best = standing;
+      gains_ = gains;
+    }
+  }
   if (best.score <= standing.score) bench_.take_out_response(response);
   return best;
 }

@@ -25,7 +25,7 @@ namespace needs {
 std::string nothing(const Conditions& /*conditions*/) { return {}; }
 
 std::string warming(const Conditions& c) {
-  if (!c.has_temperature()) return "there is no temperature_C column";
+  if (!c.has_temperature()) return "there is no temperature_C column; record the sensor's";
   const double span = extent(c.slow_temperature_C());
   if (span >= least_warming_C) return {};
   return fmt::format("the temperature spans {:.2g} °C; at least {:g} °C are needed", span,
@@ -40,12 +40,14 @@ std::string time(const Conditions& c) {
 }
 
 std::string motion(const Conditions& c) {
-  if (c.series().rate_ref_dps.empty()) return "there is no rate_ref_dps column";
-  return c.has_motion() ? "" : "the reference rate never changes";
+  if (c.series().rate_ref_dps.empty())
+    return "there is no rate_ref_dps column; add one: the rate of a rate table, or the attitude of "
+           "a motion capture differentiated";
+  return c.has_motion() ? "" : "the reference rate never changes; turn the sensor to and fro";
 }
 
 std::string heading(const Conditions& c) {
-  return c.has_heading() ? "" : "there is no heading_deg column";
+  return c.has_heading() ? "" : "there is no heading_deg column; record a compass beside it";
 }
 
 std::string turns(const Conditions& c) {

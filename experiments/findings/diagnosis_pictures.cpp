@@ -316,7 +316,7 @@ std::vector<LensPicture> lens_pictures(const Diagnosis& d) {
   std::vector<LensPicture> all;
   for (const auto& band : d.bands) {
     const auto* before = clearest_of(d.where, band.lens);
-    const auto* after = d.enrichments.size() < 2 ? before : clearest_of(d.where_after, band.lens);
+    const auto* after = clearest_of(d.where_after, band.lens);
     auto picture = lens_picture(band, "lens-" + band.lens);
     const bool is_mended_in_part =
         after == nullptr && before != nullptr && is_off_where_held_back(band);
