@@ -102,8 +102,12 @@ void Diagnosing::attribute() {
   const double p_left = p_of_the_oddest(found_.unexplained);
   const bool is_no_form = p_left < thresholds::p_of_the_unknown &&
                           -std::log(p_left) > thresholds::share_of_form * found_.gain;
-  const bool unexplained =
-      (open && !only_the_compass_is_left()) || is_no_form || found_.nameless_log_odds > 0.0;
+  // A doubtful name is no verdict before what the compass has and no name explains.
+  const bool is_clear =
+      std::any_of(result_.effects.begin(), result_.effects.end(),
+                  [](const auto& e) { return e.log_odds >= thresholds::clear_odds; });
+  const bool unexplained = (open && !(is_clear && only_the_compass_is_left())) || is_no_form ||
+                           found_.nameless_log_odds > 0.0;
   result_.verdict =
       unexplained ? Verdict::unknown() : Verdict::cause(result_.effects.front().effect);
   if (unexplained) cannot_rule_out(Verdict::unknown());

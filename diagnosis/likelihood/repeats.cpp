@@ -62,8 +62,8 @@ double step_of_moved_grid(const std::vector<double>& differences) {
       widest = ratio;
       step = sizes[i];
     }
-  const auto steps = std::count_if(sizes.begin(), sizes.end(),
-                                   [&](double size) { return size > 0.5 * step; });
+  const auto steps =
+      std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > 0.5 * step; });
   if (step == 0.0 || static_cast<double>(steps) < least_steps * static_cast<double>(sizes.size()))
     return 0.0;
   const auto whole = std::count_if(sizes.begin(), sizes.end(), [&](double size) {

@@ -75,8 +75,8 @@ Standing SetSearcher::responding_anew(const Standing& standing) {
     // What is late by the one or the other shows where the motion is least known.
     const auto masked = bench_.masked();
     bench_.mask_only(hidden_from_response_);
-    const bool is_likelier = bench_.refitted(best.scenario).score >
-                             bench_.refitted(standing.scenario).score;
+    const bool is_likelier =
+        bench_.refitted(best.scenario).score > bench_.refitted(standing.scenario).score;
     bench_.mask_only(masked);
     if (!is_likelier) {
       best = standing;
