@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <gyrostat/core/temporary_path.hpp>
 #include <gyrostat/diagnosis/answer.hpp>
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
@@ -194,7 +195,11 @@ int run(DiagnoseArguments& arguments, Console& console) {
   }
   for (const auto& out : {arguments.json_out, arguments.html_out, arguments.scenario_out})
     if (!out.empty()) require_writable(out, file);
-  if (!arguments.figures_out.empty()) make_result_folder(arguments.figures_out);
+  TemporaryPath figures;  // until there is something to write into it
+  if (const fs::path folder = arguments.figures_out; !folder.empty()) {
+    if (!fs::exists(folder)) figures = TemporaryPath(folder);
+    make_result_folder(folder);
+  }
   const std::string kind = !further.empty() ? "sensor" : all.size() > 1 ? "axis" : "part";
   const bool is_written = any(of_each(arguments)) || !arguments.claim.empty();
   const auto parts = is_written ? Parts::refused : Parts::allowed;
@@ -204,8 +209,6 @@ int run(DiagnoseArguments& arguments, Console& console) {
     if (all.size() > 1) console.log << fmt::format("{} {}\n", kind, one.name);
     auto some = diagnosed(one, arguments.span, arguments.options, parts, console);
     if (!some) {
-      std::error_code not_empty;
-      if (!arguments.figures_out.empty()) fs::remove(arguments.figures_out, not_empty);
       console.log << "stopped early: nothing was written\n";
       return stopped;
     }
@@ -214,6 +217,7 @@ int run(DiagnoseArguments& arguments, Console& console) {
   }
   if (members.empty())
     throw InputError(file, "no axis turns with rate_ref_dps; give the one that it is of");
+  figures.keep();
   // Of a long recording, a stretch may be all that is left.
   const bool is_whole = members.size() == 1 && members.front().name == all.front().name;
   if (is_whole) {

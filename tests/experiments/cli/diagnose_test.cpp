@@ -1,6 +1,7 @@
 // gyrostat diagnose and blind-check as a user meets them: how they go on, and how they are ended.
 
 #include <chrono>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -41,6 +42,12 @@ void record(const TestFolder& folder, double duration_s) {
 // The aim is a second; a machine that is busy with other tests is given some more.
 constexpr auto a_moment = std::chrono::seconds(5);
 
+std::set<std::string> names_of(const std::map<std::string, std::string>& contents) {
+  std::set<std::string> names;
+  for (const auto& [name, unused] : contents) names.insert(name);
+  return names;
+}
+
 void expect_ended_by_interrupt(Program& program, const TestFolder& folder,
                                const std::map<std::string, std::string>& before) {
   const auto asked = Clock::now();
@@ -50,7 +57,9 @@ void expect_ended_by_interrupt(Program& program, const TestFolder& folder,
   EXPECT_EQ(ended.exit_code, 4) << ended.err;
   EXPECT_THAT(ended.out, IsEmpty());
   EXPECT_THAT(ended.err, HasSubstr("stopped early: nothing was written"));
-  EXPECT_EQ(folder.contents(), before);
+  // Not printed: where two long files differ, that takes all memory.
+  EXPECT_EQ(names_of(folder.contents()), names_of(before));
+  EXPECT_TRUE(folder.contents() == before);
 }
 
 TEST(Diagnose, CtrlCEndsItInAMomentAndLeavesNothing) {
