@@ -53,8 +53,9 @@ std::string rivals_in_words(const Diagnosis& d) {
 std::string closeness(const Diagnosis& d) {
   if (d.closed < 0.005) return "no closer to the part of it that was held back";
   return fmt::format(
-      "{:.0f} % closer to the part of it that was held back (95 %: {:.0f} to {:.0f})",
-      100.0 * d.closed, 100.0 * d.closed_low, 100.0 * d.closed_high);
+      "{:.0f} % closer to the part of it that was held back (95 %: {:.0f} to {:.0f}{})",
+      100.0 * d.closed, 100.0 * d.closed_low, 100.0 * d.closed_high,
+      d.closed_low <= 0.0 ? ", so perhaps no closer" : "");
 }
 
 std::string what_is_left_in_words(const Diagnosis& d) {

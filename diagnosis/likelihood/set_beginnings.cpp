@@ -65,26 +65,24 @@ Standing SetSearcher::responding_anew(const Standing& standing) {
     return !bench_.is_marked(effect.id()) && band_of(effect.id()) == EffectBand::motion;
   });
   const auto response = bench_.response();
-  const auto gains = gains_;
+  const auto masked = bench_.masked();
+  // What is late by the one or the other shows where the motion is least known.
+  const bool hidden = hides_response();
+  auto shown = standing;
+  if (hidden) {
+    bench_.mask_only(hidden_from_response_);
+    shown = bench_.refitted(standing.scenario);
+  }
   bench_.take_out_response(std::nullopt);
   const auto rest = bench_.refitted(still);
   const auto left = bench_.evidence_of(rest);
-  auto best = best_from(standing, {bench_.with(rest, cause_types().named(other, "effects"), &left)},
+  auto best = best_from(shown, {bench_.with(rest, cause_types().named(other, "effects"), &left)},
                         EffectBand::motion);
-  if (best.score > standing.score && hides_response()) {
-    // What is late by the one or the other shows where the motion is least known.
-    const auto masked = bench_.masked();
-    bench_.mask_only(hidden_from_response_);
-    const bool is_likelier =
-        bench_.refitted(best.scenario).score > bench_.refitted(standing.scenario).score;
-    bench_.mask_only(masked);
-    if (!is_likelier) {
-      best = standing;
-      gains_ = gains;
-    }
-  }
-  if (best.score <= standing.score) bench_.take_out_response(response);
-  return best;
+  const bool is_likelier = best.score > shown.score;
+  if (!is_likelier) bench_.take_out_response(response);
+  if (!hidden) return best;
+  bench_.mask_only(masked);
+  return is_likelier ? bench_.refitted(best.scenario) : standing;
 }
 
 Standing SetSearcher::responding_without_names(Standing standing) {

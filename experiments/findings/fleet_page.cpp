@@ -16,7 +16,8 @@ std::string fleet_page(const std::vector<FleetMember>& members, const std::strin
                         escaped(members[k].name), escaped(answer(members[k].diagnosis)));
   head += fmt::format("<p class=\"answer\">{}</p>\n", escaped(shared_in_words(members)));
   std::string numbers;
-  for (const auto& table : member_tables(members, kind)) numbers += html(table);
+  for (const auto& table : member_tables(members, kind))
+    if (!table.rows.empty()) numbers += html(table);
   return live_page(name, head, numbers);
 }
 
