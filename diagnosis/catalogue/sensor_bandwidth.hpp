@@ -124,8 +124,8 @@ struct Diagnosed<effects::SensorBandwidth> {
   }
 
  private:
-  /// Samples have no more than half their rate; what is sampled may have passed more, and be a lag
-  /// of a hundredth of a sample.
+  /// Samples have no more than half their rate; what is sampled may have passed more, down to
+  /// a lag of a three hundredth of a sample.
   static constexpr double highest_hz(const effects::SensorBandwidth& form, double rate_hz) {
     return (form.continuous > 0.5 ? 50.0 : 0.49) * rate_hz;
   }

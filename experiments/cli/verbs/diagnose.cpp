@@ -2,6 +2,7 @@
 #include <cctype>
 #include <filesystem>
 #include <iterator>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -189,8 +190,10 @@ int run(DiagnoseArguments& arguments, Console& console) {
            "is of one recording and axis, which --axis chooses");
   give_claim(arguments);
   if (arguments.watch.json_lines) {
-    refuse(of_each(arguments), "is written beside tables, not --jsonl");
-    refuse({{"--json", !arguments.json_out.empty()}}, "is written beside tables, not --jsonl");
+    auto beside_tables = of_each(arguments);
+    beside_tables.emplace_back("--json", !arguments.json_out.empty());
+    refuse(beside_tables, "is written beside tables, not --jsonl");
+    refuse({{"--claim", !arguments.claim.empty()}}, "is of one diagnosis; --jsonl prints lines");
     return diagnose_in_lines(all, arguments.span, arguments.options, rules, console);
   }
   for (const auto& out : {arguments.json_out, arguments.html_out, arguments.scenario_out})
@@ -231,8 +234,10 @@ int run(DiagnoseArguments& arguments, Console& console) {
     if (!arguments.json_out.empty())
       write_atomically(arguments.json_out, members_json(members, kind).dump(1) + '\n');
     std::vector<std::string> pages;
+    std::set<std::string> suffixes;
     for (std::size_t k = 0; k < members.size() && is_written; ++k) {
-      const auto suffix = suffix_of(members[k].name);
+      auto suffix = suffix_of(members[k].name);
+      while (!suffixes.insert(suffix).second) suffix += '_';
       write_one(arguments, *of_member[k], members[k].diagnosis, called(*of_member[k]), suffix);
       const fs::path page = arguments.html_out;
       pages.push_back(page.stem().string() + suffix + page.extension().string());
