@@ -5,10 +5,12 @@
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/likelihood/nameless_mean.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
+#include <gyrostat/diagnosis/likelihood/truncation.hpp>
 #include <gyrostat/diagnosis/model_fit.hpp>
 #include <gyrostat/diagnosis/significance.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
 #include <gyrostat/diagnosis/views.hpp>
+#include <gyrostat/generators/effects/quantization.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -84,6 +86,10 @@ Scenario Diagnosing::with_drift(Scenario scenario, const Series& recording) cons
   quiet.thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = 0.0};
   quiet.effects.clear();
   Series bare, with, left = recording;
+  for (const auto& effect : scenario.effects)
+    if (const auto* grid = effect.as<effects::Quantization>();
+        grid != nullptr && grid->towards_zero != 0.0)
+      left.gyro_dps = middles_of_cut_off(conditions, left.gyro_dps, grid->lsb_dps);
   synthesise_rate_under(quiet, conditions.series(), {}, bare);
   for (const auto& effect : scenario.effects) {
     const auto* cause = cause_types().find(effect.id());

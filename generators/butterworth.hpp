@@ -19,13 +19,18 @@ class Butterworth {
     for (std::size_t j = 0; j < poles / 2; ++j) {
       const double angle = std::numbers::pi * (2.0 * static_cast<double>(j) + 1.0) /
                            (2.0 * static_cast<double>(poles));
-      const double damping = 2.0 * std::sin(angle) * k;
-      const double scale = 1.0 / (1.0 + damping + k * k);
-      sections_.push_back({{k * k * scale, 2.0 * k * k * scale, k * k * scale},
-                           {2.0 * (k * k - 1.0) * scale, (1.0 - damping + k * k) * scale}});
+      add_pair(k, std::sin(angle));
     }
     if (poles % 2 == 1)
       sections_.push_back({{k / (1.0 + k), k / (1.0 + k), 0.0}, {(k - 1.0) / (1.0 + k), 0.0}});
+  }
+
+  /// Two poles of that natural frequency and another damping instead (Butterworth's is 1/sqrt 2).
+  static Butterworth damped(double cycles_a_sample, double damping_ratio) {
+    Butterworth filter(cycles_a_sample, 0);
+    if (cycles_a_sample < 0.5)
+      filter.add_pair(std::tan(std::numbers::pi * cycles_a_sample), damping_ratio);
+    return filter;
   }
 
   double operator()(double value) {
@@ -44,6 +49,14 @@ class Butterworth {
     std::array<double, 2> a;
     std::array<double, 2> state{};
   };
+
+  void add_pair(double k, double damping_ratio) {
+    const double damping = 2.0 * damping_ratio * k;
+    const double scale = 1.0 / (1.0 + damping + k * k);
+    sections_.push_back({{k * k * scale, 2.0 * k * k * scale, k * k * scale},
+                         {2.0 * (k * k - 1.0) * scale, (1.0 - damping + k * k) * scale}});
+  }
+
   std::vector<Section> sections_;
 };
 

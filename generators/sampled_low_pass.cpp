@@ -4,7 +4,6 @@
 #include <complex>
 
 #include <gyrostat/core/numerics/dense.hpp>
-#include <gyrostat/generators/continuous_low_pass.hpp>
 
 namespace gyrostat {
 namespace {
@@ -75,8 +74,8 @@ std::vector<double> moving_average_of(const std::vector<double>& autocovariance)
 
 }  // namespace
 
-SampledLowPass::SampledLowPass(double cycles_a_sample, std::size_t poles, bool maximally_flat) {
-  const LowPassSystem filter(cycles_a_sample, poles, maximally_flat);
+SampledLowPass::SampledLowPass(const LowPassSystem& filter) {
+  const std::size_t poles = filter.poles.size();
   a_ = autoregression_of(filter);
   const auto r = autocovariance_of(filter, 2 * poles);
   std::vector<double> left(poles, 0.0);  // what the autoregression makes of it: no further lags
@@ -122,10 +121,21 @@ FoldedGain::FoldedGain(double cutoff_cycles, std::size_t poles, bool maximally_f
   at_rest_ = sum_at(0.0);
 }
 
+FoldedGain FoldedGain::of_second_order(double cutoff_cycles, double damping_ratio) {
+  FoldedGain folded(cutoff_cycles, 2, false);
+  folded.damping_ratio_ = damping_ratio;
+  folded.at_rest_ = folded.sum_at(0.0);
+  return folded;
+}
+
 double FoldedGain::sum_at(double cycles) const {
   double sum = further_;
   for (int fold = -folds; fold <= folds; ++fold) {
     const double x = (cycles + fold) / cutoff_cycles_;
+    if (damping_ratio_ > 0.0) {
+      sum += second_order_gain(x * x, damping_ratio_);
+      continue;
+    }
     const double base = maximally_flat_ ? x * x : 1.0 + x * x;
     double power = base;
     for (std::size_t k = 1; k < poles_; ++k) power *= base;

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <gyrostat/generators/continuous_low_pass.hpp>
+
 namespace gyrostat {
 
 /// White noise as samples show it that are taken after a filter of continuous time, which what is
@@ -11,8 +13,8 @@ namespace gyrostat {
 /// those of the filter over an interval, the moving average is the factor of what they leave).
 class SampledLowPass {
  public:
-  /// `poles` from 1 to 4: beyond, the moving average is lost in rounding.
-  SampledLowPass(double cycles_a_sample, std::size_t poles, bool maximally_flat);
+  /// Of 1 to 4 poles: beyond, the moving average is lost in rounding.
+  explicit SampledLowPass(const LowPassSystem& filter);
 
   double operator()(double white);
 
@@ -23,10 +25,16 @@ class SampledLowPass {
   std::vector<double> inputs_, outputs_;
 };
 
+/// |H|^2 of a system of second order at this square of the frequency over its natural one.
+inline double second_order_gain(double square, double damping_ratio) {
+  return 1.0 / ((1.0 - square) * (1.0 - square) + 4.0 * damping_ratio * damping_ratio * square);
+}
+
 /// |H|^2 of its density over that at rest: the filter's, folded at half the sampling rate.
 class FoldedGain {
  public:
   FoldedGain(double cutoff_cycles, std::size_t poles, bool maximally_flat);
+  static FoldedGain of_second_order(double cutoff_cycles, double damping_ratio);
 
   double operator()(double cycles) const { return sum_at(cycles) / at_rest_; }
 
@@ -36,6 +44,7 @@ class FoldedGain {
   double cutoff_cycles_;
   std::size_t poles_;
   bool maximally_flat_;
+  double damping_ratio_ = 0.0;  ///< of a system of second order
   double further_ = 0.0, at_rest_ = 1.0;
 };
 

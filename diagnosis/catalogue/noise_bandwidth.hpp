@@ -10,13 +10,14 @@
 
 namespace gyrostat::gap {
 
-/// Noise through a low-pass filter of one, two or four poles, or of two before it was sampled, each
-/// a start of its own.
+/// Noise through a low-pass filter of one, two or four poles, of two that ring, or of two before it
+/// was sampled, each a start of its own.
 template <>
 struct Diagnosed<effects::NoiseBandwidth> {
   static constexpr auto signature = Signature::none;
   static constexpr std::array free_parameters = {&effects::NoiseBandwidth::cutoff_hz,
-                                                 &effects::NoiseBandwidth::after_dps};
+                                                 &effects::NoiseBandwidth::after_dps,
+                                                 &effects::NoiseBandwidth::damping_ratio};
 
   /// Its poles are, and of what time it is.
   static std::size_t chosen_parameters(const effects::NoiseBandwidth& effect) {
@@ -34,25 +35,45 @@ struct Diagnosed<effects::NoiseBandwidth> {
       for (const double share : {0.2, 0.6})
         all.push_back({share * beside.conditions.rate_hz() * (flat > 0.5 ? 1.0 : std::sqrt(2.0)),
                        2.0, flat, 1.0});
+    // What rings and has no noise after it is less than a line beside an average.
+    const auto& c = beside.conditions;
+    const double after_dps = 0.3 * noise_of_steps(c, c.series().gyro_dps);
+    for (const double share : {0.03, 0.1, 0.25})
+      for (const double after : {0.0, after_dps})
+        all.push_back({.cutoff_hz = share * c.rate_hz(),
+                       .poles = 2.0,
+                       .after_dps = after,
+                       .damping_ratio = 0.35});
     return all;
   }
 
   /// With white noise after it, which a line, a second filter or more poles would stand in for, or
-  /// without.
+  /// without; of any damping, or of Butterworth's.
   static std::vector<effects::NoiseBandwidth> told_otherwise(const effects::NoiseBandwidth& effect,
                                                              const Conditions& c) {
-    auto plain = effect;
-    plain.after_dps = 0.0;
-    if (effect.after_dps > 0.0) return {plain};
+    using Filter = effects::NoiseBandwidth;
     const double after_dps = 0.5 * noise_of_steps(c, c.series().gyro_dps);
-    std::vector<effects::NoiseBandwidth> all;
-    for (const auto& form :
-         {effects::NoiseBandwidth{.poles = 1.0}, effects::NoiseBandwidth{.poles = 2.0},
-          effects::NoiseBandwidth{.poles = 2.0, .maximally_flat = 1.0},
-          effects::NoiseBandwidth{.poles = 2.0, .maximally_flat = 1.0, .continuous = 1.0}}) {
+    std::vector<Filter> all;
+    const auto add = [&](Filter form, double after) {
+      form.cutoff_hz = effect.cutoff_hz;
+      form.after_dps = after;
       all.push_back(form);
-      all.back().cutoff_hz = effect.cutoff_hz;
-      all.back().after_dps = after_dps;
+    };
+    constexpr double damping_ratio = 0.85;
+    if (effect.after_dps > 0.0) {
+      all.push_back(effect);
+      all.back().after_dps = 0.0;
+    } else {
+      add({.poles = 1.0}, after_dps);
+      add({.poles = 2.0}, after_dps);
+      add({.poles = 2.0, .maximally_flat = 1.0}, after_dps);
+      add({.poles = 2.0, .maximally_flat = 1.0, .continuous = 1.0}, after_dps);
+    }
+    if (effect.damping_ratio > 0.0) {
+      add({.poles = 2.0, .maximally_flat = 1.0}, effect.after_dps);
+    } else {
+      add({.poles = 2.0, .damping_ratio = damping_ratio}, effect.after_dps);
+      if (effect.after_dps == 0.0) add({.poles = 2.0, .damping_ratio = damping_ratio}, after_dps);
     }
     return all;
   }

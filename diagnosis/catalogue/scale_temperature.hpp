@@ -37,7 +37,9 @@ struct Diagnosed<effects::ScaleTemperature> {
 
   static std::string why_not_assessable(const Conditions& c) {
     if (auto why = needs::motion(c); !why.empty()) return why;
-    const auto why = needs::warming(c);
+    // No error of the bias could be one of these.
+    constexpr double least_warming_C = 1.0;
+    const auto why = needs::warming(c, least_warming_C);
     return why.empty() ? why : why + ": turn the sensor while it warms";
   }
 

@@ -13,34 +13,6 @@
 namespace gyrostat::gap {
 namespace {
 
-constexpr std::size_t values_inspected = 50'000;
-
-/// The step of the values' grid, where so few values are used that they repeat, or where a motion
-/// spreads values over many steps that are not small to the noise.
-double grid_step(const Simulator& simulator, const std::vector<double>& z, double noise_dps) {
-  std::vector<double> sorted;
-  for (const auto& span : simulator.conditions().spans(Part::train))
-    for (std::size_t i = span.first; i < span.last && sorted.size() < values_inspected; ++i)
-      if (!is_missing(z[i])) sorted.push_back(z[i]);
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<double> gaps;
-  const double least = std::max(1.5 * simulator.resolution_dps(), 1e-12);
-  for (std::size_t i = 1; i < sorted.size(); ++i)
-    if (sorted[i] - sorted[i - 1] > least) gaps.push_back(sorted[i] - sorted[i - 1]);
-  if (gaps.empty()) return 0.0;
-  const double step = quantile(gaps, 0.2);
-  constexpr double small_to_noise = 0.1;
-  if (gaps.size() > sorted.size() / 5 &&
-      (gaps.size() > sorted.size() / 2 || step < small_to_noise * noise_dps))
-    return 0.0;
-  double whole = 0.0;
-  for (const double g : gaps)
-    if (std::abs(g / step - std::nearbyint(g / step)) <
-        0.05 + 0.6 * simulator.resolution_dps() / step)
-      whole += 1.0;
-  return whole > 0.95 * static_cast<double>(gaps.size()) ? step : 0.0;
-}
-
 /// Where far more samples than beside it have the largest value, or the smallest.
 double clipped_at(const Conditions& conditions, const std::vector<double>& z, double end) {
   constexpr double fewest = 8.0, beside = 4.0;
@@ -89,6 +61,31 @@ double offset_of(const Conditions& conditions, const std::vector<double>& z, dou
 
 }  // namespace
 
+double step_of_grid(const Simulator& simulator, const std::vector<double>& z, double noise_dps) {
+  constexpr std::size_t values_inspected = 50'000;
+  std::vector<double> sorted;
+  for (const auto& span : simulator.conditions().spans(Part::train))
+    for (std::size_t i = span.first; i < span.last && sorted.size() < values_inspected; ++i)
+      if (!is_missing(z[i])) sorted.push_back(z[i]);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> gaps;
+  const double least = std::max(1.5 * simulator.resolution_dps(), 1e-12);
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    if (sorted[i] - sorted[i - 1] > least) gaps.push_back(sorted[i] - sorted[i - 1]);
+  if (gaps.empty()) return 0.0;
+  const double step = quantile(gaps, 0.2);
+  constexpr double small_to_noise = 0.1;
+  if (gaps.size() > sorted.size() / 5 &&
+      (gaps.size() > sorted.size() / 2 || step < small_to_noise * noise_dps))
+    return 0.0;
+  double whole = 0.0;
+  for (const double g : gaps)
+    if (std::abs(g / step - std::nearbyint(g / step)) <
+        0.05 + 0.6 * simulator.resolution_dps() / step)
+      whole += 1.0;
+  return whole > 0.95 * static_cast<double>(gaps.size()) ? step : 0.0;
+}
+
 double noise_of_steps(const Conditions& conditions, const std::vector<double>& z) {
   const auto& reference = conditions.series().rate_ref_dps;
   const auto known = [&](std::size_t i) { return reference.empty() ? 0.0 : reference[i]; };
@@ -105,7 +102,7 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
   Marks marks;
   const auto& z = recording.gyro_dps;
   marks.noise_of_steps_dps = noise_of_steps(simulator.conditions(), z);
-  marks.lsb_dps = grid_step(simulator, z, marks.noise_of_steps_dps);
+  marks.lsb_dps = step_of_grid(simulator, z, marks.noise_of_steps_dps);
   if (marks.lsb_dps > 0.0)
     marks.grid_offset_dps = offset_of(simulator.conditions(), z, marks.lsb_dps);
   marks.silent =

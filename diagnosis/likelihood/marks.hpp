@@ -36,6 +36,12 @@ struct Marks {
 /// Standard deviation of what changes from sample to sample beside the reference rate, robustly.
 double noise_of_steps(const Conditions& conditions, const std::vector<double>& gyro_dps);
 
+/// The step of the grid that the values of the train part lie on, where so few are used that they
+/// repeat, or where a motion spreads values over many steps that are not small to the noise; 0
+/// where they lie on none.
+double step_of_grid(const Simulator& simulator, const std::vector<double>& gyro_dps,
+                    double noise_dps);
+
 /// Reads the train part for the numbers, all samples for the flags.
 Marks marks_of(const Simulator& simulator, const Series& recording);
 

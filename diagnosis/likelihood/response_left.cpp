@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <gyrostat/core/numerics/dense.hpp>
@@ -44,12 +45,19 @@ effects::EmpiricalResponse with_weights(const Weights& w) {
 struct Following {
   bool is_filtered = false, is_shifted = false;
   double delay_samples = 0.0;
+  double memory_samples = 0.0;  ///< over which what was before has decayed
 };
 
 Following following(const Conditions& conditions, const Scenario& set) {
   Following f;
   for (const auto& effect : set.effects) {
-    f.is_filtered |= effect.id() == "sensor_bandwidth";
+    if (effect.id() == "sensor_bandwidth") {
+      f.is_filtered = true;
+      constexpr double decayed = 10.0;  // time constants of a pole
+      f.memory_samples = decayed * effect.value(field_of(effect, "poles")) /
+                         (2.0 * std::numbers::pi * effect.value(field_of(effect, "cutoff_hz")) *
+                          conditions.interval_s());
+    }
     if (effect.id() != "time_offset") continue;
     f.is_shifted = true;
     f.delay_samples =
@@ -104,7 +112,7 @@ bool is_of_response(std::string_view effect) {
 
 std::optional<Effect> response_left(const SetBench& bench, const Scenario& set) {
   const auto& conditions = bench.conditions();
-  const auto [is_filtered, is_shifted, delay_samples] = following(conditions, set);
+  const auto [is_filtered, is_shifted, delay_samples, memory_samples] = following(conditions, set);
   if (!is_filtered && !is_shifted) return std::nullopt;
   const auto all = shapes();
   // A scale and a shift are no response without a name: they are beside it.
@@ -120,7 +128,7 @@ std::vector<char> samples_of_unknown_rate(const Conditions& conditions, const Sc
                                           double noise_dps) {
   const auto& rate = conditions.series().rate_ref_dps;
   std::vector<char> flags(conditions.size(), 0);
-  const auto [is_filtered, is_shifted, delay_samples] = following(conditions, set);
+  const auto [is_filtered, is_shifted, delay_samples, memory_samples] = following(conditions, set);
   if (rate.size() < 3 || (!is_filtered && !is_shifted)) return flags;
   const double most = 8.0 * 2.0 * noise_dps;
   const auto n = static_cast<std::ptrdiff_t>(rate.size());
@@ -132,6 +140,10 @@ std::vector<char> samples_of_unknown_rate(const Conditions& conditions, const Sc
     for (std::ptrdiff_t k = i + delay - reach; k <= i + delay + reach; ++k)
       if (k >= 0 && k < n) flags[static_cast<std::size_t>(k)] = 1;
   }
+  // How the sensor turned before the first sample is not known at all.
+  constexpr std::ptrdiff_t most_of_begun = 10;
+  const auto begun = std::min(static_cast<std::ptrdiff_t>(memory_samples), n / most_of_begun);
+  std::fill_n(flags.begin(), begun, char{1});
   // A motion that is hardly anywhere known would leave too little.
   constexpr std::ptrdiff_t most_of = 4;
   if (most_of * std::count(flags.begin(), flags.end(), char{1}) >= n)

@@ -6,6 +6,7 @@
 
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/truncation.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
 
 namespace gyrostat::gap {
@@ -37,6 +38,17 @@ std::vector<char> SetSearcher::near_the_limit(const Marks& marks) const {
   return near;
 }
 
+Series SetSearcher::as_converted(const Simulator& simulator, Series recording,
+                                 const SetSearchOptions& options) {
+  auto& z = recording.gyro_dps;
+  const auto& without = options.without;
+  const double lsb_dps = step_of_grid(simulator, z, noise_of_steps(simulator.conditions(), z));
+  is_cut_off_ = std::find(without.begin(), without.end(), "quantization") == without.end() &&
+                is_cut_off(simulator.conditions(), z, lsb_dps);
+  if (is_cut_off_) z = middles_of_cut_off(simulator.conditions(), z, lsb_dps);
+  return recording;
+}
+
 std::vector<Effect> SetSearcher::read_off(const Marks& marks, FoundSet& found) {
   std::vector<Effect> effects;
   const auto add = [&](Effect effect) {
@@ -44,8 +56,9 @@ std::vector<Effect> SetSearcher::read_off(const Marks& marks, FoundSet& found) {
     effects.push_back(std::move(effect));
   };
   if (marks.lsb_dps > 0.0 && bench_.is_allowed("quantization"))
-    add(with_values("quantization",
-                    {{"lsb_dps", marks.lsb_dps}, {"offset_dps", marks.grid_offset_dps}}));
+    add(with_values("quantization", {{"lsb_dps", marks.lsb_dps},
+                                     {"offset_dps", is_cut_off_ ? 0.0 : marks.grid_offset_dps},
+                                     {"towards_zero", is_cut_off_ ? 1.0 : 0.0}}));
   if (marks.stale_probability > 0.0 && bench_.is_allowed("stale_samples")) {
     add(with_values("stale_samples", {{"probability", marks.stale_probability},
                                       {"mean_run", marks.stale_run},

@@ -32,10 +32,10 @@ class SetSearcher {
               const SetSearchProgress& progress)
       : simulator_(simulator),
         conditions_(simulator.conditions()),
-        recording_(recording),
+        recording_(as_converted(simulator, recording, options)),
         options_(options),
         progress_(progress),
-        bench_(simulator, recording, options.without) {}
+        bench_(simulator, recording_, options.without) {}
 
   FoundSet run();
   Scenario likeliest_baseline();
@@ -46,6 +46,9 @@ class SetSearcher {
   std::vector<Detectable> detectable();
 
  private:
+  /// With the middles of what was cut off to a grid, where it was.
+  Series as_converted(const Simulator& simulator, Series recording,
+                      const SetSearchOptions& options);
   /// What a response without a name has to gain: it has eight sizes, half a nat each by chance.
   static constexpr double clear_response = 20.0;
 
@@ -143,7 +146,8 @@ class SetSearcher {
 
   const Simulator& simulator_;
   const Conditions& conditions_;
-  const Series& recording_;
+  bool is_cut_off_ = false;
+  const Series recording_;  ///< as_converted()
   SetSearchOptions options_;
   SetSearchProgress progress_;
   SetBench bench_;

@@ -24,12 +24,11 @@ namespace needs {
 
 std::string nothing(const Conditions& /*conditions*/) { return {}; }
 
-std::string warming(const Conditions& c) {
+std::string warming(const Conditions& c, double least_C) {
   if (!c.has_temperature()) return "there is no temperature_C column; record the sensor's";
   const double span = extent(c.slow_temperature_C());
-  if (span >= least_warming_C) return {};
-  return fmt::format("the temperature spans {:.2g} °C; at least {:g} °C are needed", span,
-                     least_warming_C);
+  if (span >= least_C) return {};
+  return fmt::format("the temperature spans {:.2g} °C; at least {:g} °C are needed", span, least_C);
 }
 
 std::string time(const Conditions& c) {

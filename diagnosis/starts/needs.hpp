@@ -13,8 +13,10 @@ namespace needs {
 
 /// Any recording shows the effect.
 std::string nothing(const Conditions& conditions);
-/// A temperature that changes.
-std::string warming(const Conditions& conditions);
+inline constexpr double least_warming_C = 4.0;
+
+/// A temperature that changes by so much.
+std::string warming(const Conditions& conditions, double least_C = least_warming_C);
 /// Minutes, for 1/f noise: in less it cannot be told from the memory of the random error.
 std::string time(const Conditions& conditions);
 /// A reference rate that changes.
@@ -22,8 +24,6 @@ std::string motion(const Conditions& conditions);
 std::string heading(const Conditions& conditions);
 /// A heading, and turns through most of a circle.
 std::string turns(const Conditions& conditions);
-
-inline constexpr double least_warming_C = 4.0;
 
 }  // namespace needs
 

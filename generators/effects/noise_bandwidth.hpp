@@ -18,16 +18,17 @@ namespace gyrostat::effects {
 
 /// An output filter of unit gain at rest colours the white noise (IEEE Std 1554, bandwidth): equal
 /// poles, each exact between samples, or Butterworth's of the same order by the bilinear transform
-/// (Oppenheim and Schafer, "Discrete-Time Signal Processing", 3rd ed., 7.2); or either in
-/// continuous time before noise is sampled, of which what is above half the sampling rate is folded
-/// below it. The noise keeps its density well below the cutoff. What comes after the filter, as a
-/// converter does, adds white noise of its own.
+/// (Oppenheim and Schafer, "Discrete-Time Signal Processing", 3rd ed., 7.2), or so two poles of any
+/// damping; or any of them in continuous time before noise is sampled, of which what is above half
+/// the sampling rate is folded below it. The noise keeps its density well below the cutoff. What
+/// comes after the filter, as a converter does, adds white noise of its own.
 struct NoiseBandwidth {
   double cutoff_hz = 20.0;
   double poles = 1.0;
   double maximally_flat = 0.0;
   double continuous = 0.0;
   double after_dps = 0.0;
+  double damping_ratio = 0.0;
 
   static constexpr std::string_view title = "an output filter colours the white noise";
   static constexpr Stage stage = Stage::noise;
@@ -47,6 +48,9 @@ struct NoiseBandwidth {
               "1: before sampling, of four poles at most; 0: a recursion over samples"},
         Field{"after_dps", &P::after_dps, "dps", ranges::non_negative,
               "standard deviation of the white noise after the filter"},
+        Field{"damping_ratio", &P::damping_ratio, "1", ranges::non_negative,
+              "of a system of second order whose natural frequency is the cutoff; 0: of the poles "
+              "that are said"},
     };
   }
 
@@ -66,16 +70,22 @@ struct NoiseBandwidth {
   void multiply_gain(std::span<const double> angles, std::span<const double> cosines,
                      double interval_s, std::span<double> gain) const {
     if (is_folded()) {
-      const FoldedGain folded(cutoff_hz * interval_s, sampled_poles(), maximally_flat > 0.5);
+      const double cycles = cutoff_hz * interval_s;
+      const auto folded = damping_ratio > 0.0
+                              ? FoldedGain::of_second_order(cycles, damping_ratio)
+                              : FoldedGain(cycles, sampled_poles(), maximally_flat > 0.5);
       for (std::size_t k = 0; k < gain.size(); ++k)
         gain[k] *= folded(0.5 * angles[k] / std::numbers::pi);
       return;
     }
-    if (maximally_flat > 0.5) {
+    if (damping_ratio > 0.0 || maximally_flat > 0.5) {
       if (cutoff_hz * interval_s >= 0.5) return;
       const double edge = std::tan(std::numbers::pi * cutoff_hz * interval_s);
-      for (std::size_t k = 0; k < gain.size(); ++k)
-        gain[k] /= 1.0 + std::pow(std::tan(0.5 * angles[k]) / edge, 2.0 * poles);
+      for (std::size_t k = 0; k < gain.size(); ++k) {
+        const double bent = std::tan(0.5 * angles[k]) / edge;
+        gain[k] *= damping_ratio > 0.0 ? second_order_gain(bent * bent, damping_ratio)
+                                       : 1.0 / (1.0 + std::pow(bent, 2.0 * poles));
+      }
       return;
     }
     const double pole = std::exp(-2.0 * std::numbers::pi * cutoff_hz * interval_s);
@@ -98,13 +108,16 @@ struct NoiseBandwidth {
     };
     const double cycles = cutoff_hz * series.duration_s() / static_cast<double>(samples - 1);
     if (is_folded()) {
-      SampledLowPass before_sampling(cycles, sampled_poles(), maximally_flat > 0.5);
+      SampledLowPass before_sampling(
+          damping_ratio > 0.0 ? LowPassSystem::of_second_order(cycles, damping_ratio)
+                              : LowPassSystem(cycles, sampled_poles(), maximally_flat > 0.5));
       filter([&](std::size_t /*i*/, double white) { return before_sampling(white); });
       return;
     }
-    if (maximally_flat > 0.5) {
-      Butterworth butterworth(cycles, count);
-      filter([&](std::size_t /*i*/, double white) { return butterworth(white); });
+    if (damping_ratio > 0.0 || maximally_flat > 0.5) {
+      auto sections = damping_ratio > 0.0 ? Butterworth::damped(cycles, damping_ratio)
+                                          : Butterworth(cycles, count);
+      filter([&](std::size_t /*i*/, double white) { return sections(white); });
       return;
     }
     Decay decay(0.5 / (std::numbers::pi * cutoff_hz));
@@ -124,7 +137,9 @@ struct NoiseBandwidth {
         std::clamp(std::lround(poles), 1L, static_cast<long>(SampledLowPass::most_poles)));
   }
   /// One pole is, sampled, a recursion.
-  bool is_folded() const { return continuous > 0.5 && (poles > 1.5 || maximally_flat > 0.5); }
+  bool is_folded() const {
+    return continuous > 0.5 && (poles > 1.5 || maximally_flat > 0.5 || damping_ratio > 0.0);
+  }
 };
 
 }  // namespace gyrostat::effects

@@ -13,10 +13,12 @@ namespace gyrostat::effects {
 
 /// The converter's grid: each value becomes the nearest multiple of the least significant bit
 /// (IEEE Std 952 annex C, quantization noise; variance lsb^2 / 12), or of a grid that a bias taken
-/// out after the converter has moved.
+/// out after the converter has moved. A driver that casts to integers cuts off towards zero
+/// instead.
 struct Quantization {
   double lsb_dps = 0.05;
   double offset_dps = 0.0;
+  double towards_zero = 0.0;
 
   static constexpr std::string_view title = "values lie on a grid";
   static constexpr Stage stage = Stage::conversion;
@@ -29,6 +31,8 @@ struct Quantization {
         Field{"lsb_dps", &P::lsb_dps, "dps", ranges::non_negative,
               "least significant bit; 0 leaves the values as they are"},
         Field{"offset_dps", &P::offset_dps, "dps", ranges::any, "a value of the grid"},
+        Field{"towards_zero", &P::towards_zero, "1", ranges::flag,
+              "1: values are cut off towards the offset; 0: rounded to the nearest of the grid"},
     };
   }
 
@@ -36,7 +40,10 @@ struct Quantization {
 
   void apply(Series& series, const Noise& /*noise*/) const {
     if (lsb_dps == 0.0) return;
-    if (offset_dps == 0.0)
+    if (towards_zero != 0.0)
+      for (double& z : series.gyro_dps)
+        z = offset_dps + lsb_dps * std::trunc((z - offset_dps) / lsb_dps);
+    else if (offset_dps == 0.0)
       for (double& z : series.gyro_dps) z = lsb_dps * std::nearbyint(z / lsb_dps);
     else
       for (double& z : series.gyro_dps)

@@ -80,5 +80,56 @@ TEST(NearForms, ALagFarBelowASampleMayBeAShift) {
   EXPECT_TRUE(either.contains("time_offset"));
 }
 
+/// A filter whose poles ring is no vibration, and none that nearly do needs an average besides.
+TEST(NearForms, AFilterOfAnyDampingIsOneEffect) {
+  for (const double damping_ratio : {0.25, 0.9}) {
+    Scenario s = still();
+    s.random_error.measurement_noise_std_dps = 0.1;
+    s.effects = {effects::NoiseBandwidth{
+        .cutoff_hz = 3.0, .poles = 2.0, .after_dps = 0.012, .damping_ratio = damping_ratio}};
+    const Series series = recorded(s, 65, false);
+    const Simulator simulator(series, 1);
+    const auto found = find_set(simulator, series, {});
+    EXPECT_EQ(names_in(found), std::set<std::string>{"noise_bandwidth"});
+    const auto& effect = *found.scenario.effects.front().as<effects::NoiseBandwidth>();
+    EXPECT_NEAR(effect.cutoff_hz, 3.0, 0.15);
+    EXPECT_NEAR(effect.damping_ratio, damping_ratio, 0.1 * damping_ratio);
+  }
+}
+
+/// As a driver that casts to an integer does: outliers, repeats and a telegraph stood in for the
+/// zeros that are twice as many.
+TEST(NearForms, ValuesThatAreCutOffTowardsZeroAreOneEffect) {
+  for (const double lsb_dps : {0.02, 0.05}) {
+    Scenario s = still();
+    s.temperature = temperature::QuietRoom{.start_C = 38.0, .end_C = 38.5};
+    s.thermal_drift.c_dps = 0.085;
+    Series series = recorded(s, 66, false);
+    for (double& z : series.gyro_dps) z = lsb_dps * std::trunc(z / lsb_dps);
+    const Simulator simulator(series, 1);
+    const auto found = find_set(simulator, series, {});
+    EXPECT_EQ(names_in(found), std::set<std::string>{"quantization"});
+    EXPECT_EQ(found.scenario.effects.front().as<effects::Quantization>()->towards_zero, 1.0);
+    // The noise under the grid, to 5 standard errors of some 20,000 samples.
+    EXPECT_NEAR(found.scenario.random_error.measurement_noise_std_dps, 0.05,
+                5.0 * 0.05 / std::sqrt(2.0 * 20000.0) + 0.002);
+  }
+}
+
+/// Its transient at the first sample is of how the sensor turned before; it was a bias that starts.
+TEST(NearForms, WhatAFilterRemembersOfBeforeIsNoStart) {
+  Scenario s = moving();
+  Series series = recorded(s, 67, true);
+  double passed = 0.0;
+  const double left = std::exp(-2.0 * std::numbers::pi * 0.8 / 20.0);
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    passed = left * passed + (1.0 - left) * series.rate_ref_dps[i];
+    series.gyro_dps[i] += passed - series.rate_ref_dps[i];
+  }
+  series = series.slice(100, series.size() - 100);  // it begins as it turns
+  const Simulator simulator(series, 1);
+  EXPECT_EQ(names_in(find_set(simulator, series, {})), std::set<std::string>{"sensor_bandwidth"});
+}
+
 }  // namespace
 }  // namespace gyrostat::gap::near_forms_test

@@ -110,7 +110,7 @@ TEST(SampledLowPass, HasTheFoldedDensityOfItsFilter) {
   for (const std::size_t poles : {2, 3, 4})
     for (const bool flat : {false, true})
       for (const double cutoff : {0.08, 0.3, 0.45, 0.9}) {
-        SampledLowPass filter(cutoff, poles, flat);
+        SampledLowPass filter(LowPassSystem(cutoff, poles, flat));
         std::vector<double> response;
         for (int i = 0; i < 400; ++i) response.push_back(filter(i == 0 ? 1.0 : 0.0));
         const auto folded = [&](double at) {
@@ -130,6 +130,39 @@ TEST(SampledLowPass, HasTheFoldedDensityOfItsFilter) {
           const double gain = folded(at) / folded(0.0);
           EXPECT_NEAR(std::norm(sum), gain, 1e-6) << poles << flat << ' ' << cutoff << ' ' << at;
           EXPECT_NEAR(FoldedGain(cutoff, poles, flat)(at), gain, 2e-3 * gain);
+        }
+      }
+}
+
+// What a unit impulse leaves, against the gain that the diagnosis fits.
+TEST(NoiseBandwidth, RingsAsItsDampingSays) {
+  constexpr double interval_s = 0.01;
+  for (const double continuous : {0.0, 1.0})
+    for (const double damping_ratio : {0.15, 0.9})
+      for (const double cutoff_hz : {4.0, 20.0}) {
+        const effects::NoiseBandwidth filter{.cutoff_hz = cutoff_hz,
+                                             .poles = 2.0,
+                                             .continuous = continuous,
+                                             .damping_ratio = damping_ratio};
+        Series series;
+        for (int i = 0; i < 4000; ++i) {
+          series.t_s.push_back(interval_s * i);
+          series.gyro_dps.push_back(i == 1 ? 1.0 : 0.0);
+        }
+        series.rate_ref_dps.assign(4000, 0.0);
+        series.thermal_bias_dps.assign(4000, 0.0);
+        series.random_error_dps.assign(4000, 0.0);
+        filter.apply(series, {});
+        for (const double hz : {0.5, 4.0, 20.0, 45.0}) {
+          const double angle = 2.0 * std::numbers::pi * hz * interval_s;
+          std::complex<double> sum = 0.0;
+          for (std::size_t i = 0; i < series.size(); ++i)
+            sum += series.gyro_dps[i] * std::polar(1.0, -angle * static_cast<double>(i));
+          double gain = 1.0;
+          const double cosine = std::cos(angle);
+          filter.multiply_gain({&angle, 1}, {&cosine, 1}, interval_s, {&gain, 1});
+          EXPECT_NEAR(std::norm(sum), gain, 2e-3 * gain + 1e-6)
+              << continuous << ' ' << damping_ratio << ' ' << cutoff_hz << ' ' << hz;
         }
       }
 }
