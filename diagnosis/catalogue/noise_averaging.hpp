@@ -16,6 +16,12 @@ struct Diagnosed<effects::NoiseAveraging> {
     return {{1.2, 1.0}, {2.2, 1.0}, {4.2, 1.0}, {0.8, 2.0}, {1.6, 2.0}, {3.2, 2.0}};
   }
 
+  /// How often is; and what of two means shorter than a sample is left is a filter's as well, which
+  /// need not be two that are alike.
+  static std::size_t chosen_parameters(const effects::NoiseAveraging& effect) {
+    return effect.stages > 1.5 && effect.length < 1.0 ? 2 : 1;
+  }
+
   static void enter(const effects::NoiseAveraging& effect, NoiseLaw& law) {
     law.averaging = effect.autocovariance();
   }

@@ -19,9 +19,10 @@ struct Diagnosed<effects::NoiseBandwidth> {
                                                  &effects::NoiseBandwidth::after_dps,
                                                  &effects::NoiseBandwidth::damping_ratio};
 
-  /// Its poles are, and of what time it is.
+  /// Its poles are, and of what time it is; one that is neither Butterworth's nor of equal poles is
+  /// seldom built, and what it may take the form of is much.
   static std::size_t chosen_parameters(const effects::NoiseBandwidth& effect) {
-    return effect.continuous > 0.5 ? 2 : 1;
+    return 1 + (effect.continuous > 0.5 ? 1 : 0) + (effect.damping_ratio > 0.0 ? 4 : 0);
   }
   static std::vector<effects::NoiseBandwidth> guesses(const Beside& beside) {
     std::vector<effects::NoiseBandwidth> all;
@@ -43,7 +44,7 @@ struct Diagnosed<effects::NoiseBandwidth> {
         all.push_back({.cutoff_hz = share * c.rate_hz(),
                        .poles = 2.0,
                        .after_dps = after,
-                       .damping_ratio = 0.35});
+                       .damping_ratio = 0.4});
     return all;
   }
 
@@ -85,9 +86,10 @@ struct Diagnosed<effects::NoiseBandwidth> {
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
-  static bool is_what_it_is_called(const effects::NoiseBandwidth& /*effect*/,
-                                   const Conditions& /*c*/) {
-    return true;
+  /// No output filter rings for long: with white noise after it, it were a line.
+  static bool is_what_it_is_called(const effects::NoiseBandwidth& effect, const Conditions& /*c*/) {
+    constexpr double least_damping = 0.25;
+    return effect.damping_ratio == 0.0 || effect.damping_ratio >= least_damping;
   }
 };
 

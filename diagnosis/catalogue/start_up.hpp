@@ -21,11 +21,9 @@ struct Diagnosed<effects::StartUp> {
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
-  /// It has settled to 5 %: else it were a ramp; and it takes more than a mean of samples does:
-  /// else a first sample that is off were one.
+  /// It has settled to 5 %: else it were a ramp.
   static bool is_what_it_is_called(const effects::StartUp& effect, const Conditions& c) {
-    return 3.0 * effect.settling_time_s < duration_s(c) &&
-           effect.settling_time_s > c.slow_interval_s();
+    return 3.0 * effect.settling_time_s < duration_s(c);
   }
 
  private:

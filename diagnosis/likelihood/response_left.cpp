@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <gyrostat/core/numerics/dense.hpp>
@@ -45,23 +44,20 @@ effects::EmpiricalResponse with_weights(const Weights& w) {
 struct Following {
   bool is_filtered = false, is_shifted = false;
   double delay_samples = 0.0;
-  double memory_samples = 0.0;  ///< over which what was before has decayed
+  double beyond_samples = 0.0;  ///< of what is sensed, before the first or after the last
 };
 
 Following following(const Conditions& conditions, const Scenario& set) {
   Following f;
   for (const auto& effect : set.effects) {
-    if (effect.id() == "sensor_bandwidth") {
-      f.is_filtered = true;
-      constexpr double decayed = 10.0;  // time constants of a pole
-      f.memory_samples = decayed * effect.value(field_of(effect, "poles")) /
-                         (2.0 * std::numbers::pi * effect.value(field_of(effect, "cutoff_hz")) *
-                          conditions.interval_s());
-    }
+    f.is_filtered |= effect.id() == "sensor_bandwidth";
     if (effect.id() != "time_offset") continue;
     f.is_shifted = true;
-    f.delay_samples =
-        std::round(effect.value(field_of(effect, "offset_s")) / conditions.interval_s());
+    const double shift = effect.value(field_of(effect, "offset_s")) / conditions.interval_s();
+    f.delay_samples = std::round(shift);
+    const double drifted =
+        1e-6 * effect.value(field_of(effect, "drift_ppm")) * static_cast<double>(conditions.size());
+    f.beyond_samples = std::max(std::abs(shift), std::abs(shift + drifted));
   }
   return f;
 }
@@ -112,11 +108,11 @@ bool is_of_response(std::string_view effect) {
 
 std::optional<Effect> response_left(const SetBench& bench, const Scenario& set) {
   const auto& conditions = bench.conditions();
-  const auto [is_filtered, is_shifted, delay_samples, memory_samples] = following(conditions, set);
-  if (!is_filtered && !is_shifted) return std::nullopt;
+  const auto follows = following(conditions, set);
+  if (!follows.is_filtered && !follows.is_shifted) return std::nullopt;
   const auto all = shapes();
   // A scale and a shift are no response without a name: they are beside it.
-  return likeliest_response(bench, set, all, all.size() - (is_filtered && !is_shifted ? 1 : 2));
+  return likeliest_response(bench, set, all, all.size() - (follows.is_shifted ? 2 : 1));
 }
 
 std::optional<Effect> whole_response(const SetBench& bench, const Scenario& set) {
@@ -128,11 +124,11 @@ std::vector<char> samples_of_unknown_rate(const Conditions& conditions, const Sc
                                           double noise_dps) {
   const auto& rate = conditions.series().rate_ref_dps;
   std::vector<char> flags(conditions.size(), 0);
-  const auto [is_filtered, is_shifted, delay_samples, memory_samples] = following(conditions, set);
-  if (rate.size() < 3 || (!is_filtered && !is_shifted)) return flags;
+  const auto follows = following(conditions, set);
+  if (rate.size() < 3 || (!follows.is_filtered && !follows.is_shifted)) return flags;
   const double most = 8.0 * 2.0 * noise_dps;
   const auto n = static_cast<std::ptrdiff_t>(rate.size());
-  const auto delay = static_cast<std::ptrdiff_t>(delay_samples);
+  const auto delay = static_cast<std::ptrdiff_t>(follows.delay_samples);
   constexpr std::ptrdiff_t reach = 1;
   for (std::ptrdiff_t i = 1; i + 1 < n; ++i) {
     const auto at = [&](std::ptrdiff_t k) { return rate[static_cast<std::size_t>(k)]; };
@@ -140,14 +136,19 @@ std::vector<char> samples_of_unknown_rate(const Conditions& conditions, const Sc
     for (std::ptrdiff_t k = i + delay - reach; k <= i + delay + reach; ++k)
       if (k >= 0 && k < n) flags[static_cast<std::size_t>(k)] = 1;
   }
-  // How the sensor turned before the first sample is not known at all.
-  constexpr std::ptrdiff_t most_of_begun = 10;
-  const auto begun = std::min(static_cast<std::ptrdiff_t>(memory_samples), n / most_of_begun);
-  std::fill_n(flags.begin(), begun, char{1});
   // A motion that is hardly anywhere known would leave too little.
   constexpr std::ptrdiff_t most_of = 4;
   if (most_of * std::count(flags.begin(), flags.end(), char{1}) >= n)
     std::fill(flags.begin(), flags.end(), char{0});
+  return flags;
+}
+
+std::vector<char> samples_shifted_beyond(const Conditions& conditions, const Scenario& set) {
+  std::vector<char> flags(conditions.size(), 0);
+  const auto beyond = std::min(
+      static_cast<std::size_t>(std::ceil(following(conditions, set).beyond_samples)), flags.size());
+  std::fill_n(flags.begin(), beyond, char{1});
+  std::fill_n(flags.rbegin(), beyond, char{1});
   return flags;
 }
 

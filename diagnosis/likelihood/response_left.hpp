@@ -23,10 +23,12 @@ std::optional<Effect> whole_response(const SetBench& bench, const Scenario& set)
 
 /// Samples whose rate, between those of the reference, is not known to two standard deviations of
 /// the noise: a straight line misses a curve by an eighth of the second difference (de Boor, "A
-/// Practical Guide to Splines", III). Nor where a filter
-/// still remembers how the sensor turned before the first of them. None where the set has no
+/// Practical Guide to Splines", III). None where the set has no
 /// response in time, or where more than a quarter would be.
 std::vector<char> samples_of_unknown_rate(const Conditions& conditions, const Scenario& set,
                                           double noise_dps);
+
+/// The first and the last, as many as a set shifts beyond the reference.
+std::vector<char> samples_shifted_beyond(const Conditions& conditions, const Scenario& set);
 
 }  // namespace gyrostat::gap

@@ -25,6 +25,20 @@ bool feels_acceleration(const Effect& effect) {
   return std::find(needs.begin(), needs.end(), &Series::acc_x_mps2) != needs.end();
 }
 
+/// Straight between the middles of clusters, a value a sample.
+std::vector<double> between_means(const Conditions& conditions, const std::vector<double>& means) {
+  const auto cluster = static_cast<double>(conditions.cluster());
+  std::vector<double> values(conditions.size(), no_value);
+  for (std::size_t i = 0; i < values.size() && !means.empty(); ++i) {
+    const double at = std::clamp((static_cast<double>(i) + 0.5) / cluster - 0.5, 0.0,
+                                 static_cast<double>(means.size() - 1));
+    const auto low = static_cast<std::size_t>(at);
+    const std::size_t high = std::min(low + 1, means.size() - 1);
+    values[i] = means[low] + (at - static_cast<double>(low)) * (means[high] - means[low]);
+  }
+  return values;
+}
+
 }  // namespace
 
 bool has(const Scenario& scenario, std::string_view effect) {
@@ -89,18 +103,49 @@ std::vector<double> SetBench::added_by(const std::vector<Effect>& effects) const
   return added;
 }
 
-std::vector<double> SetBench::felt_under(const Scenario& scenario) const {
-  std::vector<Effect> felt;
-  for (const auto& effect : scenario.effects)
-    if (feels_acceleration(effect)) felt.push_back(effect);
-  return felt.empty() ? std::vector<double>{} : added_by(felt);
+/// As far as the gyro shows it, faster than means of clusters: there it may be the accelerometer's
+/// own noise.
+void SetBench::keep_what_shows(std::vector<double>& felt, const std::vector<double>& error) const {
+  auto counted = felt, shown = error;
+  for (std::size_t i = 0; i < felt.size(); ++i)
+    if (masked()[i] != 0 || is_missing(error[i]) || is_missing(felt[i]))
+      counted[i] = shown[i] = no_value;
+  const auto slow = between_means(conditions_, conditions_.slow_means(counted));
+  const auto slow_error = between_means(conditions_, conditions_.slow_means(shown));
+  double squares = 0.0, products = 0.0;
+  for (const auto& span : conditions_.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i) {
+      const double fast = counted[i] - slow[i], of_error = shown[i] - slow_error[i];
+      if (is_missing(fast) || is_missing(of_error)) continue;
+      squares += fast * fast;
+      products += fast * of_error;
+    }
+  const double share = squares > 0.0 ? std::clamp(products / squares, 0.0, 1.0) : 1.0;
+  for (std::size_t i = 0; i < felt.size(); ++i)
+    if (!is_missing(slow[i])) felt[i] = slow[i] + share * (felt[i] - slow[i]);
 }
 
-std::vector<double> SetBench::gyro_beside(const Scenario& scenario) const {
+std::vector<double> SetBench::felt_under(const Scenario& scenario,
+                                         std::vector<double> error) const {
+  std::vector<double> sum;
+  for (const auto& effect : scenario.effects) {
+    if (!feels_acceleration(effect)) continue;
+    auto felt = added_by({effect});
+    keep_what_shows(felt, error);
+    sum.resize(felt.size(), 0.0);
+    for (std::size_t i = 0; i < felt.size(); ++i) {
+      sum[i] += felt[i];
+      error[i] -= felt[i];
+    }
+  }
+  return sum;
+}
+
+std::vector<double> SetBench::gyro_as_felt(const Scenario& scenario) const {
   auto gyro = recording_.gyro_dps;
   std::vector<Effect> taken_out;
   for (const auto& effect : scenario.effects)
-    if (is_taken_out(effect) || feels_acceleration(effect)) taken_out.push_back(effect);
+    if (is_taken_out(effect)) taken_out.push_back(effect);
   if (response_) taken_out.push_back(*response_);
   if (taken_out.empty()) return gyro;
   const auto added = added_by(taken_out);
@@ -118,26 +163,40 @@ std::vector<double> SetBench::sensed_rate(const Scenario& scenario) const {
   return rate;
 }
 
-std::vector<double> SetBench::rate_error_beside(const Scenario& scenario) const {
-  auto error = gyro_beside(scenario);
+std::vector<double> SetBench::error_of(std::vector<double> gyro) const {
   const auto& reference = conditions_.series().rate_ref_dps;
-  for (std::size_t i = 0; i < reference.size(); ++i) error[i] -= reference[i];
+  for (std::size_t i = 0; i < reference.size(); ++i) gyro[i] -= reference[i];
+  return gyro;
+}
+
+std::vector<double> SetBench::gyro_beside(const Scenario& scenario) const {
+  auto gyro = gyro_as_felt(scenario);
+  const auto felt = felt_under(scenario, error_of(gyro));
+  for (std::size_t i = 0; i < felt.size(); ++i) gyro[i] -= felt[i];
+  return gyro;
+}
+
+std::vector<double> SetBench::rate_error_beside(const Scenario& scenario) const {
+  auto error = error_of(gyro_beside(scenario));
   conditions_.bridge(error);
   return error;
 }
 
 std::shared_ptr<const SetFitter> SetBench::fitter_of(const Scenario& scenario) const {
   simulator_.interrupt().check();
-  auto error = rate_error_beside(scenario);
+  auto error = error_of(gyro_as_felt(scenario));
+  // Of means of clusters it is not taken out: its sizes are fitted to those.
+  auto felt = felt_under(scenario, error);
+  for (std::size_t i = 0; i < felt.size(); ++i) {
+    error[i] -= felt[i];
+    if (masked()[i] != 0) felt[i] = no_value;
+  }
+  conditions_.bridge(error);
   // Likelihoods of other samples are not to be compared.
   constexpr double most_lost = 0.01;
   if (static_cast<double>(missing_in(error) - missing_) >
       most_lost * static_cast<double>(error.size()))
     return nullptr;
-  // What an acceleration does is fitted to means of clusters, from which it is not taken out.
-  auto felt = felt_under(scenario);
-  for (std::size_t i = 0; i < felt.size(); ++i)
-    if (masked()[i] != 0) felt[i] = no_value;
   return std::make_shared<SetFitter>(
       conditions_,
       std::make_shared<const ReducedRate>(

@@ -98,10 +98,15 @@ class SetBench {
   bool is_read_off(const Effect& effect) const;
   /// To the rate that turns, a value a sample.
   std::vector<double> added_by(const std::vector<Effect>& effects) const;
-  /// What the acceleration adds to the rate, a value a sample; empty where no effect says so.
-  std::vector<double> felt_under(const Scenario& scenario) const;
-  /// The recording's gyro without what is the same in every replica of the scenario.
+  /// What the acceleration adds to the rate whose `error` this is, a value a sample; empty where no
+  /// effect says so.
+  std::vector<double> felt_under(const Scenario& scenario, std::vector<double> error) const;
+  void keep_what_shows(std::vector<double>& felt, const std::vector<double>& error) const;
+  /// The recording's gyro without what is the same in every replica of the scenario; with what it
+  /// feels of the acceleration.
+  std::vector<double> gyro_as_felt(const Scenario& scenario) const;
   std::vector<double> gyro_beside(const Scenario& scenario) const;
+  std::vector<double> error_of(std::vector<double> gyro) const;
   std::vector<double> rate_error_beside(const Scenario& scenario) const;
   /// None where the scenario leaves other samples than the recording has.
   std::shared_ptr<const SetFitter> fitter_of(const Scenario& scenario) const;

@@ -65,9 +65,11 @@ SetSearcher::OfGrid SetSearcher::feigned_by_grid(double lsb_of_noise) const {
 void SetSearcher::judge_tails(const Standing& standing) {
   auto hidden = edges_of_the_dead_zone(standing.scenario);
   const auto unknown = unknown_samples(standing.scenario);
+  const auto beyond = samples_shifted_beyond(conditions_, standing.scenario);
   for (std::size_t i = 0; i < hidden.size(); ++i) {
     hidden[i] |= repeats_[i];
     hidden[i] |= unknown[i];
+    hidden[i] |= beyond[i];
   }
   auto left = bench_.rate_left_by(standing.scenario, hidden);
   // Neither may outliers pass for a burst, nor the samples of a burst for outliers.

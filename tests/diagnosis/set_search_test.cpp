@@ -416,6 +416,33 @@ TEST(SetSearch, NamesALineThatWandersLittle) {
 }
 
 /// Where noise in a band is not in the catalogue, it is no line that wanders.
+/// Taken out sample by sample, an accelerometer's own noise, 0.09 m/s^2 times 0.06 dps/(m/s^2),
+/// would be a ninth of the gyro's: 12,000 half squares of it, 130 nats, which every further effect
+/// would have had to gain first.
+TEST(SetSearch, AnAccelerometersOwnNoiseIsNotFelt) {
+  Scenario s = still();
+  Series series = recorded(s, 83, false);
+  const std::size_t n = series.size();
+  std::vector<double> noise(3 * n);
+  NormalStream(83, 0, "accelerometer").fill(0, noise);
+  for (auto channel : {&Series::acc_x_mps2, &Series::acc_y_mps2, &Series::acc_z_mps2})
+    (series.*channel).resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double along_x = 4.0 * std::sin(0.05 * series.t_s[i]);
+    series.acc_x_mps2[i] = along_x + 0.09 * noise[3 * i];
+    series.acc_y_mps2[i] = 0.09 * noise[3 * i + 1];
+    series.acc_z_mps2[i] = 9.81 + 0.09 * noise[3 * i + 2];
+    series.gyro_dps[i] += 0.06 * along_x;
+  }
+  const Simulator simulator(series, 1);
+  const SetBench bench(simulator, series, {});
+  const auto none = bench.beside_noise({});
+  const auto left = bench.evidence_of(none);
+  const auto felt = bench.with(none, cause_types().named("g_sensitivity", "effects"), &left);
+  EXPECT_GT(felt.score, none.score + 100.0);
+  EXPECT_GT(bench.refitted(felt.scenario).score, felt.score - 10.0);
+}
+
 TEST(SetSearch, NoiseInABandHasNoOtherName) {
   Scenario s = still();
   s.effects = {effects::Vibration{0.04, 4.0, 0.4}};
