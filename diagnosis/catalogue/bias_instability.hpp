@@ -12,18 +12,23 @@ namespace gyrostat::gap {
 template <>
 struct Diagnosed<effects::BiasInstability> {
   static constexpr auto signature = Signature::none;
-  static constexpr std::array free_parameters = {&effects::BiasInstability::coefficient_dps};
+  static constexpr std::array free_parameters = {&effects::BiasInstability::coefficient_dps,
+                                                 &effects::BiasInstability::shortest_s};
 
   static std::vector<effects::BiasInstability> guesses(const Beside& beside) {
-    return {{0.3 * beside.slow_std_dps()}, {beside.slow_std_dps()}};
+    const double size_dps = beside.slow_std_dps();
+    constexpr double samples = 16.0;
+    return {
+        {0.3 * size_dps}, {size_dps}, {0.3 * size_dps, samples * beside.conditions.interval_s()}};
   }
 
   /// Decaying errors of equal variance, their memories four times apart.
   static void enter(const effects::BiasInstability& effect, NoiseLaw& law) {
     const double variance = effect.coefficient_dps * effect.coefficient_dps * 2.0 *
                             std::numbers::ln2 / std::numbers::pi;
-    for (double memory = 1.0; memory * law.interval_s <= 4.0 * law.duration_s; memory *= 4.0)
-      law.decaying.push_back({variance, memory * law.interval_s});
+    for (double memory_s = std::max(law.interval_s, effect.shortest_s);
+         memory_s <= 4.0 * law.duration_s; memory_s *= 4.0)
+      law.decaying.push_back({variance, memory_s});
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::time(c); }

@@ -116,5 +116,19 @@ TEST(NearForms, ValuesThatAreCutOffTowardsZeroAreOneEffect) {
   }
 }
 
+/// Simulators add up so many Gauss-Markov processes, from a time of their own on: a fourth of the
+/// coefficient, a telegraph and steps stood in for what is not faster.
+TEST(NearForms, FlickerThatEndsAtSomeFrequencyIsOneEffect) {
+  Scenario s = still();
+  s.effects = {effects::BiasInstability{.coefficient_dps = 0.05, .shortest_s = 1.2}};
+  const Series series = recorded(s, 68, false);
+  const Simulator simulator(series, 1);
+  const auto found = find_set(simulator, series, {});
+  EXPECT_EQ(names_in(found), std::set<std::string>{"bias_instability"});
+  const auto& effect = *found.scenario.effects.front().as<effects::BiasInstability>();
+  EXPECT_NEAR(effect.coefficient_dps, 0.05, 0.01);
+  EXPECT_NEAR(std::log(effect.shortest_s / 1.2), 0.0, 0.4);
+}
+
 }  // namespace
 }  // namespace gyrostat::gap::near_forms_test

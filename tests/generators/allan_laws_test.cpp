@@ -167,14 +167,17 @@ TEST(AllanLaw, BiasSteps) {
 /// The sum of its Gauss-Markov processes; 3 % for those that are linear between their draws.
 TEST(AllanLaw, BiasInstability) {
   constexpr double each = 0.04 * 2.0 * std::numbers::ln2 / std::numbers::pi;
-  expect_allan(alone(effects::BiasInstability{.coefficient_dps = 0.2}),
-               of_autocovariance([](std::size_t lag) {
-                 double sum = 0.0;
-                 for (double memory = 1.0; memory <= 4.0 * (samples - 1); memory *= 4.0)
-                   sum += each * std::exp(-static_cast<double>(lag) / memory);
-                 return sum;
-               }),
-               0.03);
+  for (const double shortest : {0.0, 12.0})
+    expect_allan(
+        alone(effects::BiasInstability{.coefficient_dps = 0.2, .shortest_s = shortest / rate_hz}),
+        of_autocovariance([&](std::size_t lag) {
+          double sum = 0.0;
+          for (double memory = std::max(1.0, shortest); memory <= 4.0 * (samples - 1);
+               memory *= 4.0)
+            sum += each * std::exp(-static_cast<double>(lag) / memory);
+          return sum;
+        }),
+        0.03);
 }
 
 double narrow_band(double lag_s) {
