@@ -10,6 +10,7 @@
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/felt_acceleration.hpp>
 #include <gyrostat/diagnosis/starts/signature.hpp>
 
 namespace gyrostat::gap {
@@ -23,20 +24,6 @@ std::ptrdiff_t missing_in(const std::vector<double>& values) {
 bool feels_acceleration(const Effect& effect) {
   const auto needs = effect.type().needs;
   return std::find(needs.begin(), needs.end(), &Series::acc_x_mps2) != needs.end();
-}
-
-/// Straight between the middles of clusters, a value a sample.
-std::vector<double> between_means(const Conditions& conditions, const std::vector<double>& means) {
-  const auto cluster = static_cast<double>(conditions.cluster());
-  std::vector<double> values(conditions.size(), no_value);
-  for (std::size_t i = 0; i < values.size() && !means.empty(); ++i) {
-    const double at = std::clamp((static_cast<double>(i) + 0.5) / cluster - 0.5, 0.0,
-                                 static_cast<double>(means.size() - 1));
-    const auto low = static_cast<std::size_t>(at);
-    const std::size_t high = std::min(low + 1, means.size() - 1);
-    values[i] = means[low] + (at - static_cast<double>(low)) * (means[high] - means[low]);
-  }
-  return values;
 }
 
 }  // namespace
@@ -103,35 +90,13 @@ std::vector<double> SetBench::added_by(const std::vector<Effect>& effects) const
   return added;
 }
 
-/// As far as the gyro shows it, faster than means of clusters: there it may be the accelerometer's
-/// own noise.
-void SetBench::keep_what_shows(std::vector<double>& felt, const std::vector<double>& error) const {
-  auto counted = felt, shown = error;
-  for (std::size_t i = 0; i < felt.size(); ++i)
-    if (masked()[i] != 0 || is_missing(error[i]) || is_missing(felt[i]))
-      counted[i] = shown[i] = no_value;
-  const auto slow = between_means(conditions_, conditions_.slow_means(counted));
-  const auto slow_error = between_means(conditions_, conditions_.slow_means(shown));
-  double squares = 0.0, products = 0.0;
-  for (const auto& span : conditions_.spans(Part::train))
-    for (std::size_t i = span.first; i < span.last; ++i) {
-      const double fast = counted[i] - slow[i], of_error = shown[i] - slow_error[i];
-      if (is_missing(fast) || is_missing(of_error)) continue;
-      squares += fast * fast;
-      products += fast * of_error;
-    }
-  const double share = squares > 0.0 ? std::clamp(products / squares, 0.0, 1.0) : 1.0;
-  for (std::size_t i = 0; i < felt.size(); ++i)
-    if (!is_missing(slow[i])) felt[i] = slow[i] + share * (felt[i] - slow[i]);
-}
-
 std::vector<double> SetBench::felt_under(const Scenario& scenario,
                                          std::vector<double> error) const {
   std::vector<double> sum;
   for (const auto& effect : scenario.effects) {
     if (!feels_acceleration(effect)) continue;
     auto felt = added_by({effect});
-    keep_what_shows(felt, error);
+    keep_what_shows(conditions_, masked(), error, felt);
     sum.resize(felt.size(), 0.0);
     for (std::size_t i = 0; i < felt.size(); ++i) {
       sum[i] += felt[i];

@@ -101,7 +101,6 @@ class SetBench {
   /// What the acceleration adds to the rate whose `error` this is, a value a sample; empty where no
   /// effect says so.
   std::vector<double> felt_under(const Scenario& scenario, std::vector<double> error) const;
-  void keep_what_shows(std::vector<double>& felt, const std::vector<double>& error) const;
   /// The recording's gyro without what is the same in every replica of the scenario; with what it
   /// feels of the acceleration.
   std::vector<double> gyro_as_felt(const Scenario& scenario) const;

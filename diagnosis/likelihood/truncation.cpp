@@ -8,7 +8,6 @@
 
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/core/step.hpp>
-#include <gyrostat/diagnosis/likelihood/marks.hpp>
 
 namespace gyrostat::gap {
 namespace {
