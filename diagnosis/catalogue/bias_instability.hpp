@@ -8,7 +8,7 @@
 
 namespace gyrostat::gap {
 
-/// Decaying errors of all memories, alike.
+/// Decaying errors of all memories, alike, or of all from some time on.
 template <>
 struct Diagnosed<effects::BiasInstability> {
   static constexpr auto signature = Signature::none;

@@ -23,8 +23,8 @@ std::optional<Effect> whole_response(const SetBench& bench, const Scenario& set)
 
 /// Samples whose rate, between those of the reference, is not known to two standard deviations of
 /// the noise: a straight line misses a curve by an eighth of the second difference (de Boor, "A
-/// Practical Guide to Splines", III). None where the set has no
-/// response in time, or where more than a quarter would be.
+/// Practical Guide to Splines", III). None where the set has no response in time, or where more
+/// than a quarter would be.
 std::vector<char> samples_of_unknown_rate(const Conditions& conditions, const Scenario& set,
                                           double noise_dps);
 

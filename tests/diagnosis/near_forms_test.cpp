@@ -15,11 +15,25 @@
 namespace gyrostat::gap::near_forms_test {
 namespace {
 
-std::set<std::string> names_in(const FoundSet& found) {
-  std::set<std::string> names;
-  for (const auto& member : found.members) names.insert(member.effect);
-  return names;
-}
+/// What is found in a recording.
+struct Found {
+  explicit Found(const Series& series)
+      : simulator(series, 1), set(find_set(simulator, series, {})) {}
+
+  std::set<std::string> names() const {
+    std::set<std::string> all;
+    for (const auto& member : set.members) all.insert(member.effect);
+    return all;
+  }
+  /// The first effect, as the one that it should be.
+  template <class E>
+  const E& first() const {
+    return *set.scenario.effects.front().as<E>();
+  }
+
+  Simulator simulator;
+  FoundSet set;
+};
 
 /// A filter and the converter's noise after it: four poles, a broad line and a second filter stood
 /// in for them.
@@ -29,10 +43,9 @@ TEST(NearForms, FilteredNoiseWithWhiteNoiseAfterItIsOneEffect) {
   s.effects = {effects::NoiseBandwidth{
       .cutoff_hz = 2.5, .poles = 2.0, .maximally_flat = 1.0, .after_dps = 0.012}};
   const Series series = recorded(s, 61, false);
-  const Simulator simulator(series, 1);
-  const auto found = find_set(simulator, series, {});
-  EXPECT_EQ(names_in(found), std::set<std::string>{"noise_bandwidth"});
-  const auto& effect = *found.scenario.effects.front().as<effects::NoiseBandwidth>();
+  const Found found(series);
+  EXPECT_EQ(found.names(), std::set<std::string>{"noise_bandwidth"});
+  const auto& effect = found.first<effects::NoiseBandwidth>();
   EXPECT_NEAR(effect.cutoff_hz, 2.5, 0.05);
   // Of some 10,000 values above the cutoff: 5 standard errors.
   EXPECT_NEAR(effect.after_dps, 0.012, 5.0 * 0.012 / std::sqrt(2.0 * 10000.0));
@@ -44,8 +57,7 @@ TEST(NearForms, ALineWithAHarmonicIsOneEffect) {
     const double turn = 2.0 * std::numbers::pi * 3.1 * series.t_s[i];
     series.gyro_dps[i] += 0.02 * std::sin(turn) + 0.006 * std::sin(2.0 * turn + 1.0);
   }
-  const Simulator simulator(series, 1);
-  EXPECT_EQ(names_in(find_set(simulator, series, {})), std::set<std::string>{"sinusoidal"});
+  EXPECT_EQ(Found(series).names(), std::set<std::string>{"sinusoidal"});
 }
 
 /// An arm that turns is accelerated as it turns: the scale of its rate stood in for what is felt
@@ -60,8 +72,7 @@ TEST(NearForms, WhatIsFeltAlongThreeAxesNeedsNoScale) {
     series.acc_y_mps2[i] = 0.05 * rate + 0.3 * std::sin(0.7 * series.t_s[i]);
     series.gyro_dps[i] += 0.02 * series.acc_x_mps2[i] + 0.04 * series.acc_y_mps2[i];
   }
-  const Simulator simulator(series, 1);
-  EXPECT_EQ(names_in(find_set(simulator, series, {})), std::set<std::string>{"g_sensitivity"});
+  EXPECT_EQ(Found(series).names(), std::set<std::string>{"g_sensitivity"});
 }
 
 /// What lags by a fiftieth of a sample is late by as much: no recording tells them apart, and both
@@ -70,12 +81,11 @@ TEST(NearForms, ALagFarBelowASampleMayBeAShift) {
   Scenario s = moving();
   s.effects = {effects::SensorBandwidth{.cutoff_hz = 160.0, .continuous = 1.0}};
   const Series series = recorded(s, 64, true);
-  const Simulator simulator(series, 1);
-  const auto found = find_set(simulator, series, {});
-  ASSERT_EQ(found.members.size(), 1);
-  EXPECT_LT(found.members.front().log_odds, 2.0);
-  std::set<std::string> either = {found.members.front().effect};
-  for (const auto& rival : found.rivals) either.insert(rival.effect);
+  const Found found(series);
+  ASSERT_EQ(found.set.members.size(), 1);
+  EXPECT_LT(found.set.members.front().log_odds, 2.0);
+  std::set<std::string> either = {found.set.members.front().effect};
+  for (const auto& rival : found.set.rivals) either.insert(rival.effect);
   EXPECT_TRUE(either.contains("sensor_bandwidth"));
   EXPECT_TRUE(either.contains("time_offset"));
 }
@@ -88,10 +98,9 @@ TEST(NearForms, AFilterOfAnyDampingIsOneEffect) {
     s.effects = {effects::NoiseBandwidth{
         .cutoff_hz = 3.0, .poles = 2.0, .after_dps = 0.012, .damping_ratio = damping_ratio}};
     const Series series = recorded(s, 65, false);
-    const Simulator simulator(series, 1);
-    const auto found = find_set(simulator, series, {});
-    EXPECT_EQ(names_in(found), std::set<std::string>{"noise_bandwidth"});
-    const auto& effect = *found.scenario.effects.front().as<effects::NoiseBandwidth>();
+    const Found found(series);
+    EXPECT_EQ(found.names(), std::set<std::string>{"noise_bandwidth"});
+    const auto& effect = found.first<effects::NoiseBandwidth>();
     EXPECT_NEAR(effect.cutoff_hz, 3.0, 0.15);
     EXPECT_NEAR(effect.damping_ratio, damping_ratio, 0.1 * damping_ratio);
   }
@@ -106,12 +115,11 @@ TEST(NearForms, ValuesThatAreCutOffTowardsZeroAreOneEffect) {
     s.thermal_drift.c_dps = 0.085;
     Series series = recorded(s, 66, false);
     for (double& z : series.gyro_dps) z = lsb_dps * std::trunc(z / lsb_dps);
-    const Simulator simulator(series, 1);
-    const auto found = find_set(simulator, series, {});
-    EXPECT_EQ(names_in(found), std::set<std::string>{"quantization"});
-    EXPECT_EQ(found.scenario.effects.front().as<effects::Quantization>()->towards_zero, 1.0);
+    const Found found(series);
+    EXPECT_EQ(found.names(), std::set<std::string>{"quantization"});
+    EXPECT_EQ(found.first<effects::Quantization>().towards_zero, 1.0);
     // The noise under the grid, to 5 standard errors of some 20,000 samples.
-    EXPECT_NEAR(found.scenario.random_error.measurement_noise_std_dps, 0.05,
+    EXPECT_NEAR(found.set.scenario.random_error.measurement_noise_std_dps, 0.05,
                 5.0 * 0.05 / std::sqrt(2.0 * 20000.0) + 0.002);
   }
 }
@@ -122,10 +130,9 @@ TEST(NearForms, FlickerThatEndsAtSomeFrequencyIsOneEffect) {
   Scenario s = still();
   s.effects = {effects::BiasInstability{.coefficient_dps = 0.05, .shortest_s = 1.2}};
   const Series series = recorded(s, 68, false);
-  const Simulator simulator(series, 1);
-  const auto found = find_set(simulator, series, {});
-  EXPECT_EQ(names_in(found), std::set<std::string>{"bias_instability"});
-  const auto& effect = *found.scenario.effects.front().as<effects::BiasInstability>();
+  const Found found(series);
+  EXPECT_EQ(found.names(), std::set<std::string>{"bias_instability"});
+  const auto& effect = found.first<effects::BiasInstability>();
   EXPECT_NEAR(effect.coefficient_dps, 0.05, 0.01);
   EXPECT_NEAR(std::log(effect.shortest_s / 1.2), 0.0, 0.4);
 }
