@@ -18,6 +18,7 @@
 #include <sys/wait.h>
 
 #include <gyrostat/recordings/temporary_folder.hpp>
+#include <gyrostat/tests/places.hpp>
 
 namespace gyrostat {
 
@@ -59,7 +60,7 @@ struct Ended {
 class Program {
  public:
   Program(const std::filesystem::path& folder, std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), GYROSTAT_PROGRAM);
+    arguments.insert(arguments.begin(), places::program());
     std::vector<char*> words;
     for (auto& argument : arguments) words.push_back(argument.data());
     words.push_back(nullptr);
@@ -70,9 +71,10 @@ class Program {
     posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&files, 1, out.c_str(), O_WRONLY | O_CREAT, 0600);
     posix_spawn_file_actions_addopen(&files, 2, err.c_str(), O_WRONLY | O_CREAT, 0600);
-    const int failed = posix_spawn(&pid_, GYROSTAT_PROGRAM, &files, nullptr, words.data(), environ);
+    const int failed =
+        posix_spawn(&pid_, arguments.front().c_str(), &files, nullptr, words.data(), environ);
     posix_spawn_file_actions_destroy(&files);
-    if (failed) throw std::runtime_error("cannot start " GYROSTAT_PROGRAM);
+    if (failed) throw std::runtime_error("cannot start " + arguments.front());
   }
   ~Program() {
     if (pid_ == 0) return;

@@ -28,6 +28,7 @@
 #include <gyrostat/generators/environment/temperature/list.hpp>
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/tests/diagnosis/known_recordings.hpp>
+#include <gyrostat/tests/places.hpp>
 
 namespace gyrostat::gap::diagnosis_test {
 namespace {
@@ -317,10 +318,7 @@ TEST(Diagnosis, TheJsonKeepsTheContract) {
 /// The first half of a practice recording, which tells as much in half the time; none where they
 /// are not there.
 std::optional<Series> practice(const std::string& name) {
-  const char* given = std::getenv("GYROSTAT_RECORDINGS");
-  const std::filesystem::path folder =
-      given != nullptr ? std::filesystem::path(given)
-                       : std::filesystem::path(GYROSTAT_SOURCE_DIR) / "../shared/recordings";
+  const std::filesystem::path folder = places::recordings();
   const auto path = folder / "practice" / (name + ".csv.gz");
   if (!std::filesystem::exists(path)) return {};
   const auto series = read_recording(path).series;

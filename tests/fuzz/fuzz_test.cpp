@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <gyrostat/tests/fuzz/target.hpp>
+#include <gyrostat/tests/places.hpp>
 
 namespace gyrostat::fuzz_test {
 namespace {
@@ -35,7 +36,7 @@ TEST(Fuzz, WhatWasFoundOnceIsAnsweredInWords) {
   namespace fs = std::filesystem;
   std::size_t documents = 0;
   for (const auto& folder :
-       fs::directory_iterator(fs::path(GYROSTAT_SOURCE_DIR) / "tests/fuzz/found")) {
+       fs::directory_iterator(fs::path(places::source()) / "tests/fuzz/found")) {
     const fuzz::Reader reader(fuzz::targets().at(folder.path().filename().string()));
     for (const auto& entry : fs::directory_iterator(folder)) {
       std::ifstream file(entry.path(), std::ios::binary);

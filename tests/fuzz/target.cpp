@@ -7,6 +7,7 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/tests/fuzz/recorded.hpp>
+#include <gyrostat/tests/places.hpp>
 
 namespace gyrostat::fuzz {
 namespace {
@@ -46,7 +47,7 @@ std::string Reader::refusal(std::string_view document) const {
 }
 
 std::string project_file(const std::string& path) {
-  std::ifstream file(fs::path(GYROSTAT_SOURCE_DIR) / path, std::ios::binary);
+  std::ifstream file(fs::path(places::source()) / path, std::ios::binary);
   if (!file) throw std::runtime_error(path + ": is not in the tree");
   return {std::istreambuf_iterator<char>(file), {}};
 }

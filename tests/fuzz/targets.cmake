@@ -8,10 +8,8 @@ gyrostat_functions(FOLDER tests/fuzz/targets PRELUDE "#include <gyrostat/tests/f
 file(GLOB fuzz_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/fuzz/targets/*.cpp)
 add_library(gyrostat_fuzz_targets STATIC EXCLUDE_FROM_ALL ${fuzz_sources} ${fuzz_calls}
             ${PROJECT_SOURCE_DIR}/tests/fuzz/target.cpp ${PROJECT_SOURCE_DIR}/tests/recordings/log_bytes.cpp)
-target_link_libraries(gyrostat_fuzz_targets PUBLIC gyrostat_experiments PRIVATE gyrostat_warnings)
+target_link_libraries(gyrostat_fuzz_targets PUBLIC gyrostat_experiments PRIVATE gyrostat_test_places gyrostat_warnings)
 target_compile_options(gyrostat_fuzz_targets PRIVATE $<$<CONFIG:Release>:-O1>)
-target_compile_definitions(gyrostat_fuzz_targets PRIVATE
-  GYROSTAT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" GYROSTAT_PROGRAM="$<TARGET_FILE:gyrostat>")
 gyrostat_together(gyrostat_fuzz_targets 30)
 
 if(GYROSTAT_FUZZ)

@@ -8,6 +8,7 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/recordings/calendar.hpp>
 #include <gyrostat/recordings/recording.hpp>
+#include <gyrostat/tests/places.hpp>
 #include <gyrostat/tests/program.hpp>
 
 namespace gyrostat::dialect_test {
@@ -136,7 +137,7 @@ TEST(Dialect, StandardInputIsAFile) {
   folder.write("rec.csv", text);
   const auto at = [&](const std::string& name) { return (folder.path() / name).string(); };
   const auto command = fmt::format("cat '{}' | '{}' allan - --format csv > '{}'", at("rec.csv"),
-                                   GYROSTAT_PROGRAM, at("out.csv"));
+                                   places::program(), at("out.csv"));
   EXPECT_EQ(std::system(command.c_str()), 0);
   EXPECT_THAT(folder.read("out.csv"), HasSubstr("0.01,"));
 }

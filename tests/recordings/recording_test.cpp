@@ -5,7 +5,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -22,10 +21,7 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
 #include <gyrostat/recordings/write_columns.hpp>
-
-#ifndef GYROSTAT_SOURCE_DIR
-#define GYROSTAT_SOURCE_DIR "."
-#endif
+#include <gyrostat/tests/places.hpp>
 
 namespace gyrostat::recording_test {
 namespace {
@@ -412,9 +408,7 @@ struct Real {
 class RealRecording : public testing::TestWithParam<Real> {};
 
 TEST_P(RealRecording, IsReadWhole) {
-  const char* folder = std::getenv("GYROSTAT_RECORDINGS");
-  const auto path = fs::path(folder ? folder : GYROSTAT_SOURCE_DIR "/../shared/recordings") /
-                    (GetParam().name + ".csv.gz");
+  const auto path = fs::path(places::recordings()) / (GetParam().name + ".csv.gz");
   if (!fs::exists(path)) {
     GTEST_SKIP() << path << " is absent; GYROSTAT_RECORDINGS names the folder of recordings";
   }
@@ -440,17 +434,12 @@ INSTANTIATE_TEST_SUITE_P(Each, RealRecording,
                                          Real{"cubesat_cooldown", "x", 6'250, 0, false}),
                          [](const auto& instance) { return instance.param.name; });
 
-fs::path real_folder() {
-  const char* folder = std::getenv("GYROSTAT_RECORDINGS");
-  return folder ? folder : GYROSTAT_SOURCE_DIR "/../shared/recordings";
-}
-
 TEST(RealRecordings, AllAreEvenOrNameTheRemedy) {
-  if (!fs::exists(real_folder()))
-    GTEST_SKIP() << real_folder()
+  if (!fs::exists(fs::path(places::recordings())))
+    GTEST_SKIP() << fs::path(places::recordings())
                  << " is absent; GYROSTAT_RECORDINGS names the folder of recordings";
   std::size_t even = 0;
-  for (const auto& entry : fs::directory_iterator(real_folder())) {
+  for (const auto& entry : fs::directory_iterator(fs::path(places::recordings()))) {
     const auto name = entry.path().filename().string();
     if (!entry.is_regular_file() || name.ends_with(".md")) continue;
     const bool one_axis = name.starts_with("broad_01") || name.starts_with("broad_32");
@@ -474,11 +463,12 @@ TEST(RealRecordings, AllAreEvenOrNameTheRemedy) {
 }
 
 TEST(RealRecordings, AFlightLogHoldsWhatWasConvertedFromIt) {
-  if (!fs::exists(real_folder() / "px4_auav_x21.ulg"))
+  if (!fs::exists(fs::path(places::recordings()) / "px4_auav_x21.ulg"))
     GTEST_SKIP()
         << "px4_auav_x21.ulg is absent; GYROSTAT_RECORDINGS names the folder of recordings";
-  const auto log = read_recording(real_folder() / "px4_auav_x21.ulg", "z");
-  const auto part = read_recording(real_folder() / "px4_auav_x21_static.csv.gz", "z");
+  const auto log = read_recording(fs::path(places::recordings()) / "px4_auav_x21.ulg", "z");
+  const auto part =
+      read_recording(fs::path(places::recordings()) / "px4_auav_x21_static.csv.gz", "z");
   const auto& whole = log.series.gyro_dps;
   const auto& some = part.series.gyro_dps;
   const auto near = [](double a, double b) { return std::abs(a - b) < 1e-6; };

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <gyrostat/tests/places.hpp>
 #include <gyrostat/tests/program.hpp>
 
 namespace gyrostat::verbs_test {
@@ -34,8 +35,7 @@ const Row table[] = {
 };
 
 TEST(Verbs, AllRecordingsGoThroughTheVerbs) {
-  const char* named = std::getenv("GYROSTAT_RECORDINGS");
-  const fs::path folder = named ? named : GYROSTAT_SOURCE_DIR "/../shared/recordings";
+  const fs::path folder = places::recordings();
   if (!fs::exists(folder / table[0].name))
     GTEST_SKIP() << folder << " is absent; GYROSTAT_RECORDINGS names the folder of recordings";
   const TestFolder here;
@@ -81,9 +81,10 @@ TEST(Verbs, BurstsAreRefusedWithWhatCanBeDone) {
   const auto fit = run_program(here, {"fit", "bursts.csv", "--from", "0", "--to", "5"});
   EXPECT_THAT(fit.out, AllOf(HasSubstr("likelihood  "), HasSubstr("moments left out: bursts.csv"),
                              HasSubstr("at least 512 are needed")));
-  EXPECT_EQ(run_program(here, {"fit", "bursts.csv", "--from", "0", "--to", "5", "--method", "moments"})
-                .exit_code,
-            2);
+  EXPECT_EQ(
+      run_program(here, {"fit", "bursts.csv", "--from", "0", "--to", "5", "--method", "moments"})
+          .exit_code,
+      2);
 }
 
 }  // namespace

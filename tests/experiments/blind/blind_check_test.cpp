@@ -14,6 +14,7 @@
 #include <gyrostat/experiments/blind/seal.hpp>
 #include <gyrostat/experiments/study/json_object.hpp>
 #include <gyrostat/recordings/recording.hpp>
+#include <gyrostat/tests/places.hpp>
 #include <gyrostat/tests/program.hpp>
 
 namespace gyrostat::gap::blind_check_test {
@@ -188,8 +189,7 @@ TEST(BlindCheck, KeepsToTheFolderOfItsOwnRecordings) {
 
 // Whoever adds an effect adds it to the check, under conditions that show it.
 TEST(BlindCheck, DrawsEveryEffectWhereItCanBeSeen) {
-  const auto check =
-      read_blind_check(std::string(GYROSTAT_SOURCE_DIR) + "/experiments/studies/blind_check.json");
+  const auto check = read_blind_check(places::source() + "/experiments/studies/blind_check.json");
   std::map<std::string, std::vector<std::string>> strengths;
   for (auto c : check.cases) {
     if (c.effects.size() != 1) continue;
@@ -209,7 +209,7 @@ TEST(BlindCheck, DrawsEveryEffectWhereItCanBeSeen) {
 
 // Sets of every size are there in every scenario, and every recording is of a case that is scored.
 TEST(BlindCheck, DrawsTheStudiesOfThisProject) {
-  const std::filesystem::path source = GYROSTAT_SOURCE_DIR;
+  const std::filesystem::path source = places::source();
   for (const auto* name : {"sets", "hard", "lengths", "real_noise"}) {
     if (name == std::string("real_noise") && !exists(source / "../shared/recordings"))
       GTEST_SKIP() << "the recordings are not there";

@@ -21,6 +21,7 @@
 #include <gyrostat/generators/effect.hpp>
 #include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/recordings/text.hpp>
+#include <gyrostat/tests/places.hpp>
 #include <gyrostat/tests/program.hpp>
 
 namespace gyrostat::cli_test {
@@ -514,7 +515,7 @@ TEST(Help, NamesEveryVerbAndEveryVerbHasItsOwn) {
 TEST(Readme, ItsExamplesAreAccepted) {
   const TestFolder folder;
   apply_config(folder);
-  std::ifstream file(GYROSTAT_SOURCE_DIR "/README.md");
+  std::ifstream file(places::source() + "/README.md");
   const std::string readme((std::istreambuf_iterator<char>(file)), {});
   int examples = 0;
   for (std::size_t at = 0; (at = readme.find("```json\n", at)) != std::string::npos; ++examples) {
@@ -530,7 +531,7 @@ TEST(Readme, ItsExamplesAreAccepted) {
 }
 
 TEST(Output, ThatCannotBeWrittenIsAnError) {
-  const auto command = std::string(GYROSTAT_PROGRAM) + " list > /dev/full 2> /dev/null";
+  const auto command = places::program() + " list > /dev/full 2> /dev/null";
   EXPECT_NE(std::system(command.c_str()), 0);
 }
 

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <gyrostat/tests/places.hpp>
 #include <gyrostat/tests/program.hpp>
 
 namespace gyrostat::progress_test {
@@ -108,7 +109,7 @@ TEST(Progress, OfABlindCheck) {
 
 TEST(Progress, OfAPage) {
   const TestFolder folder;
-  const auto page = std::string(GYROSTAT_SOURCE_DIR) + "/results/published/reuse_of_m";
+  const auto page = places::source() + "/results/published/reuse_of_m";
   const auto ended = run_program(folder, {"publish", page, "--out", "page", "--trials", "2"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_THAT(ended.err, Not(HasSubstr("\r")));
@@ -123,7 +124,7 @@ TEST(Progress, OnATerminalIsOneLineThatOnlyGrows) {
   const TestFolder folder;
   folder.write("rec.csv", noise(60'000));
   const auto command = fmt::format("cd '{}' && script -qec '{} fit rec.csv' /dev/null </dev/null",
-                                   folder.path().string(), GYROSTAT_PROGRAM);
+                                   folder.path().string(), places::program());
   std::string said;
   FILE* pipe = popen(command.c_str(), "r");
   ASSERT_NE(pipe, nullptr);

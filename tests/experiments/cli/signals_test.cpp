@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
+#include <gyrostat/tests/places.hpp>
 #include <gyrostat/tests/program.hpp>
 
 namespace gyrostat::signals_test {
@@ -24,7 +25,7 @@ struct Call {
   bool ends_in_order = false;
 };
 
-const std::string source = GYROSTAT_SOURCE_DIR;
+const std::string source = places::source();
 
 /// One call or more of every verb; the longer ones are still at it at the last moment below.
 std::vector<Call> calls() {
@@ -40,7 +41,7 @@ std::vector<Call> calls() {
           {{"rank", "runs/small", "--figures", "."}},
           {{"consistency", "runs/small"}},
           {{"failure", "runs/rare", "--how"}},
-          {{"check-plugin", GYROSTAT_TEST_PLUGINS "/sound.so"}},
+          {{"check-plugin", places::plugins() + "/sound.so"}},
           {{"merge", "merged", "runs/small"}},
           {{"repair", "runs/small"}},
           {{"slurm", "long.json"}},

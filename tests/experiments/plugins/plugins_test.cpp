@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <gyrostat/tests/places.hpp>
 #include <gyrostat/tests/program.hpp>
 
 namespace gyrostat::plugins_test {
@@ -23,9 +24,7 @@ using testing::Not;
 [[maybe_unused]] const int as_without_sanitizer = setenv("ASAN_OPTIONS", "handle_segv=0", 0);
 
 /// Built beside the tests.
-std::string library(const std::string& name) {
-  return std::string(GYROSTAT_TEST_PLUGINS) + "/" + name + ".so";
-}
+std::string library(const std::string& name) { return places::plugins() + "/" + name + ".so"; }
 
 std::vector<std::string> with(std::vector<std::string> words, const std::string& name) {
   words.insert(words.end(), {"--plugin", library(name)});

@@ -4,6 +4,7 @@
 
 #include <gyrostat/recordings/text.hpp>
 #include <gyrostat/results/store.hpp>
+#include <gyrostat/tests/places.hpp>
 #include <gyrostat/tests/program.hpp>
 
 namespace gyrostat::repair_test {
@@ -56,7 +57,8 @@ TEST(Repair, RowsThatAreNoMoreThereAreMissedByEveryReaderAndRunAgain) {
 
 /// The exit code of a line of shell in the folder, with $G the program.
 int shell(const TestFolder& folder, const std::string& line) {
-  const auto all = "cd '" + folder.path().string() + "' && G='" GYROSTAT_PROGRAM "' && " + line;
+  const auto all =
+      "cd '" + folder.path().string() + "' && G='" + places::program() + "' && " + line;
   const int status = std::system(all.c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }

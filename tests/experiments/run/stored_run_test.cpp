@@ -20,6 +20,7 @@
 #include <gyrostat/experiments/run/trials_together.hpp>
 #include <gyrostat/experiments/study/address.hpp>
 #include <gyrostat/experiments/study/digest.hpp>
+#include <gyrostat/tests/places.hpp>
 #include <gyrostat/tests/program.hpp>
 
 namespace gyrostat::stored_run_test {
@@ -148,7 +149,7 @@ TEST(Store, AFileThatMayNotGrowIsAnErrorAndTheRunGoesOnLater) {
   EXPECT_EQ(run_program(folder, {"run", "s.json", "--trials", std::to_string(before)}).exit_code,
             0);
   const auto command = fmt::format("cd {} && ulimit -f 3000 && {} run s.json 2> err > out",
-                                   folder.path().string(), GYROSTAT_PROGRAM);
+                                   folder.path().string(), places::program());
   const int status = std::system(("/bin/sh -c '" + command + "'").c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1);
   EXPECT_THAT(folder.read("err"), HasSubstr("finished trials are kept"));
