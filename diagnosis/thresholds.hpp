@@ -39,6 +39,9 @@ inline constexpr double share_of_form = 0.01;
 /// Log odds above which an effect is not doubted because readings do not show it, and comes before
 /// those below: 99 to 1.
 inline constexpr double clear_odds = 4.6;
+/// Log odds above which an effect of a refuted set is not taken out of it: as those of what is read
+/// off values.
+inline constexpr double odds_beyond_misfits = 50.0;
 /// Least probability of a cause in the verdict's set.
 inline constexpr double member_probability = 0.05;
 

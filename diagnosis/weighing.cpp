@@ -58,11 +58,13 @@ std::vector<std::string> Diagnosing::weighed(std::vector<Member> members,
       add_intervals(result_.effects.back());
     }
     if (members.size() < 2 || !is_missed_by(whole)) return names;
-    // An effect that the readings of its own channel bear out stays, whatever the others miss.
+    // An effect that the readings of its own channel bear out stays, whatever the others miss, and
+    // so does one that no misfit would feign.
     std::ptrdiff_t at = -1;
     for (std::size_t k = 0; k < members.size(); ++k)
       if (const double lack = result_.effects[k].lack;
-          lack <= 0.0 && tempered(members[k], whole) < thresholds::clear_odds &&
+          lack <= 0.0 && members[k].log_odds < thresholds::odds_beyond_misfits &&
+          tempered(members[k], whole) < thresholds::clear_odds &&
           (at < 0 || lack < result_.effects[static_cast<std::size_t>(at)].lack))
         at = static_cast<std::ptrdiff_t>(k);
     if (at < 0) return names;

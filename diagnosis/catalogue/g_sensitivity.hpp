@@ -6,12 +6,13 @@
 #include <fmt/format.h>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
+#include <gyrostat/diagnosis/likelihood/felt_acceleration.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
 #include <gyrostat/generators/effects/g_sensitivity.hpp>
 
 namespace gyrostat::gap {
 
-/// The slow rate follows the acceleration along three axes.
+/// The rate follows the acceleration along three axes.
 template <>
 struct Diagnosed<effects::GSensitivity> {
   static constexpr auto signature = Signature::slow;
@@ -49,7 +50,7 @@ struct Diagnosed<effects::GSensitivity> {
         {extent(c.slow_means(c.series().acc_x_mps2)),
          c.series().acc_y_mps2.empty() ? 0.0 : extent(c.slow_means(c.series().acc_y_mps2)),
          c.series().acc_z_mps2.empty() ? 0.0 : extent(c.slow_means(c.series().acc_z_mps2))});
-    if (span >= least_change_mps2) return {};
+    if (span >= least_change_mps2 || is_shaken(c)) return {};
     return fmt::format("the acceleration changes by {:.2g} m/s²; at least {:g} m/s² are needed",
                        span, least_change_mps2);
   }

@@ -28,7 +28,10 @@ struct Diagnosed<effects::GaussMarkov> {
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
   static bool is_what_it_is_called(const effects::GaussMarkov& effect, const Conditions& c) {
-    return is_slow(effect.correlation_time_s, c);
+    // What forgets as fast as a filter of the noise does must be seen by means of clusters.
+    constexpr double fewest_means = 2.0;
+    return is_slow(effect.correlation_time_s, c) ||
+           effect.correlation_time_s > fewest_means * c.slow_interval_s();
   }
 };
 

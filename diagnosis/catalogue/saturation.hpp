@@ -17,12 +17,12 @@ namespace gyrostat::gap {
 
 /// Rates beyond a limit are cut; limits above the fastest rate cut nothing. A limit of the output
 /// is read off its values, so that what the likelihood finds is one of the sensing element, at once
-/// or bent into.
+/// or bent into, on both sides or on one.
 template <>
 struct Diagnosed<effects::Saturation> {
   static constexpr auto signature = Signature::repeated;
-  static constexpr std::array free_parameters = {&effects::Saturation::limit_dps,
-                                                 &effects::Saturation::knee};
+  static constexpr std::array free_parameters = {
+      &effects::Saturation::limit_dps, &effects::Saturation::knee, &effects::Saturation::below_dps};
 
   static std::vector<effects::Saturation> starts(const Evidence& e) {
     std::vector<effects::Saturation> all;
@@ -31,6 +31,13 @@ struct Diagnosed<effects::Saturation> {
                            &effects::Saturation::limit_dps, 0.05 * fastest_dps(e.conditions()),
                            1.02 * fastest_dps(e.conditions())));
     all.push_back({.limit_dps = mean_of_fastest_dps(e), .of_element = 1.0});
+    // On one side alone.
+    const double fastest = fastest_dps(e.conditions()), never = 2.0 * fastest;
+    using Limit = effects::Saturation;
+    all.push_back(shaped(e, Trace::rate, Limit{.limit_dps = never, .of_element = 1.0},
+                         &Limit::below_dps, 0.05 * fastest, 1.02 * fastest));
+    all.push_back(shaped(e, Trace::rate, Limit{.of_element = 1.0, .below_dps = never},
+                         &Limit::limit_dps, 0.05 * fastest, 1.02 * fastest));
     return all;
   }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
+#include <gyrostat/diagnosis/starts/motion.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
 #include <gyrostat/generators/effects/sensor_bandwidth.hpp>
 
@@ -16,7 +18,8 @@ template <>
 struct Diagnosed<effects::SensorBandwidth> {
   static constexpr auto signature = Signature::repeated;
   static constexpr std::array free_parameters = {&effects::SensorBandwidth::cutoff_hz,
-                                                 &effects::SensorBandwidth::damping_ratio};
+                                                 &effects::SensorBandwidth::damping_ratio,
+                                                 &effects::SensorBandwidth::before_dps};
 
   /// One pole is what else would be expected: another form is chosen.
   static std::size_t chosen_parameters(const effects::SensorBandwidth& effect) {
@@ -39,6 +42,7 @@ struct Diagnosed<effects::SensorBandwidth> {
       }));
     all.push_back(of_better_course(e, all.back(),
                                    [&](const auto& there) { return of_any_damping(e, there); }));
+    for (auto& form : all) form = begun_before(e, form);
     return all;
   }
 
@@ -57,11 +61,14 @@ struct Diagnosed<effects::SensorBandwidth> {
                                       : of_pole * effect.poles) /
                            effect.cutoff_hz;
     std::vector<effects::SensorBandwidth> all;
-    if (!is_mean) all.push_back({.cutoff_hz = of_mean / delay_s, .averages = 1.0});
+    if (!is_mean)
+      all.push_back(
+          {.cutoff_hz = of_mean / delay_s, .averages = 1.0, .before_dps = effect.before_dps});
     for (const double continuous : {0.0, 1.0, 2.0}) {
       const bool is_other_time = is_mean || is_damped || effect.continuous != continuous;
       const auto add = [&](effects::SensorBandwidth form) {
         form.continuous = continuous;
+        form.before_dps = effect.before_dps;
         form.cutoff_hz = std::min(form.cutoff_hz, highest_hz(form, c.rate_hz()));
         all.push_back(form);
       };
@@ -116,11 +123,29 @@ struct Diagnosed<effects::SensorBandwidth> {
     return best;
   }
 
+  /// At rest at another rate before the first sample, where that leaves clearly less. Beside a
+  /// shift of time it would stand for what that does not know.
+  static effects::SensorBandwidth begun_before(const Evidence& e, effects::SensorBandwidth form) {
+    constexpr double clear = 10.0;
+    for (const auto& effect : e.baseline.effects)
+      if (effect.id() == "time_offset") return form;
+    auto other = form;
+    other.before_dps = fastest_dps(e.conditions());
+    const auto columns = signatures(e, Trace::rate, {form, other});
+    const auto fit =
+        match(columns.col(1) - columns.col(0), trace_of(e, Trace::rate) - columns.col(0));
+    if (-0.5 * static_cast<double>(columns.rows()) * std::log(fit.unexplained) > clear)
+      form.before_dps = other.before_dps * fit.amplitudes[0];
+    return form;
+  }
+
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }
 
-  static bool is_what_it_is_called(const effects::SensorBandwidth& /*effect*/,
+  /// What rings for long is no low-pass filter.
+  static bool is_what_it_is_called(const effects::SensorBandwidth& effect,
                                    const Conditions& /*c*/) {
-    return true;
+    constexpr double least_damping = 0.2;
+    return effect.damping_ratio == 0.0 || effect.damping_ratio >= least_damping;
   }
 
  private:

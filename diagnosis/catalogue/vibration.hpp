@@ -31,8 +31,9 @@ struct Diagnosed<effects::Vibration> {
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
-  static bool is_what_it_is_called(const effects::Vibration& effect, const Conditions& /*c*/) {
-    return effect.bandwidth_hz < 0.5 * effect.centre_hz;
+  /// A line, and one whose top is among the frequencies that samples have.
+  static bool is_what_it_is_called(const effects::Vibration& effect, const Conditions& c) {
+    return effect.bandwidth_hz < 0.5 * effect.centre_hz && effect.centre_hz <= 0.5 * c.rate_hz();
   }
 };
 

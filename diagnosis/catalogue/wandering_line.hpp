@@ -40,9 +40,10 @@ struct Diagnosed<effects::WanderingLine> {
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
-  /// Neither a line that stands still nor one that is anywhere.
+  /// Neither a line that stands still nor one that is anywhere, and one that samples have.
   static bool is_what_it_is_called(const effects::WanderingLine& effect, const Conditions& c) {
     return effect.wander_hz < 0.25 * effect.frequency_hz &&
+           effect.frequency_hz <= 0.5 * c.rate_hz() &&
            effect.wander_hz > spectrum_resolution_hz(c.spans(Part::train), c.rate_hz());
   }
 };

@@ -49,7 +49,12 @@ double CompassBench::log_gain_of_turning(const std::vector<Effect>& set) const {
 }
 
 void CompassBench::find_bursts(const std::vector<Effect>& effects) {
-  bursts_ = heading_bursts(conditions_, errors_.means_of(effects), beside_turns(effects));
+  // What a compass that trails had turned before the first sample, nobody knows.
+  auto means = errors_.means_of(effects);
+  const auto unknown = static_cast<std::ptrdiff_t>(std::min(trailing(effects), means.size()));
+  std::fill_n(means.begin(), unknown, no_value);
+  bursts_ = heading_bursts(conditions_, std::move(means), beside_turns(effects));
+  std::fill_n(bursts_.hidden.begin(), unknown, 1);
 }
 
 void CompassBench::forget_bursts() {
@@ -162,16 +167,21 @@ double CompassBench::robust_score(const std::vector<Effect>& set) const {
   return score;
 }
 
+std::size_t CompassBench::trailing(const std::vector<Effect>& effects) const {
+  const auto lag = std::find_if(effects.begin(), effects.end(), is_lag);
+  if (lag == effects.end()) return 0;
+  constexpr double memories = 5.0;
+  const double trails_s = lag->value(field_of(*lag, "time_constant_s")) +
+                          std::abs(lag->value(field_of(*lag, "delay_s")));
+  return static_cast<std::size_t>(std::ceil(memories * trails_s / conditions_.slow_interval_s()));
+}
+
 /// Where a compass that trails does: while it turns, and until that has died out.
 std::vector<char> CompassBench::beside_turns(const std::vector<Effect>& effects) const {
   std::vector<char> flags(conditions_.slow_size(), 0);
-  const auto lag = std::find_if(effects.begin(), effects.end(), is_lag);
-  if (lag == effects.end()) return flags;
-  constexpr double memories = 5.0, of_fastest = 0.05;
-  const double trails_s = lag->value(field_of(*lag, "time_constant_s")) +
-                          std::abs(lag->value(field_of(*lag, "delay_s")));
-  const auto reach =
-      static_cast<std::size_t>(std::ceil(memories * trails_s / conditions_.slow_interval_s()));
+  const std::size_t reach = trailing(effects);
+  if (reach == 0) return flags;
+  constexpr double of_fastest = 0.05;
   const auto& rate = conditions_.series().rate_ref_dps;
   double fastest = 0.0;
   for (const double r : rate)

@@ -46,6 +46,9 @@ class CompassBench {
   void unshift() { errors_.unshift(); }
 
  private:
+  /// Clusters until what was turned before has died out of a compass that trails; 0 where none
+  /// does.
+  std::size_t trailing(const std::vector<Effect>& effects) const;
   std::vector<char> beside_turns(const std::vector<Effect>& effects) const;
 
   const Simulator& simulator_;

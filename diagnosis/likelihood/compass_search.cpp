@@ -169,8 +169,7 @@ void CompassSearch::run(const SetSearchOptions& options) {
   found_.scenario.compass.initial_heading_deg = bench_.centre_deg();
   found_.baseline.compass.initial_heading_deg = bench_.centre_deg();
   const auto& bursts = bench_.bursts();
-  if (std::any_of(bursts.hidden.begin(), bursts.hidden.end(), [](char is) { return is != 0; }))
-    found_.log_score_gained.reset();
+  if (bursts.per_hour > 0.0) found_.log_score_gained.reset();
   if (found_.log_score_gained) {
     *found_.log_score_gained += law.gain_on(bare);
     for (const auto& effect : set) *found_.log_score_gained -= bench_.cost(effect);

@@ -74,7 +74,9 @@ Standing SetSearcher::responding_anew(const Standing& standing) {
     shown = bench_.refitted(standing.scenario);
   }
   bench_.take_out_response(std::nullopt);
-  const auto rest = bench_.refitted(still);
+  // Beside a motion without its effects what is there may be fitted to what it is not.
+  auto rest = bench_.refitted(still);
+  if (rest.score < -1e299) rest = bench_.refitted(still, 0);
   const auto left = bench_.evidence_of(rest);
   auto best = best_from(shown, {bench_.with(rest, cause_types().named(other, "effects"), &left)},
                         EffectBand::motion);

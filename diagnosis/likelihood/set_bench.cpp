@@ -26,6 +26,19 @@ bool feels_acceleration(const Effect& effect) {
   return std::find(needs.begin(), needs.end(), &Series::acc_x_mps2) != needs.end();
 }
 
+/// Whether sizes are those that samples know, within their errors or the half of them.
+bool agree(const Effect& effect, const std::vector<KnownSize>& known) {
+  constexpr double errors = 5.0, share = 0.5;
+  double apart = 0.0, all = 0.0, count = 0.0;
+  for (const auto& k : known) {
+    const double size = effect.value(k.field);
+    apart += std::pow((size - k.size) / k.error, 2);
+    all += std::pow(size / k.error, 2);
+    count += 1.0;
+  }
+  return count > 0.0 && apart < std::max(errors * errors * count, share * share * all);
+}
+
 }  // namespace
 
 bool has(const Scenario& scenario, std::string_view effect) {
@@ -44,7 +57,8 @@ SetBench::SetBench(const Simulator& simulator, const Series& recording,
     : simulator_(simulator),
       conditions_(simulator.conditions()),
       recording_(recording),
-      without_(std::move(without)) {
+      without_(std::move(without)),
+      is_shaken_(is_shaken(conditions_)) {
   mask_only(std::vector<char>(recording.size(), 0));
   missing_ = missing_in(rate_error_beside(plain()));
 }
@@ -90,18 +104,52 @@ std::vector<double> SetBench::added_by(const std::vector<Effect>& effects) const
   return added;
 }
 
-std::vector<double> SetBench::felt_under(const Scenario& scenario,
-                                         std::vector<double> error) const {
-  std::vector<double> sum;
-  for (const auto& effect : scenario.effects) {
+std::vector<KnownSize> SetBench::known_within(const Effect& effect,
+                                              const std::vector<double>& error) const {
+  if (!is_shaken_ || effect.id() != "g_sensitivity") return {};
+  const auto fields = amplitudes_of(effect, cause_types().named(effect.id(), "effects"));
+  std::vector<std::vector<double>> courses;
+  for (const auto unit : fields) {
+    Effect one = effect;
+    for (const auto field : fields) one.value(field) = field == unit ? 1.0 : 0.0;
+    courses.push_back(added_by({one}));
+  }
+  const auto found = sizes_within_clusters(conditions_, masked(), error, courses);
+  std::vector<KnownSize> known;
+  for (std::size_t k = 0; found && k < fields.size(); ++k)
+    known.push_back({std::string(effect.id()), fields[k], found->sizes[k], found->errors[k]});
+  return known;
+}
+
+std::optional<Effect> SetBench::sized_within(const Standing& standing, Effect effect) const {
+  if (!feels_acceleration(effect)) return {};
+  const auto known = known_within(effect, error_of(gyro_beside(standing.scenario)));
+  if (known.empty()) return {};
+  for (const auto& k : known) effect.value(k.field) = k.size;
+  return effect;
+}
+
+SetBench::Felt SetBench::felt_under(const Scenario& scenario, std::vector<double> error) const {
+  Felt sum;
+  const auto add = [](const std::vector<double>& felt, std::vector<double>& to) {
+    to.resize(felt.size(), 0.0);
+    for (std::size_t i = 0; i < felt.size(); ++i) to[i] += felt[i];
+  };
+  for (Effect effect : scenario.effects) {
     if (!feels_acceleration(effect)) continue;
+    const auto known = known_within(effect, error);
+    const bool agrees = agree(effect, known);
+    if (agrees)
+      for (const auto& k : known) effect.value(k.field) = k.size;
     auto felt = added_by({effect});
-    keep_what_shows(conditions_, masked(), error, felt);
-    sum.resize(felt.size(), 0.0);
-    for (std::size_t i = 0; i < felt.size(); ++i) {
-      sum[i] += felt[i];
-      error[i] -= felt[i];
+    if (agrees) {
+      sum.known.insert(sum.known.end(), known.begin(), known.end());
+    } else {
+      keep_what_shows(conditions_, masked(), error, felt);
+      add(felt, sum.of_means);
     }
+    add(felt, sum.of_samples);
+    for (std::size_t i = 0; i < felt.size(); ++i) error[i] -= felt[i];
   }
   return sum;
 }
@@ -136,7 +184,7 @@ std::vector<double> SetBench::error_of(std::vector<double> gyro) const {
 
 std::vector<double> SetBench::gyro_beside(const Scenario& scenario) const {
   auto gyro = gyro_as_felt(scenario);
-  const auto felt = felt_under(scenario, error_of(gyro));
+  const auto felt = felt_under(scenario, error_of(gyro)).of_samples;
   for (std::size_t i = 0; i < felt.size(); ++i) gyro[i] -= felt[i];
   return gyro;
 }
@@ -150,12 +198,10 @@ std::vector<double> SetBench::rate_error_beside(const Scenario& scenario) const 
 std::shared_ptr<const SetFitter> SetBench::fitter_of(const Scenario& scenario) const {
   simulator_.interrupt().check();
   auto error = error_of(gyro_as_felt(scenario));
-  // Of means of clusters it is not taken out: its sizes are fitted to those.
   auto felt = felt_under(scenario, error);
-  for (std::size_t i = 0; i < felt.size(); ++i) {
-    error[i] -= felt[i];
-    if (masked()[i] != 0) felt[i] = no_value;
-  }
+  for (std::size_t i = 0; i < felt.of_samples.size(); ++i) error[i] -= felt.of_samples[i];
+  for (std::size_t i = 0; i < felt.of_means.size(); ++i)
+    if (masked()[i] != 0) felt.of_means[i] = no_value;
   conditions_.bridge(error);
   // Likelihoods of other samples are not to be compared.
   constexpr double most_lost = 0.01;
@@ -166,8 +212,8 @@ std::shared_ptr<const SetFitter> SetBench::fitter_of(const Scenario& scenario) c
       conditions_,
       std::make_shared<const ReducedRate>(
           conditions_, std::move(error), grid_,
-          felt.empty() ? std::vector<double>{} : conditions_.slow_means(felt)),
-      simulator_.interrupt());
+          felt.of_means.empty() ? std::vector<double>{} : conditions_.slow_means(felt.of_means)),
+      simulator_.interrupt(), std::move(felt.known));
 }
 
 Standing SetBench::fitted(const Scenario& scenario, std::shared_ptr<const SetFitter> fitter,

@@ -98,9 +98,18 @@ class SetBench {
   bool is_read_off(const Effect& effect) const;
   /// To the rate that turns, a value a sample.
   std::vector<double> added_by(const std::vector<Effect>& effects) const;
-  /// What the acceleration adds to the rate whose `error` this is, a value a sample; empty where no
-  /// effect says so.
-  std::vector<double> felt_under(const Scenario& scenario, std::vector<double> error) const;
+  /// What the acceleration adds to the rate; empty where no effect says so.
+  struct Felt {
+    std::vector<double> of_samples;
+    std::vector<double>
+        of_means;  ///< what of it is left to means of clusters, to be fitted to them
+    std::vector<KnownSize> known;  ///< of what is not
+  };
+  Felt felt_under(const Scenario& scenario, std::vector<double> error) const;
+  /// Of an effect whose amplitudes an acceleration has, what samples within clusters say of them.
+  std::vector<KnownSize> known_within(const Effect& effect, const std::vector<double>& error) const;
+  /// The effect with these sizes, where they are known beside the standing.
+  std::optional<Effect> sized_within(const Standing& standing, Effect effect) const;
   /// The recording's gyro without what is the same in every replica of the scenario; with what it
   /// feels of the acceleration.
   std::vector<double> gyro_as_felt(const Scenario& scenario) const;
@@ -116,6 +125,7 @@ class SetBench {
   const Conditions& conditions_;
   const Series& recording_;
   std::vector<std::string> without_;
+  bool is_shaken_;
   std::ptrdiff_t missing_ = 0;  ///< samples of the error beside no effect
   std::shared_ptr<const RateGrid> grid_;
   std::optional<Effect> response_;

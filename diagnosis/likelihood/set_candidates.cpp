@@ -24,15 +24,21 @@ constexpr double much = 100.0;
 /// Of an effect's guesses, so many are fitted a little, and so many to the end.
 constexpr std::size_t guesses_screened = 8, guesses_fitted = 2;
 
+/// An effect as it may be, and what fits it beside the others.
+struct Guess {
+  Effect effect;
+  std::shared_ptr<const SetFitter> fitter;
+};
+
 /// The first `count` of `guesses`, by what `score` says of each.
 template <typename Score>
-std::vector<Effect> likeliest(const std::vector<Effect>& guesses, std::size_t count,
-                              const Score& score) {
+std::vector<Guess> likeliest(const std::vector<Guess>& guesses, std::size_t count,
+                             const Score& score) {
   if (guesses.size() <= count) return guesses;
   std::vector<std::pair<double, std::size_t>> ranks;
   for (std::size_t k = 0; k < guesses.size(); ++k) ranks.emplace_back(score(guesses[k]), k);
   std::sort(ranks.rbegin(), ranks.rend());
-  std::vector<Effect> first;
+  std::vector<Guess> first;
   for (std::size_t k = 0; k < count; ++k) first.push_back(guesses[ranks[k].second]);
   return first;
 }
@@ -59,19 +65,29 @@ Standing SetBench::with_guessed(const Standing& standing, const CauseType& cause
     starts.push_back(*standing.beside_the_last);
   else if (!(jumps && slow))  // beside them it is small, and they take long
     starts.push_back(with_walk_times(standing.scenario, 0.1));
-  const auto begun = [&](Scenario start, const Effect& guess, int iterations) {
-    start.effects.push_back(guess);
-    return fitted(standing.fitter->with_white_noise_scaled(std::move(start)), standing.fitter,
-                  iterations, jumps && slow ? Jumping::yes : Jumping::no);
+  // What samples within clusters know of an effect is taken out of them.
+  std::vector<Guess> guesses;
+  for (const auto& effect : cause.guesses(beside)) {
+    guesses.push_back({effect, standing.fitter});
+    const auto sized = sized_within(standing, effect);
+    if (!sized) continue;
+    Scenario with = standing.scenario;
+    with.effects.push_back(*sized);
+    if (auto fitter = fitter_of(with)) guesses.push_back({*sized, std::move(fitter)});
+  }
+  const auto begun = [&](Scenario start, const Guess& guess, int iterations) {
+    start.effects.push_back(guess.effect);
+    return fitted(guess.fitter->with_white_noise_scaled(std::move(start)), guess.fitter, iterations,
+                  jumps && slow ? Jumping::yes : Jumping::no);
   };
-  const auto log_likelihood = [&](const Effect& guess) {
+  const auto log_likelihood = [&](const Guess& guess) {
     double most = -1e300;
     for (const auto& start : starts)
       most = std::max(most, begun(start, guess, 0).fit.log_likelihood);
     return most;
   };
   std::vector<Standing> screened;
-  for (const auto& guess : likeliest(cause.guesses(beside), guesses_screened, log_likelihood)) {
+  for (const auto& guess : likeliest(guesses, guesses_screened, log_likelihood)) {
     screened.emplace_back();
     for (const auto& start : starts)
       if (auto tried = begun(start, guess, screening_iterations);
@@ -91,7 +107,8 @@ Standing SetBench::with_guessed(const Standing& standing, const CauseType& cause
       start.random_error = standing.scenario.random_error;
       start.random_error.measurement_noise_std_dps = white;
     }
-    if (auto tried = fitted(start, standing.fitter, fitting_iterations); tried.score > best.score)
+    if (auto tried = fitted(start, screened[k].fitter, fitting_iterations);
+        tried.score > best.score)
       best = std::move(tried);
   }
   return best;

@@ -27,14 +27,16 @@ NoiseLaw law_of(const Scenario& scenario, double interval_s) {
 }
 
 SetFitter::SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
-                     Interrupt interrupt)
-    : SetFitter(conditions, std::move(reduced), interrupt, Eigen::MatrixXd()) {}
+                     Interrupt interrupt, std::vector<KnownSize> known)
+    : SetFitter(conditions, std::move(reduced), interrupt, std::move(known), Eigen::MatrixXd()) {}
 
 SetFitter::SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
-                     Interrupt interrupt, const Eigen::MatrixXd& further)
+                     Interrupt interrupt, std::vector<KnownSize> known,
+                     const Eigen::MatrixXd& further)
     : conditions_(conditions),
       reduced_(std::move(reduced)),
       interrupt_(interrupt),
+      known_(std::move(known)),
       further_(further) {
   further_spreads_.resize(further_.cols());
   for (Eigen::Index c = 0; c < further_.cols(); ++c) {
@@ -62,6 +64,13 @@ SetFitter::SetFitter(const Conditions& conditions, std::shared_ptr<const Reduced
       means.size() > 1 ? std::sqrt((means.array() - means.mean()).square().mean()) : 1.0;
 }
 
+const KnownSize* SetFitter::known(const Effect& effect, std::size_t field) const {
+  const auto at = std::find_if(known_.begin(), known_.end(), [&](const auto& k) {
+    return k.effect == effect.id() && k.field == field;
+  });
+  return at == known_.end() ? nullptr : &*at;
+}
+
 /// From all samples, once: it depends on nothing that is fitted.
 Eigen::VectorXd SetFitter::fixed_signature(const Scenario& alone) const {
   const auto& effect = alone.effects.front();
@@ -84,7 +93,7 @@ Eigen::VectorXd SetFitter::fixed_signature(const Scenario& alone) const {
 }
 
 SetFitter::Regressors SetFitter::regressors_of(const Scenario& scenario) const {
-  Regressors found{drift_, drift_spreads_};
+  Regressors found{drift_, drift_spreads_, std::vector<double>(drift_spreads_.size(), 0.0)};
   auto& regressors = found.columns;
   Scenario alone;
   alone.sampling = scenario.sampling;
@@ -122,6 +131,8 @@ SetFitter::Regressors SetFitter::regressors_of(const Scenario& scenario) const {
         column /= spread;
       }
       found.spreads.push_back(spread);
+      const auto* size = known(effect, unit);
+      found.errors.push_back(size != nullptr ? size->error : 0.0);
     }
   }
   if (further_.cols() > 0) {
@@ -142,7 +153,18 @@ SlowTerms SetFitter::slow_terms_of(const SlowLaw& law, const Regressors& regress
   constexpr double drift_prior = 3.0;  // drifts are larger than what is found beside them
   Eigen::VectorXd prior_std = Eigen::VectorXd::Constant(regressors.columns.cols(), amplitude_dps_);
   prior_std.head(drift_.cols()) *= drift_prior;
-  return slow_terms(*reduced_, law, regressors.columns, prior_std, near, is_the_last);
+  // Of a size that samples know, clusters find by how much it is another; that it was known at
+  // their cost is what the samples' likelihood lacks.
+  double cost = 0.0;
+  for (std::size_t c = 0; c < regressors.errors.size(); ++c) {
+    const double known = regressors.errors[c] * regressors.spreads[c];
+    if (!(known > 0.0)) continue;
+    cost += 0.5 * std::log1p(amplitude_dps_ * amplitude_dps_ / (known * known));
+    prior_std[static_cast<Eigen::Index>(c)] = known;
+  }
+  auto terms = slow_terms(*reduced_, law, regressors.columns, prior_std, near, is_the_last);
+  terms.log_likelihood -= cost;
+  return terms;
 }
 
 RateTerms SetFitter::terms(const Scenario& scenario, Jumping jumping, const SlowTerms* near) const {
@@ -184,7 +206,9 @@ void SetFitter::take_coefficients(const RateTerms& terms, SetFit& fit) const {
     for (const auto field : amplitudes_of(effect, *cause)) {
       // Of an axis along which nothing changes there is no size.
       const double size = found[static_cast<Eigen::Index>(at)];
-      effect.value(field) = spreads[at] > 0.0 ? size / spreads[at] : 0.0;
+      const auto* besides = known(effect, field);
+      effect.value(field) = (besides != nullptr ? besides->size : 0.0) +
+                            (spreads[at] > 0.0 ? size / spreads[at] : 0.0);
       ++at;
     }
   }

@@ -28,6 +28,14 @@ struct ParameterInterval {
   double low, high;
 };
 
+/// What samples within clusters say of an amplitude of a slow effect, which is taken out of the
+/// recording with this size: clusters move it within its standard error.
+struct KnownSize {
+  std::string effect;
+  std::size_t field;
+  double size, error;
+};
+
 /// Whether jumps are followed, or stood in for by a Gaussian law of the same covariance.
 enum class Jumping { no, yes };
 
@@ -41,10 +49,10 @@ NoiseLaw law_of(const Scenario& scenario, double interval_s);
 class SetFitter {
  public:
   SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
-            Interrupt interrupt = {});
+            Interrupt interrupt = {}, std::vector<KnownSize> known = {});
   /// One that has further regressors of unknown size (cluster x any) beside every set.
   SetFitter beside(const Eigen::MatrixXd& further) const {
-    return SetFitter(conditions_, reduced_, interrupt_, further);
+    return SetFitter(conditions_, reduced_, interrupt_, known_, further);
   }
   /// The most likely size of each of them under a scenario, in units of the regressor.
   Eigen::VectorXd further_sizes(const Scenario& scenario) const;
@@ -74,17 +82,20 @@ class SetFitter {
 
  private:
   SetFitter(const Conditions& conditions, std::shared_ptr<const ReducedRate> reduced,
-            Interrupt interrupt, const Eigen::MatrixXd& further);
+            Interrupt interrupt, std::vector<KnownSize> known, const Eigen::MatrixXd& further);
 
   const Conditions& conditions_;
   std::shared_ptr<const ReducedRate> reduced_;
   Interrupt interrupt_;
+  std::vector<KnownSize> known_;
   /// Columns of unit spread: the drift's regressors, and the signatures of the scenario's slow
   /// effects.
   struct Regressors {
     Eigen::MatrixXd columns;
-    std::vector<double> spreads;  ///< that they had
+    std::vector<double> spreads;      ///< that they had
+    std::vector<double> errors = {};  ///< of sizes that are known, by columns; 0: it is not
   };
+  const KnownSize* known(const Effect& effect, std::size_t field) const;
   /// Derivatives by each dial: of what a likelihood is made of, whose products are its information
   /// from cluster means and from what is faster, and of both parts' logarithms.
   struct Slopes {

@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_invoke.h>
 
+#include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 
 namespace gyrostat::gap {
@@ -27,10 +28,14 @@ Scenario beyond(const Scenario& from, const Scenario& through, double further) {
 
 }  // namespace
 
-/// What is written as 0 says no more of its zone than its edge.
+/// What is written as 0 says no more of its zone than its edge, and what is clipped has its limit
+/// as its value.
 bool SetBench::is_read_off(const Effect& effect) const {
-  return marked_dead_zone_ && effect.id() == "dead_zone" &&
-         effect.value(field_of(effect, "lost_beyond")) == 0.0;
+  const auto is_zero = [&](std::string_view name) {
+    return effect.value(field_of(effect, name)) == 0.0;
+  };
+  return (marked_dead_zone_ && effect.id() == "dead_zone" && is_zero("lost_beyond")) ||
+         (marked_saturation_ && effect.id() == "saturation" && is_zero("of_element"));
 }
 
 Standing SetBench::polished(Standing standing, double to_reach) const {
@@ -94,8 +99,14 @@ Standing SetBench::polished(Standing standing, double to_reach) const {
       scenario = trial;
       here = there;
     }
-    if (here + (most_passes - 1 - pass) * (here - before_pass) < likelihood_to_reach)
-      return standing;
+    if (here + (most_passes - 1 - pass) * (here - before_pass) < likelihood_to_reach) {
+      // Under a walk that stood in for what was wrong, what is right gains little.
+      const auto fitter = fitter_of(scenario);
+      if (!fitter || fitter->terms(with_walk_times(scenario, 0.5)).log_likelihood < here + little)
+        return standing;
+      auto anew = fitted(scenario, fitter, 8);
+      return anew.score > standing.score + little ? polished(std::move(anew), to_reach) : standing;
+    }
   }
   return refitted(scenario, 8);
 }

@@ -4,6 +4,7 @@
 #include <gyrostat/diagnosis/likelihood/arima_law.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
+#include <gyrostat/diagnosis/starts/slow_noise.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -48,6 +49,16 @@ bool is_of_the_filter(const Effect& effect, const Scenario& scenario, double int
          std::abs(effect.value(field_of(effect, "offset_s"))) < least * interval_s;
 }
 
+/// What forgets within some samples and is stronger than the white noise is white noise that has
+/// passed a filter.
+bool is_filtered_noise(const Effect& effect, const Scenario& scenario,
+                       const Conditions& conditions) {
+  if (effect.id() != "gauss_markov") return false;
+  return !is_slow(effect.value(field_of(effect, "correlation_time_s")), conditions) &&
+         effect.value(field_of(effect, "std_dps")) >
+             scenario.random_error.measurement_noise_std_dps;
+}
+
 /// A sine within the band of a random line that is the stronger is one of its peaks.
 bool is_of_a_line(const Effect& effect, const Scenario& scenario) {
   if (effect.id() != "sinusoidal") return false;
@@ -75,7 +86,7 @@ double SetBench::price_of(const Scenario& scenario) const {
     if (cause == nullptr) continue;
     if (!cause->is_what_it_is_called(effect, conditions_) ||
         is_of_the_filter(effect, scenario, conditions_.interval_s()) ||
-        is_of_a_line(effect, scenario))
+        is_filtered_noise(effect, scenario, conditions_) || is_of_a_line(effect, scenario))
       return beyond_any;
     if (is_marked(effect.id())) continue;
     sum += prior + of_a_parameter * static_cast<double>(sizes_of(effect, *cause) +

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/block_level.hpp>
 #include <gyrostat/diagnosis/likelihood/compass_search.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/line_names.hpp>
 #include <gyrostat/diagnosis/likelihood/set_searcher.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
@@ -16,7 +18,32 @@ namespace {
 
 bool is_compass(const CauseType& cause) { return cause.effect().stage() == Stage::compass; }
 
+/// What settles about as fast as a filter or a shift of time follows the rate is what they do not
+/// know of before the first sample.
+bool is_what_was_before(const Effect& effect, const Scenario& scenario) {
+  if (effect.id() != "start_up") return false;
+  constexpr double as_fast = 5.0;
+  double follows_s = 0.0;
+  for (const auto& other : scenario.effects) {
+    const auto value = [&](std::string_view name) { return other.value(field_of(other, name)); };
+    if (other.id() == "time_offset") follows_s += std::abs(value("offset_s"));
+    if (other.id() == "sensor_bandwidth")
+      follows_s += 0.5 / (std::numbers::pi * value("cutoff_hz"));
+  }
+  return effect.value(field_of(effect, "settling_time_s")) < as_fast * follows_s;
+}
+
 }  // namespace
+
+Standing SetSearcher::without_what_was_before(Standing standing, FoundSet& found) const {
+  auto scenario = standing.scenario;
+  if (std::erase_if(scenario.effects, [&](const auto& effect) {
+        return is_what_was_before(effect, standing.scenario);
+      }) == 0)
+    return standing;
+  std::erase_if(found.members, [](const auto& m) { return m.effect == "start_up"; });
+  return bench_.refitted(scenario);
+}
 
 double SetSearcher::noise_about_levels(const std::vector<double>& left) const {
   std::vector<double> of_blocks = {0.0};
@@ -72,11 +99,17 @@ FoundSet SetSearcher::run() {
   tell("the first effect", 3);
   auto standing = searched_beside_tails(begun);
   standing = exchanged(std::move(standing), found);
-  if (auto other = beside_memory(standing);
-      other.score > standing.score + least_gain(other, EffectBand::fast)) {
+  const auto exchanged_anew = [&](Standing other) {
     found.members.clear();
     for (const auto& effect : marked) add_mark(effect.id(), found);
-    standing = exchanged(searched(std::move(other)), found);
+    standing = exchanged(std::move(other), found);
+  };
+  // An exchange may have left the one way of being late of two.
+  if (auto other = responding_anew(standing); other.score > standing.score)
+    exchanged_anew(std::move(other));
+  if (auto other = beside_memory(standing);
+      other.score > standing.score + least_gain(other, EffectBand::fast)) {
+    exchanged_anew(searched(std::move(other)));
     if (standing.scenario.random_error.phi != 0.0)
       found.baseline = bench_.beside_memory(bench_.beside_noise({})).scenario;
   } else {
@@ -85,6 +118,7 @@ FoundSet SetSearcher::run() {
       if (!member.read_off && !has(other.scenario, member.effect))
         member.log_odds = std::min(member.log_odds, standing.score - other.score);
   }
+  standing = without_what_was_before(std::move(standing), found);
   tell("looking for what has no name", 1);
   found.gain = standing.score - begun.score;
   found.unexplained = unexplained_by(conditions_, *standing.fitter, standing.scenario);

@@ -96,6 +96,9 @@ class SetSearcher {
   /// Of sets found from each of some beginnings, with the effects of a band as candidates, the
   /// best; what stands, where none is better by what its further effects have to gain.
   Standing best_from(const Standing& standing, std::vector<Standing> beginnings, EffectBand band);
+  /// Without a bias that settles before a filter or a shift of time has followed the rate: beside
+  /// these it stands for what they do not know, and the search finds more beside it.
+  Standing without_what_was_before(Standing standing, FoundSet& found) const;
   /// With an ARIMA(1,1,1) that remembers, beside what is there or in place of what colours the
   /// noise.
   Standing beside_memory(const Standing& standing) const;

@@ -83,7 +83,9 @@ std::vector<ParameterInterval> SetFitter::intervals(const SetFit& fit) const {
     if (cause == nullptr || cause->signature != Signature::slow) continue;
     for (const auto field : amplitudes_of(effect, *cause)) {
       const auto c = static_cast<Eigen::Index>(at);
-      const double value = coefficients[c] / spreads[at];
+      const auto* besides = known(effect, field);
+      const double value =
+          (besides != nullptr ? besides->size : 0.0) + coefficients[c] / spreads[at];
       const double reach = two_sided_95 * coefficients_std[c] / spreads[at];
       found.push_back({k, field, value - reach, value + reach});
       ++at;

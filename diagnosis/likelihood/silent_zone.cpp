@@ -139,6 +139,30 @@ SilentZone within_the_noise(const Conditions& conditions, const std::vector<doub
   return zone;
 }
 
+/// Where a motion that is sensed late goes through it, whatever the reference is then: there is
+/// nothing between 0 and a value beyond which there are as many as there are zeros.
+SilentZone beside_values(const Conditions& conditions, const std::vector<double>& z,
+                         const Values& values, double grid_dps) {
+  constexpr double fewest_beside = 50.0, alike = 2.0;
+  const auto zeros = static_cast<double>(values.rates_at_zero.size());
+  const double edge = values.least(), beside = values.below(2.0 * edge);
+  if (edge < 2.0 * grid_dps || beside < fewest_beside || zeros > alike * beside ||
+      beside > alike * zeros)
+    return {};
+  // What is curved by less than a motion's second difference is noise.
+  std::vector<double> curved;
+  for (const auto& span : conditions.spans(Part::train))
+    for (std::size_t i = span.first + 2; i < span.last; ++i)
+      if (const double second = z[i] - 2.0 * z[i - 1] + z[i - 2]; !is_missing(second))
+        curved.push_back(std::abs(second));
+  if (curved.empty()) return {};
+  const double noise_dps = quantile(std::move(curved), 0.5) / (std::sqrt(6.0) * normal_quartile);
+  SilentZone zone{.half_width_dps = edge, .samples = std::vector<char>(z.size(), 0)};
+  for (std::size_t i = 0; i < z.size(); ++i)
+    zone.samples[i] = std::abs(z[i]) < edge + beyond_noise * noise_dps ? 1 : 0;
+  return zone;
+}
+
 }  // namespace
 
 SilentZone silent_zone(const Conditions& conditions, const std::vector<double>& z,
@@ -160,8 +184,10 @@ SilentZone silent_zone(const Conditions& conditions, const std::vector<double>& 
       zeros < beside * next)
     return {};
   std::ranges::sort(values.beyond);
-  const auto zone = beyond_the_noise(conditions, z, values);
-  return zone.half_width_dps > 0.0 ? zone : within_the_noise(conditions, z, values, grid_dps);
+  for (const auto& zone :
+       {beyond_the_noise(conditions, z, values), within_the_noise(conditions, z, values, grid_dps)})
+    if (zone.half_width_dps > 0.0) return zone;
+  return beside_values(conditions, z, values, grid_dps);
 }
 
 }  // namespace gyrostat::gap

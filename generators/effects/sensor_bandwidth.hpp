@@ -21,8 +21,8 @@ namespace gyrostat::effects {
 /// Butterworth's, by recursion as simulators do; either as a sensor does, to which the rate goes on
 /// between its samples, or two poles of any damping; or the mean over the time before a sample, the
 /// rate being straight between samples, which takes 3 dB where the product of time and frequency is
-/// 0.443 (Oppenheim and Schafer, "Discrete-Time Signal Processing", 3rd ed., 2.6). At the first
-/// sample it has come to rest.
+/// 0.443 (Oppenheim and Schafer, "Discrete-Time Signal Processing", 3rd ed., 2.6). Before the first
+/// sample it has come to rest, at that sample's rate or, where it went on turning, at another.
 struct SensorBandwidth {
   double cutoff_hz = 5.0;
   double poles = 1.0;
@@ -30,6 +30,7 @@ struct SensorBandwidth {
   double averages = 0.0;
   double continuous = 0.0;
   double damping_ratio = 0.0;
+  double before_dps = 0.0;
 
   static constexpr int most_poles = 8;
   /// Cutoff times averaging time: sin(pi x) / (pi x) = 1 / sqrt(2).
@@ -56,6 +57,8 @@ struct SensorBandwidth {
         Field{"damping_ratio", &P::damping_ratio, "1", ranges::non_negative,
               "of a system of second order, going on between samples, whose natural frequency is "
               "the cutoff; 0: of the poles that are said"},
+        Field{"before_dps", &P::before_dps, "dps", ranges::any,
+              "rate before the first sample, less that at it"},
     };
   }
 
@@ -76,26 +79,30 @@ struct SensorBandwidth {
 
  private:
   void follow(Series& series, std::size_t first, std::size_t last) const {
-    if (averages > 0.5) return average(series, first, last);
+    const double begun_dps = series.rate_ref_dps[first] + (first == 0 ? before_dps : 0.0);
+    if (averages > 0.5) return average(series, first, last, begun_dps);
     const auto count =
         static_cast<std::size_t>(std::clamp(std::lround(poles), 1L, long{most_poles}));
     const auto& rate = series.rate_ref_dps;
     const double cycles = cutoff_hz * (series.t_s[last - 1] - series.t_s[first]) /
                           static_cast<double>(last - 1 - first);
     if (damping_ratio > 0.0)
-      return run_on(series, first, last, LowPassSystem::of_second_order(cycles, damping_ratio));
+      return run_on(series, first, last, begun_dps,
+                    LowPassSystem::of_second_order(cycles, damping_ratio));
     if (continuous > 0.5)
-      return run_on(series, first, last, LowPassSystem(cycles, count, maximally_flat > 0.5));
+      return run_on(series, first, last, begun_dps,
+                    LowPassSystem(cycles, count, maximally_flat > 0.5));
     if (maximally_flat > 0.5) {
       Butterworth sensed(cycles, count);
       for (std::size_t i = first; i < last; ++i)
-        series.gyro_dps[i] += rate[first] + sensed(rate[i] - rate[first]) - rate[i];
+        series.gyro_dps[i] += begun_dps + sensed(rate[i] - begun_dps) - rate[i];
       return;
     }
     Decay decay(0.5 / (std::numbers::pi * cutoff_hz));
-    std::array<double, most_poles> sensed{};
+    std::array<double, most_poles> sensed;
+    sensed.fill(begun_dps);
     for (std::size_t i = first; i < last; ++i) {
-      const double left = i == first ? 0.0 : decay(series.t_s, i);
+      const double left = i == first ? 1.0 : decay(series.t_s, i);
       double passed = rate[i];
       for (std::size_t k = 0; k < count; ++k)
         passed = sensed[k] = passed + left * (sensed[k] - passed);
@@ -104,7 +111,7 @@ struct SensorBandwidth {
   }
 
   /// Between samples straight, or a cubic with the slopes of their neighbours, as in TimeOffset.
-  void run_on(Series& series, std::size_t first, std::size_t last,
+  void run_on(Series& series, std::size_t first, std::size_t last, double begun_dps,
               const LowPassSystem& filter) const {
     ContinuousLowPass sensed(filter);
     const auto& rate = series.rate_ref_dps;
@@ -112,15 +119,16 @@ struct SensorBandwidth {
       if (continuous > 1.5) return rise;
       return 0.5 * (rate[std::min(i + 1, last - 1)] - rate[std::max(i, first + 1) - 1]);
     };
+    series.gyro_dps[first] += begun_dps - rate[first];
     for (std::size_t i = first + 1; i < last; ++i) {
       const double rise = rate[i] - rate[i - 1];
-      series.gyro_dps[i] += rate[first] - rate[i] +
-                            sensed(rate[i - 1] - rate[first], rate[i] - rate[first],
-                                   slope(i - 1, rise), slope(i, rise));
+      series.gyro_dps[i] +=
+          begun_dps - rate[i] +
+          sensed(rate[i - 1] - begun_dps, rate[i] - begun_dps, slope(i - 1, rise), slope(i, rise));
     }
   }
 
-  void average(Series& series, std::size_t first, std::size_t last) const {
+  void average(Series& series, std::size_t first, std::size_t last, double begun_dps) const {
     const double over_s = half_power_of_mean / cutoff_hz;
     const auto& t_s = series.t_s;
     const auto& rate = series.rate_ref_dps;
@@ -132,7 +140,7 @@ struct SensorBandwidth {
       const double begin_s = t_s[i] - over_s;
       while (at + 1 < i && t_s[at + 1] <= begin_s) ++at;
       const double into_s = begin_s - t_s[at];
-      double before = into_s * rate[at];
+      double before = into_s * (into_s < 0.0 ? begun_dps : rate[at]);
       if (into_s > 0.0 && at + 1 < last)
         before += 0.5 * into_s * into_s * (rate[at + 1] - rate[at]) / (t_s[at + 1] - t_s[at]);
       series.gyro_dps[i] += (turned[i] - turned[at] - before) / over_s - rate[i];

@@ -75,6 +75,46 @@ TEST(NearForms, WhatIsFeltAlongThreeAxesNeedsNoScale) {
   EXPECT_EQ(Found(series).names(), std::set<std::string>{"g_sensitivity"});
 }
 
+/// What a shaker does within a cluster of samples no mean of it shows: 5 m/s² at 4.3 Hz, of which
+/// the gyro feels a tenth of its noise.
+TEST(NearForms, WhatIsFeltOfAShakerAloneIsFound) {
+  Scenario s = still();
+  s.sampling.duration_s = 600.0;
+  s.temperature = temperature::QuietRoom{.start_C = 38.0, .end_C = 40.0};
+  s.acceleration = acceleration::Shaking{.amplitude_mps2 = 5.0, .frequency_hz = 4.3};
+  s.effects = {effects::GSensitivity{.x_dps_per_mps2 = 0.0, .z_dps_per_mps2 = 0.0018}};
+  const Found found(recorded(s, 68, false));
+  EXPECT_EQ(found.names(), std::set<std::string>{"g_sensitivity"});
+  // Of 9,000 samples of the half that is searched half are shaken, by 5 / sqrt(2): 5 standard
+  // errors.
+  EXPECT_NEAR(found.first<effects::GSensitivity>().z_dps_per_mps2, 0.0018,
+              5.0 * 0.05 / (5.0 / std::numbers::sqrt2 * std::sqrt(4500.0)));
+}
+
+/// At 12.5 Hz a process of 1.4 s forgets within 18 samples, and is no filter: the white noise is
+/// the stronger, and has one of its own.
+TEST(NearForms, AGaussMarkovProcessOfFewSamplesIsOne) {
+  Scenario s = still();
+  s.sampling.rate_hz = 12.5;
+  s.random_error.measurement_noise_std_dps = 0.1;
+  s.effects = {effects::NoiseBandwidth{.cutoff_hz = 4.0, .poles = 2.0, .maximally_flat = 1.0},
+               effects::GaussMarkov{0.04, 1.4}};
+  EXPECT_EQ(Found(recorded(s, 69, false)).names(),
+            (std::set<std::string>{"gauss_markov", "noise_bandwidth"}));
+}
+
+/// Of the element, and noise comes after: steps and bursts stood in for it.
+TEST(NearForms, ALimitOnOneSideIsOneEffect) {
+  Scenario s = moving();
+  s.effects = {effects::Saturation{.limit_dps = 200.0, .of_element = 1.0, .below_dps = 76.0}};
+  const Found found(recorded(s, 70, true));
+  EXPECT_EQ(found.names(), std::set<std::string>{"saturation"});
+  const auto& limit = found.first<effects::Saturation>();
+  EXPECT_GT(limit.limit_dps, 80.0);
+  // Of 14,400 samples of the train part a tenth are at the limit: 5 standard errors.
+  EXPECT_NEAR(limit.below_dps, 76.0, 5.0 * 0.05 / std::sqrt(1440.0));
+}
+
 /// What lags by a fiftieth of a sample is late by as much: no recording tells them apart, and both
 /// are in the answer.
 TEST(NearForms, ALagFarBelowASampleMayBeAShift) {

@@ -153,6 +153,30 @@ TEST(SensorBandwidth, OfSecondOrderHasTheResponseOfItsDamping) {
     }
 }
 
+/// At rest at 3 dps more until a rate of 5 dps begins: one pole forgets it as exp(-w t),
+/// Butterworth's two as exp(-u) (cos u + sin u), u = w t / sqrt(2), the mean in the time that it
+/// goes over.
+TEST(SensorBandwidth, ForgetsWhatWasBeforeTheFirstSample) {
+  const std::vector<double> steady(400, 5.0);
+  using Filter = effects::SensorBandwidth;
+  const double w = 2.0 * std::numbers::pi * 0.5, over_s = 0.44294647 / 0.5;
+  for (const auto& form :
+       {Filter{.cutoff_hz = 0.5}, Filter{.cutoff_hz = 0.5, .continuous = 1.0},
+        Filter{.cutoff_hz = 0.5, .poles = 2.0, .maximally_flat = 1.0, .continuous = 2.0},
+        Filter{.cutoff_hz = 0.5, .averages = 1.0}}) {
+    auto filter = form;
+    filter.before_dps = 3.0;
+    const auto z = sensed(filter, steady);
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      const double t = 0.01 * static_cast<double>(i), u = w * t / std::numbers::sqrt2;
+      const double left = form.averages > 0.5 ? std::max(0.0, 1.0 - t / over_s)
+                          : form.poles > 1.5  ? std::exp(-u) * (std::cos(u) + std::sin(u))
+                                              : std::exp(-w * t);
+      ASSERT_NEAR(z[i], 5.0 + 3.0 * left, 1e-9) << form.averages << form.poles << ' ' << i;
+    }
+  }
+}
+
 /// From the corner at which a rate begins to grow, one pole follows it as t - T (1 - exp(-t / T)):
 /// exactly where the rate is straight between samples, and not where it is a cubic about them.
 TEST(SensorBandwidth, OfAStraightRateFollowsACornerExactly) {
