@@ -44,7 +44,7 @@ Series SetSearcher::as_converted(const Simulator& simulator, Series recording,
   const auto& without = options.without;
   const double lsb_dps = step_of_grid(simulator, z, noise_of_steps(simulator.conditions(), z));
   is_cut_off_ = std::find(without.begin(), without.end(), "quantization") == without.end() &&
-                is_cut_off(simulator.conditions(), z, lsb_dps);
+                (options.is_cut_off || is_cut_off(simulator.conditions(), z, lsb_dps));
   if (is_cut_off_) z = middles_of_cut_off(simulator.conditions(), z, lsb_dps);
   return recording;
 }

@@ -33,6 +33,21 @@ bool is_what_was_before(const Effect& effect, const Scenario& scenario) {
   return effect.value(field_of(effect, "settling_time_s")) < as_fast * follows_s;
 }
 
+/// Where a motion hardly stays near zero, what is cut off towards it shows as a zone that takes
+/// half a step off each value.
+bool has_zone_of_half_a_step(const Scenario& scenario) {
+  constexpr double near = 0.06, nearly_all = 0.9;
+  double step_dps = 0.0, lost_dps = 0.0;
+  for (const auto& effect : scenario.effects) {
+    const auto value = [&](std::string_view name) { return effect.value(field_of(effect, name)); };
+    if (effect.id() == "quantization" && value("towards_zero") == 0.0) step_dps = value("lsb_dps");
+    if (effect.id() == "dead_zone" && value("of_output") == 0.0 &&
+        value("lost_beyond") > nearly_all)
+      lost_dps = value("half_width_dps");
+  }
+  return step_dps > 0.0 && std::abs(lost_dps - 0.5 * step_dps) < near * 0.5 * step_dps;
+}
+
 }  // namespace
 
 Standing SetSearcher::without_what_was_before(Standing standing, FoundSet& found) const {
@@ -176,8 +191,18 @@ Scenario likeliest_baseline(const Simulator& simulator, const Series& recording)
 
 FoundSet find_set(const Simulator& simulator, const Series& recording,
                   const SetSearchOptions& options, const SetSearchProgress& progress) {
-  const auto search = std::make_shared<SetSearcher>(simulator, recording, options, progress);
+  auto search = std::make_shared<SetSearcher>(simulator, recording, options, progress);
   auto found = search->run();
+  if (!options.is_cut_off && has_zone_of_half_a_step(found.scenario)) {
+    auto cut_off = options;
+    cut_off.is_cut_off = true;
+    auto other_search = std::make_shared<SetSearcher>(simulator, recording, cut_off, progress);
+    auto other = other_search->run();
+    if (!has(other.scenario, "dead_zone")) {
+      search = std::move(other_search);
+      found = std::move(other);
+    }
+  }
   found.subset = [search, whole = found.scenario](const std::vector<std::string>& names) {
     return search->subset_of(whole, names, SetSearcher::Anew::noise);
   };

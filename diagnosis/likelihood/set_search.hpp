@@ -17,6 +17,7 @@ namespace gyrostat::gap {
 struct SetSearchOptions {
   std::vector<std::string> without;  ///< effects left out of the catalogue
   std::size_t most_effects = 8;
+  bool is_cut_off = false;  ///< values are known to be cut off towards zero
 };
 
 /// An effect of the set, with what speaks for it.

@@ -164,6 +164,19 @@ TEST(NearForms, ValuesThatAreCutOffTowardsZeroAreOneEffect) {
   }
 }
 
+/// Under a motion that hardly stays near zero: a zone that takes half a step off each value.
+TEST(NearForms, ValuesThatAreCutOffUnderAMotionAreOneEffect) {
+  Scenario s = moving();
+  s.effects = {effects::ScaleFactor{0.01},
+               effects::Quantization{.lsb_dps = 0.06, .towards_zero = 1.0}};
+  const Found found(recorded(s, 71, true));
+  EXPECT_EQ(found.names(), (std::set<std::string>{"quantization", "scale_factor"}));
+  for (const auto& effect : found.set.scenario.effects) {
+    const auto* grid = effect.as<effects::Quantization>();
+    EXPECT_TRUE(grid == nullptr || grid->towards_zero == 1.0);
+  }
+}
+
 /// Simulators add up so many Gauss-Markov processes, from a time of their own on: a fourth of the
 /// coefficient, a telegraph and steps stood in for what is not faster.
 TEST(NearForms, FlickerThatEndsAtSomeFrequencyIsOneEffect) {
