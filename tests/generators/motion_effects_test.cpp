@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gyrostat/generators/scenario.hpp>
 #include <gyrostat/tests/generators/effect_series.hpp>
 
 namespace gyrostat::motion_effects_test {
