@@ -39,7 +39,7 @@ class TestFolder : public TemporaryFolder {
   std::map<std::string, std::string> contents() const {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(path())) {
-      const auto name = std::filesystem::relative(entry.path(), path()).string();
+      const auto name = entry.path().lexically_relative(path()).string();  // it may have gone
       if (entry.is_directory())
         files[name + '/'];
       else
