@@ -9,7 +9,7 @@
 namespace gyrostat::gap {
 namespace {
 
-constexpr std::size_t fewest = 50;  // values of which a spread is known
+constexpr std::size_t fewest_values = 50;  // values of which a spread is known
 
 /// How far out values are, each as part of the run that is the farthest: the mean of a run beside
 /// what means of that length are elsewhere, in standard deviations; 0 up to `far`.
@@ -32,7 +32,7 @@ std::vector<double> far_out(std::vector<double> values, const std::vector<Span>&
     }
     for (std::size_t i = 0; i < values.size(); ++i)
       if (misled[i] != 0) values[i] = no_value;
-    if (means.size() < fewest) break;
+    if (means.size() < fewest_values) break;
     std::vector<double> sizes = means;
     for (double& size : sizes) size = std::abs(size);
     const double deviation = std::max(quantile(sizes, 0.5) / normal_quartile, 1e-9);
@@ -60,7 +60,7 @@ HeadingBursts heading_bursts(const Conditions& conditions, std::vector<double> m
   for (const auto& span : spans)
     for (std::size_t i = span.first; i < span.last; ++i)
       if (!is_missing(means_deg[i])) sizes.push_back(means_deg[i]);
-  if (sizes.size() < fewest) return found;
+  if (sizes.size() < fewest_values) return found;
   const double centre = quantile(sizes, 0.5);
   for (double& value : means_deg) value -= centre;
   for (double& s : sizes) s = std::abs(s - centre);

@@ -22,10 +22,6 @@ double mean_of_rounded(const std::map<long, double>& counts) {
   return sum / all;
 }
 
-double below(double edge, double level, double deviation) {
-  return 0.5 * std::erfc((level - edge) / (deviation * std::numbers::sqrt2));
-}
-
 double share_of(long value, double level, double deviation) {
   const double at = static_cast<double>(value);
   return below(at + 0.5, level, deviation) - below(at - 0.5, level, deviation);

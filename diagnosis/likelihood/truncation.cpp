@@ -8,6 +8,7 @@
 
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -17,10 +18,6 @@ constexpr std::size_t values_near = 2 * reach + 1;
 using Shares = std::array<double, values_near>;
 
 constexpr std::size_t stretch = 256;  // samples, over which the level is one
-
-double below(double x, double level, double deviation) {
-  return 0.5 * std::erfc((level - x) / (deviation * std::sqrt(2.0)));
-}
 
 /// Of normal values within reach of zero; in steps.
 Shares shares_of(double level, double deviation, bool cut_off) {
