@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
 namespace {
