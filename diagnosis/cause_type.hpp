@@ -36,7 +36,11 @@ struct CauseType {
   /// How many parameters more its form has cost, which no fit moves: starts have each its own.
   /// nullptr: none.
   std::size_t (*chosen_parameters)(const Effect& effect);
-  Effect (*effect)();  ///< with its default parameters
+  /// The part of a sensor whose doing it is, where all axes have that alike, as "output filter";
+  /// empty where each axis has its own.
+  std::string_view part;
+  std::vector<std::string_view> alike;  ///< parameters that then are one for all axes
+  Effect (*effect)();                   ///< with its default parameters
   /// First parameters from what a set leaves of the recording, one or several; none where it shows
   /// nothing alike, nullptr where `guesses` finds them.
   std::vector<Effect> (*starts)(const Evidence& evidence);

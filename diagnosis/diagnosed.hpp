@@ -24,7 +24,7 @@ namespace gyrostat::gap {
 ///   };
 ///
 /// CauseType says what each of them means. There are no defaults: one that is forgotten does not
-/// compile. Some add `amplitudes`, `chosen_parameters` or `told_otherwise`.
+/// compile. Some add `amplitudes`, `chosen_parameters`, `told_otherwise`, or `part` and `alike`.
 template <class E>
 struct Diagnosed;
 
@@ -80,13 +80,16 @@ concept Diagnosable = SaysItsSignature<E> && SaysItsFreeParameters<E> && SaysHow
 template <Diagnosable E>
 CauseType describe_cause() {
   using D = Diagnosed<E>;
-  std::vector<std::string_view> free;
-  for (const auto member : D::free_parameters)
-    for (const auto& field : E::fields())
-      if (field.member == member) free.push_back(field.name);
+  const auto names_of = [](const auto& members) {
+    std::vector<std::string_view> names;
+    for (const auto member : members)
+      for (const auto& field : E::fields())
+        if (field.member == member) names.push_back(field.name);
+    return names;
+  };
   return {.id = effect_types().of(typeid(E)).id,
           .signature = D::signature,
-          .free_parameters = std::move(free),
+          .free_parameters = names_of(D::free_parameters),
           .amplitudes =
               [] {
                 if constexpr (requires { D::amplitudes; })
@@ -102,6 +105,20 @@ CauseType describe_cause() {
                       [](const Effect& effect) { return D::chosen_parameters(*effect.as<E>()); });
                 else
                   return Chosen(nullptr);
+              }(),
+          .part =
+              [] {
+                if constexpr (requires { D::part; })
+                  return std::string_view(D::part);
+                else
+                  return std::string_view();
+              }(),
+          .alike =
+              [&] {
+                if constexpr (requires { D::alike; })
+                  return names_of(D::alike);
+                else
+                  return std::vector<std::string_view>();
               }(),
           .effect = [] { return Effect(E{}); },
           .starts =

@@ -1,6 +1,7 @@
 #include <gyrostat/diagnosis/diagnosing.hpp>
 
 #include <algorithm>
+#include <utility>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/likelihood/nameless_mean.hpp>
@@ -42,12 +43,27 @@ void Diagnosing::describe(const Series& recording) {
       result_.not_assessable.push_back({std::string(cause.id), std::move(why)});
 }
 
+const FoundSet& Diagnosing::search() {
+  if (!std::exchange(has_searched_, true)) {
+    found_ = find_set(simulator_, recording_, {.without = options_.without},
+                      [this](const std::string& what, double share) {
+                        tell(looking_, search_share * share, what);
+                      });
+    took("search");
+  }
+  return found_;
+}
+
+void Diagnosing::take(const std::vector<Given>& given) {
+  if (given.empty() || !search().beside) return;
+  looking_ = "looking beside what the axes have alike";
+  found_ = found_.beside(given);
+  given_ = given;
+  took("search with the other axes");
+}
+
 void Diagnosing::localise() {
-  found_ = find_set(simulator_, recording_, {.without = options_.without},
-                    [this](const std::string& what, double share) {
-                      tell("looking for effects", search_share * share, what);
-                    });
-  took("search");
+  search();
   tell("simulating the baseline", search_share);
   const auto fit = linearised(simulator_, with_drift(found_.baseline, recording_));
   result_.baseline = result_.enriched = fit.scenario;

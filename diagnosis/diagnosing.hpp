@@ -45,6 +45,10 @@ class Diagnosing {
         recording_(recording),
         observed_(simulator_.readings(recording)) {}
 
+  /// Looks for the set, if that has not been done; run() does.
+  const FoundSet& search();
+  /// The set is the one that is found beside these.
+  void take(const std::vector<Given>& given);
   Diagnosis run();
 
  private:
@@ -102,7 +106,10 @@ class Diagnosing {
   std::unique_ptr<Ensemble> train_, held_out_;
   std::unique_ptr<Scoring> scoring_, held_out_scoring_;
   ReplicaReadings baseline_replicas_;
+  bool has_searched_ = false;
+  std::string looking_ = "looking for effects";
   FoundSet found_;
+  std::vector<Given> given_;
   std::vector<LogScore> held_out_without_;  ///< of the set without each of result_.effects
   std::map<std::vector<std::string>, Scenario> subsets_;  ///< with_effects() of what was found
   std::vector<Rung> rungs_;                               ///< one effect more each

@@ -50,10 +50,12 @@ struct Cause {
 /// An effect of the set that was found.
 struct Included {
   std::string effect;
-  double inclusion = 0.0;          ///< probability that it is there
-  double log_odds = 0.0;           ///< of the set against the best without it
-  double lack = 0.0;               ///< log score of the train part that the set loses without it
-  double gap_without = 0.0;        ///< held-out, of the set without it
+  double inclusion = 0.0;    ///< probability that it is there
+  double log_odds = 0.0;     ///< of the set against the best without it
+  double lack = 0.0;         ///< log score of the train part that the set loses without it
+  double gap_without = 0.0;  ///< held-out, of the set without it
+  bool given = false;    ///< fitted once for all axes (diagnose_axes()), as `inclusion` is of them
+  double p_equal = 1.0;  ///< then: that chance makes equal axes differ as each was found alone
   std::vector<Effect> parameters;  ///< fitted; several where it is there several times
   /// Of the first of them: where the recording tells, between which values each field lies with
   /// 95 %; NaN elsewhere.
@@ -147,6 +149,17 @@ using DiagnosisProgress = std::function<void(const DiagnosisStage&)>;
 /// says so, Interrupted is thrown within a moment.
 Diagnosis diagnose(const Series& recording, const DiagnosisOptions& options,
                    const DiagnosisProgress& progress = {}, const Interrupt& interrupt = {});
+
+/// The same of several axes of one sensor, of which each is told by its number and how far it is:
+/// what of them is alike (CauseType::part: the filter of the noise, a grid of the angle, how the
+/// temperature gets there) is fitted once, where their likelihoods together are larger so, and the
+/// others of each axis beside that.
+///
+/// Throws and is called as diagnose().
+std::vector<Diagnosis> diagnose_axes(
+    const std::vector<Series>& axes, const DiagnosisOptions& options,
+    const std::function<void(std::size_t axis, const DiagnosisStage&)>& progress = {},
+    const Interrupt& interrupt = {});
 
 /// Every effect that may be named as a cause, with its default parameters, in the catalogue's
 /// order.

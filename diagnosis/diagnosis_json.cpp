@@ -111,6 +111,10 @@ Json to_json(const Diagnosis& d) {
         found["intervals"][std::string(e.parameters.front().fields()[f].name)] =
             Json::array({e.intervals[f][0], e.intervals[f][1]});
     found["gap_without"] = e.gap_without;
+    if (e.given) {
+      found["of_all_axes"] = true;
+      found["p_equal"] = std::isfinite(e.p_equal) ? Json(e.p_equal) : Json();
+    }
     json["effects"].push_back(found);
   }
   json["line_sources"] = Json::array();

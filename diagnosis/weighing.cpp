@@ -50,6 +50,8 @@ std::vector<std::string> Diagnosing::weighed(std::vector<Member> members,
            .log_odds = m.log_odds,
            .lack = truth.value - scoring_->of(without.back().replicas[0]).value,
            .gap_without = 0.0,
+           .given = m.given,
+           .p_equal = m.p_equal,
            .parameters = {},
            .intervals = {}});
       held_out_without_.push_back(held_out_scoring_->of(without.back().replicas[1]));
@@ -77,7 +79,7 @@ std::vector<std::string> Diagnosing::weighed(std::vector<Member> members,
 bool Diagnosing::is_found_without_a_doubtful(const std::vector<std::string>& names) {
   const Member* doubtful = nullptr;
   for (const auto& m : found_.members)
-    if (!m.read_off && m.log_odds < thresholds::clear_odds &&
+    if (!m.read_off && !m.given && m.log_odds < thresholds::clear_odds &&
         std::find(names.begin(), names.end(), m.effect) != names.end() &&
         (doubtful == nullptr || m.log_odds < doubtful->log_odds))
       doubtful = &m;
@@ -95,6 +97,7 @@ bool Diagnosing::is_found_without_a_doubtful(const std::vector<std::string>& nam
     if (rival.instead_of == doubtful->effect) without.push_back(rival.effect);
   tell("looking again", search_share, "without " + doubtful->effect);
   auto with = std::exchange(found_, find_set(simulator_, recording_, {.without = without}));
+  if (!given_.empty() && found_.beside) found_ = found_.beside(given_);
   const auto other = rung({}, with_drift(found_.scenario, recording_), lacking_replicas);
   if (is_missed_by(other)) {
     found_ = std::move(with);

@@ -11,6 +11,8 @@ template <>
 struct Diagnosed<effects::AngleQuantization> {
   static constexpr auto signature = Signature::none;
   static constexpr std::array free_parameters = {&effects::AngleQuantization::coefficient_deg};
+  static constexpr std::string_view part = "angle register";
+  static constexpr std::array alike = {&effects::AngleQuantization::coefficient_deg};
 
   static std::vector<effects::AngleQuantization> guesses(const Beside& beside) {
     const auto& noise = beside.fit.scenario.random_error;

@@ -11,6 +11,8 @@ template <>
 struct Diagnosed<effects::NoiseAveraging> {
   static constexpr auto signature = Signature::none;
   static constexpr std::array free_parameters = {&effects::NoiseAveraging::length};
+  static constexpr std::string_view part = "output filter";
+  static constexpr std::array alike = {&effects::NoiseAveraging::length};
 
   static std::vector<effects::NoiseAveraging> guesses(const Beside& /*beside*/) {
     return {{1.2, 1.0}, {2.2, 1.0}, {4.2, 1.0}, {0.8, 2.0}, {1.6, 2.0}, {3.2, 2.0}};

@@ -18,6 +18,9 @@ struct Diagnosed<effects::NoiseBandwidth> {
   static constexpr std::array free_parameters = {&effects::NoiseBandwidth::cutoff_hz,
                                                  &effects::NoiseBandwidth::after_dps,
                                                  &effects::NoiseBandwidth::damping_ratio};
+  static constexpr std::string_view part = "output filter";
+  static constexpr std::array alike = {&effects::NoiseBandwidth::cutoff_hz,
+                                       &effects::NoiseBandwidth::damping_ratio};
 
   /// Its poles are, and of what time it is; one that is neither Butterworth's nor of equal poles is
   /// seldom built, and what it may take the form of is much.

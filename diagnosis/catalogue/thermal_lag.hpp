@@ -14,6 +14,8 @@ struct Diagnosed<effects::ThermalLag> {
   static constexpr std::array free_parameters = {&effects::ThermalLag::sensitivity_dps_per_C,
                                                  &effects::ThermalLag::start_dps,
                                                  &effects::ThermalLag::time_constant_s};
+  static constexpr std::string_view part = "thermal path";
+  static constexpr std::array alike = {&effects::ThermalLag::time_constant_s};
   static constexpr std::size_t amplitudes = 2;
 
   static std::vector<effects::ThermalLag> guesses(const Beside& beside) {

@@ -90,7 +90,10 @@ double TraceStudy::best_likelihood(const Scenario& scenario, std::string_view he
   const bool takes_out = std::any_of(scenario.effects.begin(), scenario.effects.end(),
                                      [](const auto& effect) { return is_taken_out(effect); });
   const auto fitter = takes_out ? bench_->refitted(scenario, 0).fitter : standing_.fitter;
-  return fitter->maximise(scenario, iterations, Jumping::yes, held).log_likelihood;
+  return fitter
+      ->maximise(scenario, iterations, Jumping::yes,
+                 [&](const Dial& dial) { return dial.of == held; })
+      .log_likelihood;
 }
 
 double TraceStudy::worth(std::string_view name) const {

@@ -27,6 +27,12 @@ inline std::vector<std::size_t> amplitudes_of(const Effect& effect, const CauseT
   return all;
 }
 
+/// Whether all axes of a sensor have a field of an effect alike.
+inline bool is_alike(const Effect& effect, std::size_t field) {
+  const auto& alike = cause_types().named(effect.id(), "effects").alike;
+  return std::find(alike.begin(), alike.end(), effect.fields()[field].name) != alike.end();
+}
+
 /// The effect of a name with some values of its fields; defaults for the others.
 inline Effect with_values(std::string_view id,
                           std::initializer_list<std::pair<std::string_view, double>> values) {

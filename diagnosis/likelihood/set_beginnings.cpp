@@ -43,10 +43,10 @@ Standing SetSearcher::coloured_anew(const Standing& standing) {
   const auto beside_angle = bench_.fitted(with_angle, rest.fitter, 0);
   std::vector<Standing> firsts;
   for (const auto* id : {"noise_averaging", "noise_bandwidth"}) {
-    if (!bench_.is_allowed(id)) continue;
+    if (!bench_.is_allowed(id) || bench_.is_marked(id)) continue;
     const auto& filter = cause_types().named(id, "effects");
     firsts.push_back(bench_.with(rest, filter, nullptr));
-    if (!bench_.is_allowed(angle.id)) continue;
+    if (!bench_.is_allowed(angle.id) || bench_.is_marked(angle.id)) continue;
     // Beside a filter that stands in for both an angle's errors gain nothing.
     if (auto both = bench_.with(beside_angle, filter, nullptr); both.score > firsts.back().score)
       firsts.push_back(std::move(both));

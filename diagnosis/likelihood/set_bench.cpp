@@ -50,8 +50,12 @@ bool SetBench::is_allowed(std::string_view effect) const {
   return cause != nullptr && cause->why_not_assessable(conditions_).empty();
 }
 
+bool SetBench::is_given(std::string_view effect) const {
+  return std::find(given_.begin(), given_.end(), effect) != given_.end();
+}
+
 bool SetBench::is_marked(std::string_view effect) const {
-  return (marked_saturation_ && effect == "saturation") ||
+  return is_given(effect) || (marked_saturation_ && effect == "saturation") ||
          (marked_dead_zone_ && effect == "dead_zone") || effect == "quantization" ||
          effect == "stale_samples" || effect == "outliers" || effect == "noise_temperature";
 }
@@ -152,7 +156,9 @@ Standing SetBench::fitted(const Scenario& scenario, std::shared_ptr<const SetFit
   // Not one initialiser beside others: where it throws, GCC 12 -O3 destroys those before it twice.
   Standing s;
   if (!fitter) return s;
-  s.fit = fitter->maximise(scenario, iterations, jumping);
+  s.fit = fitter->maximise(scenario, iterations, jumping, [&](const Dial& dial) {
+    return is_given(dial.of) && is_alike(scenario.effects[dial.place->effect], dial.place->field);
+  });
   s.fitter = std::move(fitter);
   s.scenario = s.fit.scenario;
   s.score = s.fit.log_likelihood - price_of(s.scenario);
@@ -213,7 +219,7 @@ Standing SetBench::told_otherwise(const Standing& standing, std::size_t effect,
                                   double to_reach) const {
   const auto& told = standing.scenario.effects[effect];
   const auto& cause = cause_types().named(told.id(), "effects");
-  if (cause.told_otherwise == nullptr) return standing;
+  if (cause.told_otherwise == nullptr || is_given(told.id())) return standing;
   Standing best = standing;
   for (const auto& other : cause.told_otherwise(told, conditions_)) {
     Scenario scenario = standing.scenario;

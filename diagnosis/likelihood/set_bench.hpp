@@ -38,8 +38,13 @@ class SetBench {
 
   const Conditions& conditions() const { return conditions_; }
   bool is_allowed(std::string_view effect) const;
-  /// Found from the values or the sizes of innovations, and not by the likelihood of the rate.
+  /// Found from the values or the sizes of innovations, or given, and not by the likelihood of the
+  /// rate.
   bool is_marked(std::string_view effect) const;
+  /// These effects are known to be there, and what of them is alike on all axes: that no fit moves,
+  /// and it costs nothing.
+  void give(std::vector<std::string> effects) { given_ = std::move(effects); }
+  const std::vector<std::string>& given() const { return given_; }
   void mark_saturation() { marked_saturation_ = true; }
   void mark_dead_zone() { marked_dead_zone_ = true; }
 
@@ -96,6 +101,7 @@ class SetBench {
   Standing with_started(const Standing& standing, const CauseType& cause,
                         const Evidence& left) const;
   bool is_read_off(const Effect& effect) const;
+  bool is_given(std::string_view effect) const;
   /// To the rate that turns, a value a sample.
   std::vector<double> added_by(const std::vector<Effect>& effects) const;
   /// What the acceleration adds to the rate; empty where no effect says so.
@@ -124,7 +130,7 @@ class SetBench {
   const Simulator& simulator_;
   const Conditions& conditions_;
   const Series& recording_;
-  std::vector<std::string> without_;
+  std::vector<std::string> without_, given_;
   bool is_shaken_;
   std::ptrdiff_t missing_ = 0;  ///< samples of the error beside no effect
   std::shared_ptr<const RateGrid> grid_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -60,10 +61,10 @@ class SetFitter {
   const ReducedRate& reduced() const { return *reduced_; }
   /// Standard deviation of all cluster means.
   double slow_deviation_dps() const { return amplitude_dps_; }
-  /// Fisher scoring from `start`, damped (Levenberg and Marquardt), for at most `iterations`; an
-  /// effect, `white_noise` or `random_walk` that is `held` stays as it is.
+  /// Fisher scoring from `start`, damped (Levenberg and Marquardt), for at most `iterations`; what
+  /// dials move that are `held` stays as it is.
   SetFit maximise(const Scenario& start, int iterations, Jumping jumping = Jumping::yes,
-                  std::string_view held = {}) const;
+                  const std::function<bool(const Dial&)>& held = {}) const;
   /// Of what a fit moves or finds by least squares, from the information of its likelihood
   /// (Kay, "Fundamentals of Statistical Signal Processing: Estimation Theory", 1993, 3.7 and 15.7),
   /// jumps as a Gaussian law of their covariance.

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/likelihood/block_level.hpp>
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/truncation.hpp>
+#include <gyrostat/diagnosis/starts/quantile.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
 
 namespace gyrostat::gap {
@@ -81,6 +84,24 @@ std::vector<Effect> SetSearcher::read_off(const Marks& marks, FoundSet& found) {
   }
   repeats_ = bench_.masked();
   return effects;
+}
+
+double SetSearcher::noise_about_levels(const std::vector<double>& left) const {
+  std::vector<double> of_blocks = {0.0};
+  for (const auto& [first, last] : level_blocks(conditions_)) {
+    double squares = 0.0, count = 0.0;
+    for (std::size_t i = first; i < last; ++i)
+      if (!is_missing(left[i])) squares += left[i] * left[i], count += 1.0;
+    if (count > 0.0) of_blocks.push_back(squares / count);
+  }
+  return std::sqrt(quantile(of_blocks, 0.5));
+}
+
+double SetSearcher::noise_on_grid(const Scenario& begun, const Marks& marks) const {
+  const bool at_rest = conditions_.series().rate_ref_dps.empty();
+  return std::max(
+      {white_with_rounding(begun), marks.noise_of_steps_dps,
+       at_rest ? noise_about_levels(bench_.rate_left_by(begun, bench_.masked())) : 0.0});
 }
 
 double SetSearcher::feigned_by_repeats(const Marks& marks) const {

@@ -57,10 +57,10 @@ Eigen::VectorXd step_within(const Eigen::MatrixXd& curvature, const Eigen::Vecto
 }  // namespace
 
 SetFit SetFitter::maximise(const Scenario& start, int iterations, Jumping jumping,
-                           std::string_view held) const {
+                           const std::function<bool(const Dial&)>& held) const {
   SetFit fit{.scenario = start, .drift = {}};
   auto dials = dials_of(start);
-  std::erase_if(dials, [&](const Dial& dial) { return !held.empty() && dial.of == held; });
+  if (held) std::erase_if(dials, held);
   const auto count = static_cast<Eigen::Index>(dials.size());
   const auto places_of = [&](const Scenario& scenario) {
     Eigen::VectorXd places(count);

@@ -29,6 +29,13 @@ std::size_t sizes_of(const Effect& effect, const CauseType& cause) {
                     [&](auto name) { return effect.value(field_of(effect, name)) != 0.0; }));
 }
 
+/// How many of those are not alike on all axes.
+double own_sizes_of(const Effect& effect, const CauseType& cause) {
+  std::size_t alike = 0;
+  for (const auto name : cause.alike) alike += effect.value(field_of(effect, name)) != 0.0;
+  return static_cast<double>(sizes_of(effect, cause) - alike);
+}
+
 /// Whether the rate passes the filter that colours the noise: that is one filter, and no second
 /// surprise.
 bool passes_the_noise_filter(const Effect& effect, const Scenario& scenario) {
@@ -88,6 +95,7 @@ double SetBench::price_of(const Scenario& scenario) const {
         is_of_the_filter(effect, scenario, conditions_.interval_s()) ||
         is_filtered_noise(effect, scenario, conditions_) || is_of_a_line(effect, scenario))
       return beyond_any;
+    if (is_given(effect.id())) sum += of_a_parameter * own_sizes_of(effect, *cause);
     if (is_marked(effect.id())) continue;
     sum += prior + of_a_parameter * static_cast<double>(sizes_of(effect, *cause) +
                                                         (cause->chosen_parameters == nullptr

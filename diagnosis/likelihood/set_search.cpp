@@ -5,13 +5,10 @@
 #include <memory>
 #include <numbers>
 
-#include <gyrostat/core/step.hpp>
-#include <gyrostat/diagnosis/likelihood/block_level.hpp>
 #include <gyrostat/diagnosis/likelihood/compass_search.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/line_names.hpp>
 #include <gyrostat/diagnosis/likelihood/set_searcher.hpp>
-#include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -48,6 +45,27 @@ bool has_zone_of_half_a_step(const Scenario& scenario) {
   return step_dps > 0.0 && std::abs(lost_dps - 0.5 * step_dps) < near * 0.5 * step_dps;
 }
 
+/// What may be asked of a set that the searcher found last.
+FoundSet that_may_be_asked(FoundSet found, const std::shared_ptr<SetSearcher>& search) {
+  found.subset = [search, whole = found.scenario](const std::vector<std::string>& names) {
+    return search->subset_of(whole, names, SetSearcher::Anew::noise);
+  };
+  found.anew = [search, whole = found.scenario](const std::vector<std::string>& names) {
+    return search->subset_of(whole, names, SetSearcher::Anew::all);
+  };
+  if (search->has_law()) {
+    found.worth = [search](std::string_view part, const std::vector<Effect>& effects) {
+      return search->worth_with(part, effects);
+    };
+    found.beside = [search](const std::vector<Given>& given) {
+      return that_may_be_asked(search->beside(given), search);
+    };
+  }
+  found.nameless = [search](const Scenario& set) { return search->nameless_beside(set); };
+  found.detectable = [search] { return search->detectable(); };
+  return found;
+}
+
 }  // namespace
 
 Standing SetSearcher::without_what_was_before(Standing standing, FoundSet& found) const {
@@ -60,63 +78,49 @@ Standing SetSearcher::without_what_was_before(Standing standing, FoundSet& found
   return bench_.refitted(scenario);
 }
 
-double SetSearcher::noise_about_levels(const std::vector<double>& left) const {
-  std::vector<double> of_blocks = {0.0};
-  for (const auto& [first, last] : level_blocks(conditions_)) {
-    double squares = 0.0, count = 0.0;
-    for (std::size_t i = first; i < last; ++i)
-      if (!is_missing(left[i])) squares += left[i] * left[i], count += 1.0;
-    if (count > 0.0) of_blocks.push_back(squares / count);
-  }
-  return std::sqrt(quantile(of_blocks, 0.5));
-}
-
-double SetSearcher::noise_on_grid(const Scenario& begun, const Marks& marks) const {
-  const bool at_rest = conditions_.series().rate_ref_dps.empty();
-  return std::max(
-      {white_with_rounding(begun), marks.noise_of_steps_dps,
-       at_rest ? noise_about_levels(bench_.rate_left_by(begun, bench_.masked())) : 0.0});
-}
-
 FoundSet SetSearcher::run() {
   FoundSet found;
   tell("reading values", 3);
-  const auto marks = marks_of(simulator_, recording_);
+  marks_ = marks_of(simulator_, recording_);
   tell("fitting the baseline", 3);
-  const auto bare = bench_.beside_noise({});
-  found.baseline = bare.scenario;
-  const auto marked = read_off(marks, found);
+  bare_ = bench_.beside_noise({});
+  found.baseline = bare_.scenario;
+  const auto marked = read_off(marks_, found);
   for (const auto& cause : cause_types())
     if (bench_.is_allowed(cause.id) && !is_compass(cause) && !bench_.is_marked(cause.id))
       candidates_.push_back(&cause);
 
-  const auto begun = bench_.beside_noise(marked);
+  begun_ = bench_.beside_noise(marked);
   // Rounding to more than the noise is no longer noise, unless a motion dithers it: what it does to
   // the fast part and to slow noise has no law here.
   constexpr double coarsest = 2.2;
   const double lsb_of_noise =
-      marks.lsb_dps /
-      (marks.level_on_grid_dps ? marks.white_under_grid_dps : noise_on_grid(begun.scenario, marks));
-  const bool coarse = lsb_of_noise > coarsest && !marks.turns_through_grid;
-  if (coarse)
+      marks_.lsb_dps / (marks_.level_on_grid_dps ? marks_.white_under_grid_dps
+                                                 : noise_on_grid(begun_.scenario, marks_));
+  is_coarse_ = lsb_of_noise > coarsest && !marks_.turns_through_grid;
+  if (is_coarse_)
     feigned_ = {.warmth = 1e300, .tails = 1e300};
-  else if (!marks.turns_through_grid) {
+  else if (!marks_.turns_through_grid) {
     feigned_ = feigned_by_grid(lsb_of_noise);
-    undithered_lsb_dps_ = marks.lsb_dps;
+    undithered_lsb_dps_ = marks_.lsb_dps;
   }
-  if (coarse)
+  if (is_coarse_)
     std::erase_if(candidates_, [](const auto* cause) {
       const auto band = band_of(cause->id);
       return band == EffectBand::fast || band == EffectBand::slow;
     });
 
-  feigned_colour_ = feigned_by_repeats(marks);
+  feigned_colour_ = feigned_by_repeats(marks_);
   tell("the first effect", 3);
-  auto standing = searched_beside_tails(begun);
+  auto standing = concluded(searched_beside_tails(begun_), found);
+  return described(std::move(standing), std::move(found));
+}
+
+Standing SetSearcher::concluded(Standing standing, FoundSet& found) {
+  const auto known = found.members;
   standing = exchanged(std::move(standing), found);
   const auto exchanged_anew = [&](Standing other) {
-    found.members.clear();
-    for (const auto& effect : marked) add_mark(effect.id(), found);
+    found.members = known;
     standing = exchanged(std::move(other), found);
   };
   // An exchange may have left the one way of being late of two.
@@ -133,27 +137,32 @@ FoundSet SetSearcher::run() {
       if (!member.read_off && !has(other.scenario, member.effect))
         member.log_odds = std::min(member.log_odds, standing.score - other.score);
   }
-  standing = without_what_was_before(std::move(standing), found);
+  return without_what_was_before(std::move(standing), found);
+}
+
+FoundSet SetSearcher::described(Standing standing, FoundSet found) {
+  searched_ = found;
   tell("looking for what has no name", 1);
-  found.gain = standing.score - begun.score;
+  found.score = standing.score;
+  found.gain = standing.score - begun_.score;
   found.unexplained = unexplained_by(conditions_, *standing.fitter, standing.scenario);
   // What rounding to more than the noise leaves has another spectrum than the noise; so have
   // repeats that are not told, down to where the noise of means is larger than it should be.
   std::erase_if(found.unexplained, [&](const auto& u) {
-    return (u.what == "spectrum" && (coarse || !marks.repeats_are_told)) ||
-           (u.what == "memory" && !marks.repeats_are_told);
+    return (u.what == "spectrum" && (is_coarse_ || !marks_.repeats_are_told)) ||
+           (u.what == "memory" && !marks_.repeats_are_told);
   });
   add_nameless_tails(found);
   found.screening = screening_;
   found.scenario = standing.scenario;
   found.intervals = bench_.intervals_of(standing);
   place_threshold(found);
-  if (!coarse) end_ = standing;
+  if (!is_coarse_) end_ = standing;
   response_ = bench_.response();
   masked_ = bench_.masked();
   if (std::none_of(masked_.begin(), masked_.end(), [](char hidden) { return hidden != 0; }))
     found.log_score_gained =
-        standing.score - bare.score + (has_warm_noise_ ? tails_.temperature_gain : 0.0);
+        standing.score - bare_.score + (has_warm_noise_ ? tails_.temperature_gain : 0.0);
   add_tails(found);
   auto unseen = edges_of_the_dead_zone(standing.scenario);
   for (std::size_t i = 0; i < unseen.size(); ++i) unseen[i] |= repeats_[i];
@@ -161,17 +170,17 @@ FoundSet SetSearcher::run() {
     for (std::size_t i = 0; i < unseen.size(); ++i)
       if (tails_.outliers[i] != 0) unseen[i] = 1;
   name_lines(bench_, standing, unseen, found);
-  if (coarse) {
-    white_under_grid_dps_ = marks.white_under_grid_dps;
-    found.scenario.random_error.measurement_noise_std_dps = marks.white_under_grid_dps;
-    found.level_on_grid_dps = marks.level_on_grid_dps;
+  if (is_coarse_) {
+    white_under_grid_dps_ = marks_.white_under_grid_dps;
+    found.scenario.random_error.measurement_noise_std_dps = marks_.white_under_grid_dps;
+    found.level_on_grid_dps = marks_.level_on_grid_dps;
   }
   auto& drift = found.scenario.thermal_drift;
   const auto& coefficients = standing.fit.drift;
   drift = {.a_dps_per_C = coefficients.size() > 0 ? coefficients[0] : 0.0,
            .b_dps_s_per_C = coefficients.size() > 1 ? coefficients[1] : 0.0,
            .c_dps = 0.0};
-  give_grid_to_angle(marks, found);
+  give_grid_to_angle(marks_, found);
   put_in_order(found);
   if (conditions_.has_heading()) search_compass(simulator_, recording_, options_, found);
   return found;
@@ -197,21 +206,10 @@ FoundSet find_set(const Simulator& simulator, const Series& recording,
     auto cut_off = options;
     cut_off.is_cut_off = true;
     auto other_search = std::make_shared<SetSearcher>(simulator, recording, cut_off, progress);
-    auto other = other_search->run();
-    if (!has(other.scenario, "dead_zone")) {
-      search = std::move(other_search);
-      found = std::move(other);
-    }
+    if (auto other = other_search->run(); !has(other.scenario, "dead_zone"))
+      return that_may_be_asked(std::move(other), other_search);
   }
-  found.subset = [search, whole = found.scenario](const std::vector<std::string>& names) {
-    return search->subset_of(whole, names, SetSearcher::Anew::noise);
-  };
-  found.anew = [search, whole = found.scenario](const std::vector<std::string>& names) {
-    return search->subset_of(whole, names, SetSearcher::Anew::all);
-  };
-  found.nameless = [search](const Scenario& set) { return search->nameless_beside(set); };
-  found.detectable = [search] { return search->detectable(); };
-  return found;
+  return that_may_be_asked(std::move(found), search);
 }
 
 }  // namespace gyrostat::gap

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
@@ -25,6 +27,8 @@ struct Member {
   std::string effect;
   double log_odds;        ///< of the set against the set without it
   bool read_off = false;  ///< of the values themselves, by no law of noise
+  bool given = false;     ///< as all axes have it; `log_odds` is of them together
+  double p_equal = 1.0;   ///< then: as Given
 };
 
 /// A set that was tried in place of the best one.
@@ -33,6 +37,23 @@ struct Rival {
   std::string effect;  ///< that stands where `instead_of` does; alone where that is empty
   std::string instead_of;
   double log_odds;  ///< against the best set, at most 0 or so
+};
+
+/// An effect that a set is given, since the axes beside it have it (alike_on_axes()): what of it is
+/// alike stays as it is.
+struct Given {
+  Effect effect;
+  double log_odds = 0.0;  ///< that this axis has it, of all axes together
+  double p_equal = 1.0;   ///< that chance makes equal axes differ as each alone was found to
+  std::vector<Rival> rivals{};
+  /// 95 %, of each field; NaN where it is not alike, or no axis says.
+  std::vector<std::array<double, 2>> intervals{};
+};
+
+/// What a set is worth with other effects of one part of the sensor (CauseType::part).
+struct Worth {
+  double score;  ///< log-likelihood less its cost, without that of what is alike
+  double cost;   ///< of what is alike
 };
 
 struct FoundSet {
@@ -48,7 +69,8 @@ struct FoundSet {
   std::vector<Unexplained> unexplained{};  ///< beside the set
   /// What rounds to it, where a grid is coarser than the noise that rests on it.
   std::optional<double> level_on_grid_dps{};
-  double gain = 0.0;  ///< log-likelihood of the rate's set, less its cost, beyond the baseline's
+  double score = 0.0;  ///< log-likelihood of the rate's set, less its cost
+  double gain = 0.0;   ///< log-likelihood of the rate's set, less its cost, beyond the baseline's
   /// Of all that was found, beyond white noise and a walk; none where samples do not count, as
   /// repeats and outliers: what they would say is not known.
   std::optional<double> log_score_gained{};
@@ -61,6 +83,12 @@ struct FoundSet {
   std::function<Scenario(const std::vector<std::string>&)> anew{};
   /// What no name explains, beside the set with its drift; likewise.
   std::function<std::vector<Nameless>(const Scenario&)> nameless{};
+  /// With these effects of a part of the sensor as they are, in place of the set's; nothing where
+  /// they cannot be had. Empty where what is fast has no law; likewise.
+  std::function<std::optional<Worth>(std::string_view part, const std::vector<Effect>&)> worth{};
+  /// The set that is found beside these, in place of what the set has of their parts; it is then
+  /// that set which is asked. As `worth`.
+  std::function<FoundSet(const std::vector<Given>&)> beside{};
   /// What would have been found beside the set; likewise.
   std::function<std::vector<Detectable>()> detectable{};
 };

@@ -23,7 +23,8 @@ void add_mark(std::string_view effect, FoundSet& found);
 double white_with_rounding(const Scenario& scenario);
 
 /// find_set() and what may be asked of it afterwards: its moves are in set_moves.cpp and
-/// set_exchange.cpp, beginnings from elsewhere in set_beginnings.cpp, what is read off values in
+/// set_exchange.cpp, beginnings from elsewhere in set_beginnings.cpp, what other axes give in
+/// set_given.cpp, what is read off values in
 /// set_marks.cpp, what only sizes of innovations say in set_tails.cpp, where a dead zone ends in
 /// set_threshold.cpp, what is asked afterwards in set_afterwards.cpp.
 class SetSearcher {
@@ -42,6 +43,10 @@ class SetSearcher {
   /// What of a subset is fitted anew.
   enum class Anew { noise, all };
   Scenario subset_of(const Scenario& whole, const std::vector<std::string>& names, Anew what);
+  /// Whether the fast part beside the set has one.
+  bool has_law() const { return end_.has_value(); }
+  std::optional<Worth> worth_with(std::string_view part, const std::vector<Effect>& effects);
+  FoundSet beside(const std::vector<Given>& given);
   std::vector<Nameless> nameless_beside(const Scenario& set) const;
   std::vector<Detectable> detectable();
 
@@ -82,6 +87,14 @@ class SetSearcher {
   }
   /// Beside what the named response to the motion lacks, where that shows.
   Standing beside_response(Standing standing);
+  /// What the search ends with: exchanges, and beginnings from elsewhere.
+  Standing concluded(Standing standing, FoundSet& found);
+  /// Adds what is known of the set where the search ended.
+  FoundSet described(Standing standing, FoundSet found);
+  /// With other effects of a part of the sensor.
+  static Scenario end_with(std::string_view part, const std::vector<Effect>& effects, Scenario end);
+  /// From its noise, and from as much white noise as the fast part of the end calls for beside it.
+  Standing refitted_from_either(const Scenario& scenario) const;
   /// Every member against all that might stand in its place.
   Standing exchanged(Standing standing, FoundSet& found);
   /// Where several effects colour the noise, these found anew beside its lines, a filter first:
@@ -164,6 +177,10 @@ class SetSearcher {
   bool has_outliers_ = false, has_warm_noise_ = false;
   std::optional<double> white_under_grid_dps_;  ///< where the grid is coarse
   std::vector<const CauseType*> candidates_;
+  Marks marks_;
+  bool is_coarse_ = false;  ///< a grid, so that rounding is no longer noise
+  Standing bare_, begun_;   ///< without effects; with what is read off
+  FoundSet searched_;       ///< at the end of the search, before it was described
   std::size_t rounds_ = 0;  ///< in which every candidate was tried
   std::size_t left_ = 1;
   std::string doing_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -46,15 +47,36 @@ std::string name_of(const gap::View& view, const std::string& recording, const S
                             looked_at.t_s.back() - begun_s);
 }
 
-gap::Diagnosis diagnosis_of(const Series& series, const std::string& file,
-                            const gap::DiagnosisOptions& options, const Interrupt& interrupt,
-                            Console& console) {
+/// In one go, so that what they have alike is fitted once.
+void diagnose_together(const std::vector<LookedAt*>& axes, const gap::DiagnosisOptions& options,
+                       const Interrupt& interrupt, Console& console) {
   PhaseProgress progress(console.log, console.log_is_terminal, "diagnose");
-  return about(file, [&] {
-    return gap::diagnose(
-        series, options, [&](const auto& now) { progress.set(now.phase, now.detail, now.share); },
-        interrupt);
-  });
+  std::vector<double> shares(axes.size(), 0.0);
+  std::vector<Series> series;
+  for (auto* axis : axes) series.push_back(std::move(axis->series.front()));
+  auto diagnoses = gap::diagnose_axes(
+      series, options,
+      [&](std::size_t axis, const gap::DiagnosisStage& now) {
+        shares[axis] = now.share;
+        progress.set(axes[axis]->members.front().name + ": " + now.phase, now.detail,
+                     std::accumulate(shares.begin(), shares.end(), 0.0) /
+                         static_cast<double>(shares.size()));
+      },
+      interrupt);
+  for (std::size_t k = 0; k < axes.size(); ++k)
+    axes[k]->members.front().diagnosis = std::move(diagnoses[k]);
+}
+
+void diagnose_each(LookedAt& one, const gap::DiagnosisOptions& options, const Interrupt& interrupt,
+                   Console& console) {
+  for (std::size_t k = 0; k < one.members.size(); ++k) {
+    if (!one.is_whole) console.log << one.members[k].name << '\n';
+    interrupt.check();
+    PhaseProgress progress(console.log, console.log_is_terminal, "diagnose");
+    one.members[k].diagnosis = gap::diagnose(
+        one.series[k], options,
+        [&](const auto& now) { progress.set(now.phase, now.detail, now.share); }, interrupt);
+  }
 }
 
 /// What cannot be read says so when it is diagnosed; standard input is read but once.
@@ -108,6 +130,7 @@ nlohmann::ordered_json members_json(const std::vector<gap::FleetMember>& members
     gap::Json one = {{"effect", s.effect},
                      {"form", s.form},
                      {"in", s.members},
+                     {"fitted_once", s.fitted_once},
                      {"parameters", gap::Json::object()}};
     for (const auto& p : s.parameters)
       one["parameters"][p.name] = {
@@ -122,12 +145,20 @@ nlohmann::ordered_json members_json(const std::vector<gap::FleetMember>& members
   return json;
 }
 
-std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
-                                                       const SpanOption& span,
-                                                       const gap::DiagnosisOptions& options,
-                                                       Parts allowed, Console& console) {
+std::vector<std::pair<std::size_t, std::size_t>> by_file(const std::vector<ToDiagnose>& all) {
+  std::vector<std::pair<std::size_t, std::size_t>> files;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (k > 0 && all[k].recording.file == all[k - 1].recording.file &&
+        all[k].recording.axis != all[files.back().first].recording.axis)
+      files.back().second = k + 1;
+    else
+      files.emplace_back(k, k + 1);
+  return files;
+}
+
+LookedAt looked_at(const ToDiagnose& one, const SpanOption& span,
+                   const gap::DiagnosisOptions& options, Parts allowed, Console& console) {
   const auto& file = one.recording.file;
-  const Interrupt interrupt(console.stop.orderly(StopSignal::Done::is_discarded));
   Series series = at_rest(one.recording.read(console.log, span), file, console.log);
   require_rate_of(options.claim, series, file);
   if (const auto share = gap::share_of_reference(series); gap::is_of_another_axis(share)) {
@@ -140,44 +171,53 @@ std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
                                          "rate_ref_dps of this one",
                                          why));
     console.log << fmt::format("{}: axis {} {}; left out\n", file, one.recording.axis, why);
-    return std::vector<gap::FleetMember>{};
+    return {.file = file};
   }
   auto views = gap::views_of(series);
-  const bool is_whole = views.size() == 1;
-  if (!is_whole && allowed == Parts::refused)
-    throw InputError(file, fmt::format("{} samples; what is of one diagnosis is of up to {}: take "
-                                       "a part by --from and --to",
-                                       series.size(), gap::most_samples_at_once));
-  if (options.claim) std::erase_if(views, [](const auto& view) { return view.mean_of > 1; });
-  if (!is_whole) console.log << fmt::format("{}: {}\n", file, gap::in_words(views, series.size()));
-  std::vector<gap::FleetMember> members;
-  std::vector<Series> looked_at;
-  for (const auto& view : views) {
-    if (is_whole) {
-      members.push_back({.name = one.name, .diagnosis = {}});
-      looked_at.push_back(std::move(series));
-      break;
+  LookedAt found{.file = file, .is_whole = views.size() == 1};
+  if (found.is_whole) {
+    found.members.push_back({.name = one.name, .diagnosis = {}});
+    found.series.push_back(std::move(series));
+  } else {
+    if (allowed == Parts::refused)
+      throw InputError(file, fmt::format("{} samples; what is of one diagnosis is of up to {}: "
+                                         "take a part by --from and --to",
+                                         series.size(), gap::most_samples_at_once));
+    if (options.claim) std::erase_if(views, [](const auto& view) { return view.mean_of > 1; });
+    console.log << fmt::format("{}: {}\n", file, gap::in_words(views, series.size()));
+    for (const auto& view : views) {
+      auto part = gap::looked_at(series, view);
+      auto name = name_of(view, one.name, part, series.t_s.front());
+      if (gap::never_changes(part.gyro_dps)) {
+        console.log << fmt::format("{}: the gyro never changes; left out\n", name);
+        continue;
+      }
+      found.members.push_back({.name = std::move(name), .diagnosis = {}, .mean_of = view.mean_of});
+      found.series.push_back(std::move(part));
     }
-    auto part = gap::looked_at(series, view);
-    auto name = name_of(view, one.name, part, series.t_s.front());
-    if (gap::never_changes(part.gyro_dps)) {
-      console.log << fmt::format("{}: the gyro never changes; left out\n", name);
-      continue;
-    }
-    members.push_back({.name = std::move(name), .diagnosis = {}, .mean_of = view.mean_of});
-    looked_at.push_back(std::move(part));
   }
-  if (members.empty())
+  if (found.members.empty() || (found.is_whole && gap::never_changes(found.series[0].gyro_dps)))
     throw InputError(file, "gyro_dps never changes; there is nothing to diagnose");
-  series = {};  // of a long one, a small part is left to hold
-  for (std::size_t k = 0; k < members.size(); ++k) try {
-      if (!is_whole) console.log << members[k].name << '\n';
-      interrupt.check();
-      members[k].diagnosis = diagnosis_of(looked_at[k], file, options, interrupt, console);
-    } catch (const Interrupted&) {
-      return std::nullopt;
-    }
-  return members;
+  return found;
+}
+
+bool diagnose_members(std::vector<LookedAt>& axes, const gap::DiagnosisOptions& options,
+                      Console& console) {
+  std::vector<LookedAt*> whole;
+  for (auto& axis : axes)
+    if (axis.is_whole && !axis.members.empty()) whole.push_back(&axis);
+  const bool together = whole.size() > 1;
+  const Interrupt interrupt(console.stop.orderly(StopSignal::Done::is_discarded));
+  try {
+    if (together)
+      about(whole.front()->file, [&] { diagnose_together(whole, options, interrupt, console); });
+    for (auto& axis : axes)
+      if (!together || !axis.is_whole)
+        about(axis.file, [&] { diagnose_each(axis, options, interrupt, console); });
+  } catch (const Interrupted&) {
+    return false;
+  }
+  return true;
 }
 
 }  // namespace gyrostat::cli

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <optional>
+#include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -27,14 +28,27 @@ std::vector<ToDiagnose> each_of(const RecordingOption& recording,
 
 enum class Parts { allowed, refused };
 
-/// The diagnoses of a span of a recording, at rest where it has no reference rate: one, or one of
-/// each view of a long recording (refused where `parts` says so; a claim says nothing of means).
-/// None, which is told, of an axis that was not chosen and does not turn with the reference rate.
-/// Nothing where Ctrl-C ended it.
-std::optional<std::vector<gap::FleetMember>> diagnosed(const ToDiagnose& one,
-                                                       const SpanOption& span,
-                                                       const gap::DiagnosisOptions& options,
-                                                       Parts parts, Console& console);
+/// What is looked at of a span of a recording, at rest where it has no reference rate: all of it,
+/// or the views of a long one (refused where `parts` says so; a claim says nothing of means).
+struct LookedAt {
+  std::string file;
+  std::vector<gap::FleetMember> members{};
+  std::vector<Series> series{};  ///< of each member
+  bool is_whole = true;        ///< so that there is one
+};
+
+/// Nothing, which is told, of an axis that was not chosen and does not turn with the reference
+/// rate.
+LookedAt looked_at(const ToDiagnose& one, const SpanOption& span,
+                   const gap::DiagnosisOptions& options, Parts parts, Console& console);
+
+/// Diagnoses the members of each of one file's axes, those that are looked at whole together. False
+/// where Ctrl-C ended it.
+bool diagnose_members(std::vector<LookedAt>& axes, const gap::DiagnosisOptions& options,
+                      Console& console);
+
+/// Those of one file after another: of each its first and the one after its last.
+std::vector<std::pair<std::size_t, std::size_t>> by_file(const std::vector<ToDiagnose>& all);
 
 /// Each that was looked at sample by sample and what these share, and the means of long recordings.
 nlohmann::ordered_json members_json(const std::vector<gap::FleetMember>& members,

@@ -58,26 +58,45 @@ int diagnose_in_lines(const std::vector<ToDiagnose>& all, const SpanOption& span
   const auto print = [&](const nlohmann::ordered_json& line) {
     console.out << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
   };
-  for (const auto& one : all) {
+  const auto line_of = [](const ToDiagnose& one) {
     nlohmann::ordered_json line = {{"file", one.recording.file}};
     if (!one.recording.axis.empty()) line["axis"] = one.recording.axis;
+    return line;
+  };
+  for (const auto& [first, end] : by_file(all)) {
+    std::vector<LookedAt> axes(end - first);
+    std::vector<std::string> mistakes(end - first);
+    for (std::size_t k = first; k < end; ++k) try {
+        axes[k - first] = looked_at(all[k], span, options, Parts::allowed, console);
+      } catch (const InputError& mistake) {
+        mistakes[k - first] = mistake.what();
+      }
     try {
-      const auto members = diagnosed(one, span, options, Parts::allowed, console);
-      if (!members) {
+      if (!diagnose_members(axes, options, console)) {
         console.log << "stopped early\n";
         return stopped;
       }
-      for (const auto& member : *members) {
+    } catch (const InputError& mistake) {
+      for (std::size_t k = 0; k < axes.size(); ++k)
+        if (mistakes[k].empty()) mistakes[k] = mistake.what();
+    }
+    for (std::size_t k = first; k < end; ++k) {
+      const auto line = line_of(all[k]);
+      if (const auto& mistake = mistakes[k - first]; !mistake.empty()) {
+        unread = true;
         auto told = line;
-        if (members->size() > 1) told["part"] = member.name;
+        told["error"] = mistake;
+        print(told);
+        continue;
+      }
+      const auto& members = axes[k - first].members;
+      for (const auto& member : members) {
+        auto told = line;
+        if (members.size() > 1) told["part"] = member.name;
         told.update(gap::health_json(member.diagnosis, rules));
         failed = failed || !told["failed"].empty();
         print(told);
       }
-    } catch (const InputError& mistake) {
-      unread = true;
-      line["error"] = mistake.what();
-      print(line);
     }
   }
   return unread ? usage : failed ? unhealthy : complete;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +12,7 @@
 #include <gyrostat/analysis/statistics/distributions.hpp>
 #include <gyrostat/analysis/statistics/random_effects.hpp>
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/experiments/study/fleet.hpp>
 
 namespace gyrostat::gap {
@@ -33,6 +36,8 @@ SharedParameter over_members(const std::vector<MemberValue>& all, const Effect& 
     double squares = 0.0;
     for (const auto& k : all) squares += (k.value - p.mean) * (k.value - p.mean);
     p.spread = std::sqrt(squares / (n - 1.0));
+    constexpr double last_digits = 1e-12;
+    if (p.spread < last_digits * std::abs(p.mean)) p.spread = 0.0;
     return p;
   }
   const double degrees = n - 1.0;
@@ -55,7 +60,20 @@ const Included* found_in(const FleetMember& member, const std::string& effect) {
   return at == effects.end() || at->parameters.empty() ? nullptr : &*at;
 }
 
-/// A parameter in each of those that an effect was found in.
+bool is_fitted_once(const std::vector<std::pair<std::string, const Included*>>& found) {
+  const auto& first = found.front().second->parameters.front();
+  return std::all_of(found.begin(), found.end(), [&](const auto& member) {
+    if (!member.second->given) return false;
+    for (std::size_t field = 0; field < first.fields().size(); ++field)
+      if (is_alike(first, field) &&
+          member.second->parameters.front().value(field) != first.value(field))
+        return false;
+    return true;
+  });
+}
+
+/// A parameter in each of those that an effect was found in. Of k axes that were fitted together
+/// each has the error of them all, and a k-th of what that says.
 std::vector<MemberValue> known_of(const std::vector<std::pair<std::string, const Included*>>& found,
                                   std::size_t field) {
   std::vector<MemberValue> known;
@@ -64,7 +82,14 @@ std::vector<MemberValue> known_of(const std::vector<std::pair<std::string, const
                               ? included->intervals[field]
                               : std::array<double, 2>{no_value, no_value};
     const double error = (interval[1] - interval[0]) / (2.0 * normal_quantile(0.975));
-    known.push_back({included->parameters.front().value(field), error});
+    const auto& effect = included->parameters.front();
+    const auto together = std::count_if(found.begin(), found.end(), [&](const auto& other) {
+      return other.second->given &&
+             other.second->parameters.front().value(field) == effect.value(field);
+    });
+    const bool is_shared = included->given && is_alike(effect, field);
+    known.push_back({effect.value(field),
+                     error * (is_shared ? std::sqrt(static_cast<double>(together)) : 1.0)});
   }
   return known;
 }
@@ -96,8 +121,19 @@ std::vector<SharedEffect> shared_effects(const std::vector<FleetMember>& all) {
       auto& one = shared.emplace_back(SharedEffect{
           .effect = std::string(cause.id()), .form = form, .members = {}, .parameters = {}});
       for (const auto& [name, included] : found) one.members.push_back(name);
-      for (std::size_t field = 0; field < cause.fields().size(); ++field)
+      one.fitted_once = is_fitted_once(found);
+      for (std::size_t field = 0; field < cause.fields().size(); ++field) {
         one.parameters.push_back(over_members(known_of(found, field), cause, field));
+        if (!one.fitted_once || !is_alike(cause, field)) continue;
+        auto& parameter = one.parameters.back();
+        const auto& included = *found.front().second;
+        parameter.p_equal = included.p_equal;
+        parameter.spread = 0.0;
+        parameter.spread_low = parameter.spread_high = no_value;
+        if (field < included.intervals.size())
+          std::tie(parameter.mean_low, parameter.mean_high) =
+              std::pair(included.intervals[field][0], included.intervals[field][1]);
+      }
     }
   }
   std::stable_sort(shared.begin(), shared.end(), [](const auto& a, const auto& b) {
@@ -126,6 +162,10 @@ std::string shared_in_words(const std::vector<FleetMember>& all) {
   auto words =
       told("All have", everywhere) + told("Some have", some) + told("One alone has", alone);
   if (words.empty()) return "None has an effect that has a name.";
+  std::vector<std::string> once;
+  for (const auto& shared : shared_effects(all))
+    if (shared.fitted_once) once.push_back(shared.effect);
+  words += told("Fitted once for all axes", once);
   words.pop_back();
   return words;
 }
@@ -161,9 +201,10 @@ std::vector<Table> member_tables(const std::vector<FleetMember>& members, const 
   for (const auto& s : shared_effects(members))
     for (const auto& p : s.parameters)
       shared.rows.push_back({s.form.empty() ? s.effect : s.effect + " (" + s.form + ")",
-                             fmt::format("{} of {}", s.members.size(), sampled), p.name, p.unit,
-                             cell(p.mean), range(p.mean_low, p.mean_high), cell(p.spread),
-                             range(p.spread_low, p.spread_high), cell(p.p_equal)});
+                             fmt::format("{} of {}{}", s.members.size(), sampled,
+                                         s.fitted_once ? ", fitted once" : ""),
+                             p.name, p.unit, cell(p.mean), range(p.mean_low, p.mean_high),
+                             cell(p.spread), range(p.spread_low, p.spread_high), cell(p.p_equal)});
   return {each, shared};
 }
 

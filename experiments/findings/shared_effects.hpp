@@ -36,6 +36,9 @@ struct SharedEffect {
   std::string form;  ///< its parameters that are whole numbers, "stages 2"; empty where it has none
   std::vector<std::string> members;
   std::vector<SharedParameter> parameters;  ///< of the first of its kind in each
+  /// What of them all axes have alike was fitted once for these (diagnose_axes()): the spread is
+  /// then 0 and has no interval, and p is of what each axis alone was found to have.
+  bool fitted_once = false;
 };
 
 /// Those of most members first. Means share nothing: at another rate effects are others.

@@ -208,15 +208,21 @@ int run(DiagnoseArguments& arguments, Console& console) {
   const auto parts = is_written ? Parts::refused : Parts::allowed;
   std::vector<gap::FleetMember> members;
   std::vector<const ToDiagnose*> of_member;
-  for (const auto& one : all) {
-    if (all.size() > 1) console.log << fmt::format("{} {}\n", kind, one.name);
-    auto some = diagnosed(one, arguments.span, arguments.options, parts, console);
-    if (!some) {
+  for (const auto& [first, end] : by_file(all)) {
+    std::vector<LookedAt> axes;
+    for (std::size_t k = first; k < end; ++k) {
+      if (all.size() > 1) console.log << fmt::format("{} {}\n", kind, all[k].name);
+      axes.push_back(looked_at(all[k], arguments.span, arguments.options, parts, console));
+    }
+    if (!diagnose_members(axes, arguments.options, console)) {
       console.log << "stopped early: nothing was written\n";
       return stopped;
     }
-    of_member.insert(of_member.end(), some->size(), &one);
-    std::move(some->begin(), some->end(), std::back_inserter(members));
+    for (std::size_t k = first; k < end; ++k) {
+      auto& some = axes[k - first].members;
+      of_member.insert(of_member.end(), some.size(), &all[k]);
+      std::move(some.begin(), some.end(), std::back_inserter(members));
+    }
   }
   if (members.empty())
     throw InputError(file, "no axis turns with rate_ref_dps; give the one that it is of");

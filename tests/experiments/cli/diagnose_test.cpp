@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <gyrostat/core/random.hpp>
 #include <gyrostat/tests/program.hpp>
 
 namespace gyrostat {
@@ -189,6 +190,40 @@ TEST(Diagnose, WritesAPageAndAStudyOfEachAxis) {
     EXPECT_EQ(conditions, Json({{"file", "two.csv"}, {"axis", axis}}));
     EXPECT_EQ(run_program(folder, {"validate", "study_" + axis + ".json"}).exit_code, 0);
   }
+}
+
+/// Averages of one and a half samples (some seventy nats an axis), of noise of two sizes.
+TEST(Diagnose, FitsOnceWhatAllAxesHaveAlike) {
+  constexpr std::size_t samples = 1200;
+  std::vector<double> x(samples + 1), z(samples + 1);
+  NormalStream(1, 0, "diagnose_test x").fill(0, x);
+  NormalStream(1, 0, "diagnose_test z").fill(0, z);
+  std::string csv = "t_s,gyro_x_dps,gyro_z_dps\n";
+  for (std::size_t i = 0; i < samples; ++i)
+    csv += fmt::format("{:.2f},{},{}\n", 0.05 * static_cast<double>(i),
+                       0.05 * (x[i] + 0.5 * x[i + 1]), 0.08 * (z[i] + 0.5 * z[i + 1]));
+  const TestFolder folder;
+  folder.write("two.csv", csv);
+  const auto ran = run_program(folder, {"diagnose", "two.csv", "--json", "found.json"});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const auto found = Json::parse(folder.read("found.json"));
+  ASSERT_EQ(found["shared"].size(), 1) << found["shared"];
+  const auto& shared = found["shared"][0];
+  EXPECT_EQ(shared["in"], Json({"x", "z"}));
+  EXPECT_EQ(shared["fitted_once"], true);
+  const auto& length = shared["parameters"].front();
+  EXPECT_EQ(length["spread"], 0.0);
+  EXPECT_GT(length["p_equal"], 0.0);
+  EXPECT_LT(length["mean_interval"][0], length["mean"]);
+  for (const auto& each : found["each"]) {
+    const auto& effect = each["diagnosis"]["effects"][0];
+    EXPECT_EQ(effect["of_all_axes"], true);
+    EXPECT_EQ(effect["parameters"].front(), length["mean"]);
+  }
+  EXPECT_THAT(ran.out, HasSubstr("Fitted once for all axes: " + std::string(shared["effect"])));
+  const auto lines = run_program(folder, {"diagnose", "two.csv", "--jsonl"}).out;
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 2);
+  EXPECT_THAT(lines, HasSubstr(std::string(shared["effect"])));
 }
 
 TEST(Diagnose, AColumnOfTheGyroIsChosenAndOthersAreOfTheMotion) {
