@@ -54,13 +54,16 @@ std::vector<double> CompassErrors::means_of(const std::vector<Effect>& effects) 
   const auto error = of(effects);
   auto slow = conditions_.slow_means(error);
   const std::size_t cluster = conditions_.cluster();
+  std::vector<double> known(slow.size(), 0.0), some = {0.0};
   for (std::size_t k = 0; k < slow.size(); ++k) {
-    const auto first = error.begin() + static_cast<std::ptrdiff_t>(k * cluster);
-    const auto last =
-        error.begin() + static_cast<std::ptrdiff_t>(std::min((k + 1) * cluster, error.size()));
-    const auto missing = std::count_if(first, last, [](double e) { return is_missing(e); });
-    if (2 * missing > last - first) slow[k] = no_value;
+    for (std::size_t i = k * cluster; i < std::min((k + 1) * cluster, error.size()); ++i)
+      if (!is_missing(error[i])) known[k] += 1.0;
+    if (known[k] > 0.0) some.push_back(known[k]);
   }
+  // A compass may be slower than the gyro.
+  const double usual = quantile(some, 0.5);
+  for (std::size_t k = 0; k < slow.size(); ++k)
+    if (2.0 * known[k] < usual) slow[k] = no_value;
   return slow;
 }
 

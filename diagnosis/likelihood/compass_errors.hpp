@@ -28,8 +28,8 @@ class CompassErrors {
 
   /// The heading less the reference's and what the effects add, NaN where it is not known.
   std::vector<double> of(const std::vector<Effect>& effects) const;
-  /// Means of the clusters of which half the samples are there at least; of a few, noise would pass
-  /// for a burst.
+  /// Means of the clusters of which half as many samples are there as usually, at least; of a few,
+  /// noise would pass for a burst.
   std::vector<double> means_of(const std::vector<Effect>& effects) const;
   /// Of white noise about a level that walks where that is clearly likelier, as it does where the
   /// rates of the reference do not add up to its heading; clusters that are `hidden` (a flag each)

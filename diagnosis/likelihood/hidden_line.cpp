@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
@@ -11,9 +12,13 @@ namespace gyrostat::gap {
 
 Resonance band_of_line(const Effect& line) {
   const auto value = [&](std::string_view name) { return line.value(field_of(line, name)); };
-  if (line.id() == "wandering_line")
+  if (line.id() == "wandering_line") {
+    // One that forgets where it was before its phase has gone astray fills less than it wanders
+    // through (motional narrowing: Kubo, J. Phys. Soc. Japan 9, 1954).
+    const double astray = 2.0 * std::numbers::pi * value("wander_hz") * value("correlation_time_s");
     return {0.5 * value("amplitude_dps") * value("amplitude_dps"), value("frequency_hz"),
-            2.0 * value("wander_hz")};
+            2.0 * value("wander_hz") * std::min(1.0, astray)};
+  }
   return {value("std_dps") * value("std_dps"), value("centre_hz"), value("bandwidth_hz")};
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/hidden_line.hpp>
 #include <gyrostat/diagnosis/likelihood/response_left.hpp>
 
 namespace gyrostat::gap {
@@ -12,13 +14,9 @@ namespace {
 /// Too narrow to stand in for a filter.
 bool is_a_line(const Effect& effect) {
   constexpr double narrow = 0.25;
-  if (effect.id() == "vibration")
-    return effect.value(field_of(effect, "bandwidth_hz")) <
-           narrow * effect.value(field_of(effect, "centre_hz"));
-  if (effect.id() == "wandering_line")
-    return 2.0 * effect.value(field_of(effect, "wander_hz")) <
-           narrow * effect.value(field_of(effect, "frequency_hz"));
-  return effect.id() == "sinusoidal";
+  if (!is_line(effect.id())) return effect.id() == "sinusoidal";
+  const auto band = band_of_line(effect);
+  return band.bandwidth_hz < narrow * band.centre_hz;
 }
 
 }  // namespace

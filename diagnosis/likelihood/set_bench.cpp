@@ -191,7 +191,7 @@ Standing SetBench::without(const Standing& standing, std::size_t effect) const {
   Scenario rest = standing.scenario;
   rest.effects.erase(rest.effects.begin() + static_cast<std::ptrdiff_t>(effect));
   const Scenario as_it_was = rest;
-  const auto band = band_of(standing.scenario.effects[effect].id());
+  const auto band = band_of(standing.scenario.effects[effect], conditions_);
   if (band == EffectBand::fast) rest = standing.fitter->with_white_noise_scaled(std::move(rest));
   // What the walk must stand in for has to begin where it can be seen.
   const Beside beside{conditions_, *standing.fitter, standing.fit};

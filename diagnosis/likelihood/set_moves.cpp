@@ -17,10 +17,6 @@ namespace {
 /// form of an effect and ours differ by as much.
 constexpr double share_of_band = 0.003;
 
-EffectBand band_of_last(const Standing& standing) {
-  return band_of(standing.scenario.effects.back().id());
-}
-
 /// A sensor has lines as it has them; every other effect is there once.
 bool may_repeat(const Scenario& scenario, std::string_view effect) {
   constexpr std::ptrdiff_t most_lines = 3;
@@ -30,6 +26,10 @@ bool may_repeat(const Scenario& scenario, std::string_view effect) {
 }
 
 }  // namespace
+
+EffectBand SetSearcher::band_of_last(const Standing& standing) const {
+  return band_of(standing.scenario.effects.back(), conditions_);
+}
 
 std::vector<Standing> SetSearcher::each_added(const Standing& standing) {
   std::vector<Standing> all(candidates_.size());
@@ -174,7 +174,7 @@ Standing SetSearcher::settled(Standing standing) const {
     const auto id = standing.scenario.effects[k].id();
     const bool is_last = k + 1 == standing.scenario.effects.size();
     if (band == EffectBand::motion ? is_of_response(id) && !is_last
-                                   : band == EffectBand::fast && id == "noise_bandwidth")
+                                   : band == EffectBand::fast && is_noise_filter(id))
       standing = bench_.told_otherwise(standing, k);
   }
   return standing;

@@ -81,6 +81,7 @@ class SetSearcher {
   /// Of a further effect of the band, or of the last of the set `with` one more.
   double least_gain(const Standing& standing, EffectBand band) const;
   double least_gain(const Standing& standing, const Standing& with) const;
+  EffectBand band_of_last(const Standing& standing) const;
   /// Whether samples are masked that a response in time shows in.
   bool hides_response() const {
     return !hidden_from_response_.empty() && bench_.masked() != hidden_from_response_;

@@ -128,6 +128,7 @@ std::vector<SharedEffect> shared_effects(const std::vector<FleetMember>& all) {
         auto& parameter = one.parameters.back();
         const auto& included = *found.front().second;
         parameter.p_equal = included.p_equal;
+        parameter.mean = included.parameters.front().value(field);
         parameter.spread = 0.0;
         parameter.spread_low = parameter.spread_high = no_value;
         if (field < included.intervals.size())

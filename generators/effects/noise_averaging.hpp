@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include <gyrostat/core/fields.hpp>
@@ -18,15 +20,19 @@ namespace gyrostat::effects {
 /// autocovariance at lag k is in proportion to b(k / length): of one average the hat
 /// b(x) = 1 - x up to 1, of two the cubic B-spline b(x) = 1 - 3 x^2 / 2 + 3 x^3 / 4 up to 1 and
 /// (2 - x)^3 / 4 up to 2 (Schoenberg, Quarterly of Applied Mathematics 4, 1946); beyond
-/// stages x length samples it is 0, and with stages x length <= 1 the noise stays white. The noise
-/// keeps its density at rest, as behind noise_bandwidth.
+/// stages x length samples it is 0, and with stages x length <= 1 the noise stays white. What
+/// averages the output's own samples (`of_samples`), the last of them in part, has the
+/// autocovariance of its taps: once it is the same, twice over two samples they are 1, 2, 1. The
+/// noise keeps its density at rest, as behind noise_bandwidth.
 ///
-/// It is made of the white noise by the innovations algorithm (Brockwell & Davis, Time Series:
-/// Theory and Methods, 1991, 5.3.9), so that it is stationary from the first sample. Samples count,
-/// not the intervals between them.
+/// What is of faster samples is made of the white noise by the innovations algorithm (Brockwell &
+/// Davis, Time Series: Theory and Methods, 1991, 5.3.9), so that it is stationary from the first
+/// sample. Samples count, not the intervals between them.
 struct NoiseAveraging {
   double length = 1.3;
   double stages = 1.0;
+  double of_samples = 0.0;
+  double after_dps = 0.0;
 
   static constexpr std::string_view title = "the white noise is a moving average";
   static constexpr Stage stage = Stage::noise;
@@ -40,6 +46,10 @@ struct NoiseAveraging {
               "over how many sampling intervals it averages"},
         Field{"stages", &P::stages, "1", Range{.from = 1, .to = 2, .whole = true},
               "how many averages in a row"},
+        Field{"of_samples", &P::of_samples, "1", ranges::flag,
+              "1: of the output's own samples; 0: of faster ones"},
+        Field{"after_dps", &P::after_dps, "dps", ranges::non_negative,
+              "standard deviation of the white noise after the averages"},
     };
   }
 
@@ -48,6 +58,13 @@ struct NoiseAveraging {
   /// Of unit white noise, from lag 0 to the last at which it is not 0. Lag 0 and twice the others
   /// add up to 1.
   std::vector<double> autocovariance() const {
+    if (of_samples > 0.5) {
+      const auto taps = taps_of_samples();
+      std::vector<double> b(taps.size(), 0.0);
+      for (std::size_t k = 0; k < taps.size(); ++k)
+        for (std::size_t i = k; i < taps.size(); ++i) b[k] += taps[i] * taps[i - k];
+      return b;
+    }
     const bool twice = stages > 1.5;
     std::vector<double> b = {1.0};
     double density = 1.0;
@@ -62,7 +79,51 @@ struct NoiseAveraging {
     return b;
   }
 
-  void apply(Series& series, const Noise& /*noise*/) const {
+  void apply(Series& series, const Noise& noise) const {
+    if (of_samples > 0.5)
+      pass_own(series);
+    else
+      pass_faster(series);
+    if (after_dps == 0.0) return;
+    const auto after = noise.stream("noise_averaging/after");
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i)
+      series.gyro_dps[i] += after_dps * after.normal(i);
+  }
+
+ private:
+  /// Whose sum is 1.
+  std::vector<double> taps_of_samples() const {
+    std::vector<double> taps(static_cast<std::size_t>(length), 1.0);
+    if (const double part = length - std::floor(length); part > 0.0 || taps.empty())
+      taps.push_back(taps.empty() ? 1.0 : part);
+    if (stages > 1.5) {
+      std::vector<double> again(2 * taps.size() - 1, 0.0);
+      for (std::size_t i = 0; i < taps.size(); ++i)
+        for (std::size_t j = 0; j < taps.size(); ++j) again[i + j] += taps[i] * taps[j];
+      taps = std::move(again);
+    }
+    const double sum = std::accumulate(taps.begin(), taps.end(), 0.0);
+    for (double& tap : taps) tap /= sum;
+    return taps;
+  }
+
+  /// The first samples average the last: what was before them is as likely, and there is no noise
+  /// of its own for it.
+  void pass_own(Series& series) const {
+    const auto taps = taps_of_samples();
+    const std::size_t n = samples_with(series, needs);
+    if (n < taps.size()) return;
+    std::vector<double> white(n);
+    for (std::size_t i = 0; i < n; ++i) white[i] = error_beside_drift(series, i);
+    for (std::size_t i = 0; i < n; ++i) {
+      double averaged = 0.0;
+      for (std::size_t k = 0; k < taps.size(); ++k)
+        averaged += taps[k] * white[i >= k ? i - k : i + n - k];
+      series.gyro_dps[i] += averaged - white[i];
+    }
+  }
+
+  void pass_faster(Series& series) const {
     const auto covariance = autocovariance();
     const std::size_t taps = covariance.size();
     // Row i of the Cholesky factor of the samples' covariance, element j at j modulo taps; the last

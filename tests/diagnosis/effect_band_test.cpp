@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/generators/effects/list.hpp>
 
 namespace gyrostat::gap::effect_band_test {
 namespace {
@@ -34,6 +35,19 @@ TEST(EffectBand, OfFastEffectsIsWhereverTheyAct) {
 TEST(EffectBand, OfSlowEffectsIsNoiseThatIsRemembered) {
   EXPECT_EQ(effects_of(EffectBand::slow),
             (Effects{"bias_instability", "bias_steps", "gauss_markov", "telegraph"}));
+}
+
+/// 29 samples and 31: of the former a filter makes as much.
+TEST(EffectBand, OfAProcessGoesByHowLongItLasts) {
+  Series series;
+  for (int i = 0; i < 2000; ++i) {
+    series.t_s.push_back(0.01 * i);
+    series.gyro_dps.push_back(i % 7);
+  }
+  const Conditions conditions(series);
+  EXPECT_EQ(band_of(effects::GaussMarkov{0.01, 0.29}, conditions), EffectBand::fast);
+  EXPECT_EQ(band_of(effects::GaussMarkov{0.01, 0.31}, conditions), EffectBand::slow);
+  EXPECT_EQ(band_of(effects::Telegraph{0.01, 0.05}, conditions), EffectBand::slow);
 }
 
 TEST(EffectBand, OfThermalEffectsIsWhatIsFollowedByACurve) {

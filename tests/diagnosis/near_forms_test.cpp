@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
 #include <gyrostat/generators/effects/list.hpp>
 #include <gyrostat/generators/environment/acceleration/list.hpp>
@@ -179,6 +180,48 @@ TEST(NearForms, ValuesThatAreCutOffUnderAMotionAreOneEffect) {
 
 /// Simulators add up so many Gauss-Markov processes, from a time of their own on: a fourth of the
 /// coefficient, a telegraph and steps stood in for what is not faster.
+/// Three neighbours, twice in a row, and the converter's noise: taps 1, 2, 3, 2, 1, which leave
+/// nothing at a third of the rate. A filter of any damping, a line and an average of faster samples
+/// stood in for them.
+TEST(NearForms, AnAverageOfTheOutputsOwnSamplesIsOne) {
+  Scenario s = still();
+  s.effects = {
+      effects::NoiseAveraging{.length = 3.0, .stages = 2.0, .of_samples = 1.0, .after_dps = 0.003}};
+  const Found found(recorded(s, 71, false));
+  ASSERT_EQ(found.names(), std::set<std::string>{"noise_averaging"});
+  const auto& average = found.first<effects::NoiseAveraging>();
+  EXPECT_EQ(average.stages, 2.0);
+  EXPECT_EQ(average.of_samples, 1.0);
+  EXPECT_NEAR(average.length, 3.0, 0.05);
+}
+
+/// A sine that is on for a quarter of the time, each time for half a minute, softly and from
+/// another phase: in its spectrum it is as narrow as one whose phase goes astray, and was called a
+/// wandering line.
+TEST(NearForms, ASineThatComesAndGoesIsBursts) {
+  Series series = recorded(still(), 72, false);
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    constexpr double every_s[] = {0.0, 131.0, 227.0, 371.0, 452.0, 611.0, 733.0, 904.0, 1065.0};
+    for (const double begins_s : every_s) {
+      const double into = series.t_s[i] - begins_s;
+      const double gate = 0.5 * (std::tanh(into - 20.0) - std::tanh(into - 50.0));
+      series.gyro_dps[i] +=
+          0.06 * gate * std::sin(2.0 * std::numbers::pi * 4.7 * into + begins_s * begins_s);
+    }
+  }
+  EXPECT_EQ(Found(series).names(), std::set<std::string>{"vibration_bursts"});
+}
+
+/// A compass that is five times slower than the gyro, disturbed by 2 degrees for 20 s at a time.
+TEST(NearForms, BurstsOfASlowCompassAreFound) {
+  Series series = recorded(still(), 73, false);
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    if (i % 5 != 0) series.heading_deg[i] = no_value;
+    if (std::fmod(series.t_s[i] + 60.0, 200.0) < 20.0) series.heading_deg[i] += 2.0;
+  }
+  EXPECT_EQ(Found(series).names(), std::set<std::string>{"magnetic_bursts"});
+}
+
 TEST(NearForms, FlickerThatEndsAtSomeFrequencyIsOneEffect) {
   Scenario s = still();
   s.effects = {effects::BiasInstability{.coefficient_dps = 0.05, .shortest_s = 1.2}};

@@ -76,8 +76,8 @@ TEST(SharedEffects, OfDifferingFormsAreToldApart) {
                       with_averaging("c", 1.041, 1), with_averaging("d", 0.700, 2)});
   ASSERT_EQ(shared.size(), 2);
   for (const auto& one : shared) {
-    const bool once = one.form == "stages 1";
-    EXPECT_EQ(one.form, once ? "stages 1" : "stages 2");
+    const bool once = one.form == "stages 1, of_samples 0";
+    EXPECT_EQ(one.form, once ? "stages 1, of_samples 0" : "stages 2, of_samples 0");
     EXPECT_EQ(one.members,
               once ? std::vector<std::string>({"a", "c"}) : std::vector<std::string>({"b", "d"}));
     EXPECT_NEAR(one.parameters[0].mean, once ? 1.0405 : 0.7005, 1e-9);
