@@ -63,19 +63,15 @@ FoundSet SetSearcher::beside(const std::vector<Given>& given) {
   const auto is_given = [&](const std::string& effect) {
     return std::find(names.begin(), names.end(), effect) != names.end();
   };
-  bool is_as_found = true;
   Scenario scenario = end_->scenario;
-  for (const auto& g : given) {
-    const auto part = cause_types().named(g.effect.id(), "effects").part;
-    const auto of_part = std::count_if(effects.begin(), effects.end(),
-                                       [&](const auto& effect) { return is_of(effect, part); });
-    is_as_found =
-        is_as_found && has(end_->scenario, g.effect.id()) &&
-        of_part == std::count_if(end_->scenario.effects.begin(), end_->scenario.effects.end(),
-                                 [&](const auto& effect) { return is_of(effect, part); });
-    scenario = end_with(part, {}, std::move(scenario));
-  }
+  for (const auto& g : given)
+    scenario =
+        end_with(cause_types().named(g.effect.id(), "effects").part, {}, std::move(scenario));
   scenario.effects.insert(scenario.effects.end(), effects.begin(), effects.end());
+  const auto is_same = [](const Effect& a, const Effect& b) { return a.id() == b.id(); };
+  const bool is_as_found =
+      std::is_permutation(scenario.effects.begin(), scenario.effects.end(),
+                          end_->scenario.effects.begin(), end_->scenario.effects.end(), is_same);
   bench_.give(names);
   auto standing = refitted_from_either(scenario);
   FoundSet found{.baseline = searched_.baseline, .scenario = {}, .members = searched_.members};

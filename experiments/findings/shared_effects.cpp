@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -72,6 +71,22 @@ bool is_fitted_once(const std::vector<std::pair<std::string, const Included*>>& 
   });
 }
 
+/// A parameter that was fitted once.
+SharedParameter of_all_axes(const Included& included, std::size_t field) {
+  const auto& effect = included.parameters.front();
+  const auto& described = effect.fields()[field];
+  const bool is_known = field < included.intervals.size();
+  return {.name = std::string(described.name),
+          .unit = std::string(described.unit),
+          .mean = effect.value(field),
+          .mean_low = is_known ? included.intervals[field][0] : no_value,
+          .mean_high = is_known ? included.intervals[field][1] : no_value,
+          .spread = 0.0,
+          .spread_low = no_value,
+          .spread_high = no_value,
+          .p_equal = included.p_equal};
+}
+
 /// A parameter in each of those that an effect was found in. Of k axes that were fitted together
 /// each has the error of them all, and a k-th of what that says.
 std::vector<MemberValue> known_of(const std::vector<std::pair<std::string, const Included*>>& found,
@@ -122,19 +137,10 @@ std::vector<SharedEffect> shared_effects(const std::vector<FleetMember>& all) {
           .effect = std::string(cause.id()), .form = form, .members = {}, .parameters = {}});
       for (const auto& [name, included] : found) one.members.push_back(name);
       one.fitted_once = is_fitted_once(found);
-      for (std::size_t field = 0; field < cause.fields().size(); ++field) {
-        one.parameters.push_back(over_members(known_of(found, field), cause, field));
-        if (!one.fitted_once || !is_alike(cause, field)) continue;
-        auto& parameter = one.parameters.back();
-        const auto& included = *found.front().second;
-        parameter.p_equal = included.p_equal;
-        parameter.mean = included.parameters.front().value(field);
-        parameter.spread = 0.0;
-        parameter.spread_low = parameter.spread_high = no_value;
-        if (field < included.intervals.size())
-          std::tie(parameter.mean_low, parameter.mean_high) =
-              std::pair(included.intervals[field][0], included.intervals[field][1]);
-      }
+      for (std::size_t field = 0; field < cause.fields().size(); ++field)
+        one.parameters.push_back(one.fitted_once && is_alike(cause, field)
+                                     ? of_all_axes(*found.front().second, field)
+                                     : over_members(known_of(found, field), cause, field));
     }
   }
   std::stable_sort(shared.begin(), shared.end(), [](const auto& a, const auto& b) {

@@ -22,12 +22,14 @@ namespace gyrostat::effects {
 /// (2 - x)^3 / 4 up to 2 (Schoenberg, Quarterly of Applied Mathematics 4, 1946); beyond
 /// stages x length samples it is 0, and with stages x length <= 1 the noise stays white. What
 /// averages the output's own samples (`of_samples`), the last of them in part, has the
-/// autocovariance of its taps: once it is the same, twice over two samples they are 1, 2, 1. The
+/// autocovariance of its taps: once over whole samples it is the same, twice over two they are
+/// 1, 2, 1. The
 /// noise keeps its density at rest, as behind noise_bandwidth.
 ///
 /// What is of faster samples is made of the white noise by the innovations algorithm (Brockwell &
 /// Davis, Time Series: Theory and Methods, 1991, 5.3.9), so that it is stationary from the first
-/// sample. Samples count, not the intervals between them.
+/// sample; of the output's own, the first average the last. Samples count, not the intervals
+/// between them.
 struct NoiseAveraging {
   double length = 1.3;
   double stages = 1.0;
@@ -107,8 +109,8 @@ struct NoiseAveraging {
     return taps;
   }
 
-  /// The first samples average the last: what was before them is as likely, and there is no noise
-  /// of its own for it.
+  /// What was before the first samples is as likely as what the last are, and a recursion without
+  /// it does not reach zeros on the unit circle.
   void pass_own(Series& series) const {
     const auto taps = taps_of_samples();
     const std::size_t n = samples_with(series, needs);
