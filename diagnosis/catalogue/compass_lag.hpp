@@ -17,7 +17,7 @@ struct Diagnosed<effects::CompassLag> {
                                                  &effects::CompassLag::delay_s};
 
   static std::vector<effects::CompassLag> starts(const Evidence& e) {
-    const double least_s = 0.5 * e.conditions().interval_s();
+    const double least_s = 0.05 * e.conditions().interval_s();
     constexpr double most_s = 30.0;
     std::vector<effects::CompassLag> all;
     for (const double poles : {1.0, 2.0, 4.0})

@@ -37,9 +37,7 @@ struct Diagnosed<effects::ScaleTemperature> {
 
   static std::string why_not_assessable(const Conditions& c) {
     if (auto why = needs::motion(c); !why.empty()) return why;
-    // No error of the bias could be one of these.
-    constexpr double least_warming_C = 1.0;
-    const auto why = needs::warming(c, least_warming_C);
+    const auto why = needs::warming(c);
     return why.empty() ? why : why + ": turn the sensor while it warms";
   }
 

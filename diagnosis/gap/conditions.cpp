@@ -12,7 +12,8 @@
 namespace gyrostat::gap {
 namespace {
 
-constexpr std::size_t slow_points = 3000;
+constexpr std::size_t slow_points = 3000, fewest_slow_points = 1000;
+constexpr double slow_s = 0.4;
 constexpr std::size_t shortest_cluster = 4;
 constexpr std::size_t shortest_span = 64;
 constexpr std::size_t shortest_slow_span = 2;
@@ -62,7 +63,9 @@ Conditions::Conditions(const Series& recording, Split split) : series_(recording
     interpolate_missing(*channel);
   const std::size_t n = series_.size();
   interval_s_ = n > 1 ? series_.duration_s() / static_cast<double>(n - 1) : 1.0;
-  cluster_ = std::max(shortest_cluster, n / slow_points);
+  const auto slow_samples = static_cast<std::size_t>(std::lround(slow_s / interval_s_));
+  cluster_ =
+      std::max({shortest_cluster, n / slow_points, std::min(slow_samples, n / fewest_slow_points)});
   parts_.assign(std::max<std::size_t>(1, n / cluster_), Part::train);
   if (split != Split::none)
     for (std::size_t k = 0; k < parts_.size(); ++k)

@@ -11,6 +11,15 @@
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
+namespace {
+
+/// A recorder's sample has turned by its own rate, by half of it or not yet: the likeliest of these
+/// ways where the heading is late by so many samples.
+double way_of_recorders(double late_samples) {
+  return std::clamp(0.5 * std::round(2.0 * late_samples), -1.0, 1.0);
+}
+
+}  // namespace
 
 CompassErrors::CompassErrors(const Conditions& conditions, const Series& recording)
     : conditions_(conditions), recording_(recording) {
@@ -27,7 +36,7 @@ CompassErrors::CompassErrors(const Conditions& conditions, const Series& recordi
         cosine += std::cos(error[i] * std::numbers::pi / 180.0);
       }
   centre_deg_ = std::atan2(sine, cosine) * 180.0 / std::numbers::pi;
-  shift_ = shift_of(of({}), {}, 0.0);
+  shift_ = way_of_recorders(shift_of(of({}), {}, 0.0));
 }
 
 std::vector<double> CompassErrors::of(const std::vector<Effect>& effects) const {
@@ -86,7 +95,7 @@ double CompassErrors::shift_of(const std::vector<double>& error, const std::vect
         product -= of_error.innovation(error[i]) * turned;
         square += turned * turned;
       }
-  return square > 0.0 ? std::clamp(product / (square * conditions_.interval_s()), -1.0, 1.0) : 0.0;
+  return square > 0.0 ? product / (square * conditions_.interval_s()) : 0.0;
 }
 
 bool CompassErrors::is_hidden(const std::vector<char>& hidden, std::size_t sample) const {
@@ -98,7 +107,7 @@ void CompassErrors::shift_beside(const std::vector<Effect>& effects,
                                  const std::vector<char>& hidden) {
   const auto errors = of(effects);
   const double gain = law_of_errors(errors, hidden).level_gain;
-  shift_ = std::clamp(shift_ + shift_of(errors, hidden, gain), -1.0, 1.0);
+  shift_ = way_of_recorders(shift_ + shift_of(errors, hidden, gain));
 }
 
 CompassErrors::Law CompassErrors::law_of_errors(const std::vector<double>& errors,

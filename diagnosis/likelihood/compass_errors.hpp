@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -39,17 +40,16 @@ class CompassErrors {
   }
   Law law_of_errors(const std::vector<double>& errors, const std::vector<char>& hidden) const;
   double centre_deg() const { return centre_deg_; }
-  /// Errors are no longer taken beside a shift of time.
-  void unshift() { shift_ = 0.0; }
-  /// They are taken beside the shift of time that is left beside the effects: iron turns with the
+  /// What the heading is late by is left to the effects.
+  void unshift() { shift_ = std::min(shift_, 0.0); }
+  /// Errors are taken beside the shift of time that is left beside the effects: iron turns with the
   /// heading, and a shift shows as it does.
   void shift_beside(const std::vector<Effect>& effects, const std::vector<char>& hidden);
   /// Whether a sample is in a cluster that is; in none where no flags are given.
   bool is_hidden(const std::vector<char>& hidden, std::size_t sample) const;
 
  private:
-  /// By how much the heading is late, in samples, at most one: recorders differ in whether a sample
-  /// has turned by its own rate, by half of it or not yet.
+  /// By how many samples the heading is late.
   double shift_of(const std::vector<double>& error, const std::vector<char>& hidden,
                   double level_gain) const;
 

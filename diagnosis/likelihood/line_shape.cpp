@@ -21,6 +21,8 @@ namespace {
 /// on its way through, in long ones it stands out of the noise.
 constexpr std::array blocks_of_memory = {0.35, 0.7, 1.4};
 constexpr std::size_t shortest_block = 4;
+/// Of a line that remembers for long they are shorter, so that there are as many.
+constexpr std::size_t fewest_blocks = 50;
 
 /// Squared envelopes, block after block of each span of the part; `no_value` where not half of a
 /// block's samples are there.
@@ -60,15 +62,20 @@ LineShape shape_in_blocks(const Conditions& conditions, const std::vector<double
   // A wave and its mirror about zero, or about half the rate, turn apart by a whole turn: else
   // the squared envelope of noise is not exponential.
   const double apart_hz = std::min(line.centre_hz, 0.5 * conditions.rate_hz() - line.centre_hz);
-  const double block_s = std::max(block_of_memory * memory_s, 1.0 / std::max(apart_hz, 1e-9));
-  const std::size_t block = std::max(
-      shortest_block, static_cast<std::size_t>(std::lround(block_s * conditions.rate_hz())));
+  const auto samples_in = [&](double seconds) {
+    return static_cast<std::size_t>(std::lround(seconds * conditions.rate_hz()));
+  };
+  std::size_t samples = 0;
+  for (const auto& span : conditions.spans(Part::train)) samples += span.size();
+  const std::size_t longest = samples / (fewest_blocks + conditions.spans(Part::train).size());
+  const std::size_t block = std::max({shortest_block, samples_in(1.0 / std::max(apart_hz, 1e-9)),
+                                      std::min(longest, samples_in(block_of_memory * memory_s))});
   const auto envelopes = squared_envelopes(conditions, Part::train, left_dps, line, block);
   std::vector<double> squares;
   for (const auto& e : envelopes)
     std::copy_if(e.begin(), e.end(), std::back_inserter(squares),
                  [](double q) { return !is_missing(q); });
-  if (squares.size() < 50) return shape;
+  if (squares.size() < fewest_blocks) return shape;
   const auto n = static_cast<double>(squares.size());
   const double mean = std::accumulate(squares.begin(), squares.end(), 0.0) / n;
   // Blocks within one memory are alike: together they count as one.

@@ -52,6 +52,27 @@ Standing SetSearcher::coloured_anew(const Standing& standing) {
   return best_from(standing, std::move(firsts), EffectBand::fast);
 }
 
+Standing SetSearcher::without_wide_lines(const Standing& standing) {
+  const auto& angle = cause_types().named("angle_quantization", "effects");
+  if (!bench_.is_allowed(angle.id) || bench_.is_marked(angle.id) ||
+      has(standing.scenario, angle.id))
+    return standing;
+  Scenario plain = standing.scenario;
+  if (std::erase_if(plain.effects, [](const auto& effect) {
+        return is_line(effect.id()) && !is_a_line(effect);
+      }) == 0)
+    return standing;
+  Scenario still = plain;
+  std::erase_if(still.effects, [](const auto& effect) { return is_slow(effect.id()); });
+  std::vector<Standing> firsts;
+  for (const auto& beginning : {plain, still}) {
+    const auto rest =
+        bench_.fitted(standing.fitter->with_white_noise_scaled(beginning), standing.fitter, 0);
+    firsts.push_back(bench_.with(rest, angle, nullptr));
+  }
+  return best_from(standing, std::move(firsts), std::nullopt);
+}
+
 Standing SetSearcher::responding_anew(const Standing& standing) {
   const bool filters = has(standing.scenario, "sensor_bandwidth");
   const bool shifts = has(standing.scenario, "time_offset");
@@ -118,14 +139,14 @@ Standing SetSearcher::responding_without_names(Standing standing) {
 }
 
 Standing SetSearcher::best_from(const Standing& standing, std::vector<Standing> beginnings,
-                                EffectBand band) {
+                                std::optional<EffectBand> band) {
   const auto all = candidates_;
   std::erase_if(candidates_, [&](const auto* cause) {
-    return bench_.is_marked(cause->id) || band_of(cause->id) != band;
+    return bench_.is_marked(cause->id) || (band && band_of(cause->id) != *band);
   });
   const auto gains = gains_;
   auto gains_of_best = gains_;
-  const double least = least_gain(standing, band);
+  const double least = least_gain(standing, band.value_or(EffectBand::fast));
   Standing best = standing;
   double most = standing.score;
   for (const auto& beginning : beginnings) {

@@ -7,6 +7,7 @@
 
 #include <gyrostat/diagnosis/likelihood/compass_search.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/hidden_line.hpp>
 #include <gyrostat/diagnosis/likelihood/line_names.hpp>
 #include <gyrostat/diagnosis/likelihood/set_searcher.hpp>
 
@@ -28,6 +29,19 @@ bool is_what_was_before(const Effect& effect, const Scenario& scenario) {
       follows_s += 0.5 / (std::numbers::pi * value("cutoff_hz"));
   }
   return effect.value(field_of(effect, "settling_time_s")) < as_fast * follows_s;
+}
+
+/// A line that a few bursts are is a comb of sines, and what its band leaves of them is another
+/// sine; so is what is left of one whose band is as narrow as a spectrum of this length can tell.
+bool is_part_of_a_line(const Effect& effect, const Scenario& scenario, double duration_s) {
+  constexpr double fewest_cycles = 32.0;  // of a band's own time, beside which a sine is told
+  if (effect.id() != "sinusoidal") return false;
+  const Resonance sine{0.0, effect.value(field_of(effect, "frequency_hz")), 0.0};
+  return std::any_of(scenario.effects.begin(), scenario.effects.end(), [&](const auto& other) {
+    if (!is_line(other.id())) return false;
+    const auto band = band_of_line(other);
+    return band.bandwidth_hz * duration_s < fewest_cycles && are_neighbours(sine, band);
+  });
 }
 
 /// Where a motion hardly stays near zero, what is cut off towards it shows as a zone that takes
@@ -68,13 +82,17 @@ FoundSet that_may_be_asked(FoundSet found, const std::shared_ptr<SetSearcher>& s
 
 }  // namespace
 
-Standing SetSearcher::without_what_was_before(Standing standing, FoundSet& found) const {
+Standing SetSearcher::without_what_others_are(Standing standing, FoundSet& found) const {
+  const double duration_s = conditions_.interval_s() * static_cast<double>(conditions_.size());
   auto scenario = standing.scenario;
   if (std::erase_if(scenario.effects, [&](const auto& effect) {
-        return is_what_was_before(effect, standing.scenario);
+        return is_what_was_before(effect, standing.scenario) ||
+               is_part_of_a_line(effect, standing.scenario, duration_s);
       }) == 0)
     return standing;
-  std::erase_if(found.members, [](const auto& m) { return m.effect == "start_up"; });
+  std::erase_if(found.members, [&](const auto& m) {
+    return has(standing.scenario, m.effect) && !has(scenario, m.effect);
+  });
   return bench_.refitted(scenario);
 }
 
@@ -126,8 +144,12 @@ Standing SetSearcher::concluded(Standing standing, FoundSet& found) {
   // An exchange may have left the one way of being late of two.
   if (auto other = responding_anew(standing); other.score > standing.score)
     exchanged_anew(std::move(other));
-  if (auto other = beside_memory(standing);
-      other.score > standing.score + least_gain(other, EffectBand::fast)) {
+  // Any effect is stranger than what the baseline has itself.
+  constexpr double surely = 2.2;
+  auto other = beside_memory(standing);
+  const bool is_in_place = other.scenario.effects.size() < standing.scenario.effects.size();
+  if (other.score >
+      standing.score + least_gain(other, EffectBand::fast) - (is_in_place ? surely : 0.0)) {
     exchanged_anew(searched(std::move(other)));
     if (standing.scenario.random_error.phi != 0.0)
       found.baseline = bench_.beside_memory(bench_.beside_noise({})).scenario;
@@ -137,7 +159,7 @@ Standing SetSearcher::concluded(Standing standing, FoundSet& found) {
       if (!member.read_off && !has(other.scenario, member.effect))
         member.log_odds = std::min(member.log_odds, standing.score - other.score);
   }
-  return without_what_was_before(std::move(standing), found);
+  return without_what_others_are(std::move(standing), found);
 }
 
 FoundSet SetSearcher::described(Standing standing, FoundSet found) {

@@ -101,18 +101,23 @@ class SetSearcher {
   /// Where several effects colour the noise, these found anew beside its lines, a filter first:
   /// what stands in for that and an angle's errors holds its place against every single exchange.
   Standing coloured_anew(const Standing& standing);
+  /// Where a band that is too wide for a line stands among them, what is there found anew beside an
+  /// angle's errors: with the slow noise that is left beside these it stands in for both.
+  Standing without_wide_lines(const Standing& standing);
   /// Where the motion is sensed late, its effects found anew from the other way of being late: what
   /// stands in for one of them has moved all others.
   Standing responding_anew(const Standing& standing);
   /// Where several effects bend the motion, these, or in place of all of its effects one response
   /// without a name: what that explains as well, which is linear in the rate, is not bent.
   Standing responding_without_names(Standing standing);
-  /// Of sets found from each of some beginnings, with the effects of a band as candidates, the
-  /// best; what stands, where none is better by what its further effects have to gain.
-  Standing best_from(const Standing& standing, std::vector<Standing> beginnings, EffectBand band);
-  /// Without a bias that settles before a filter or a shift of time has followed the rate: beside
-  /// these it stands for what they do not know, and the search finds more beside it.
-  Standing without_what_was_before(Standing standing, FoundSet& found) const;
+  /// Of sets found from each of some beginnings, with the effects of a band as candidates or with
+  /// all, the best; what stands, where none is better by what its further effects have to gain.
+  Standing best_from(const Standing& standing, std::vector<Standing> beginnings,
+                     std::optional<EffectBand> band);
+  /// Without what stands for something that others of the set have besides: a bias that settles
+  /// before a filter or a shift of time has followed the rate, beside which the search finds more,
+  /// and sines of a line that they are part of.
+  Standing without_what_others_are(Standing standing, FoundSet& found) const;
   /// With an ARIMA(1,1,1) that remembers, beside what is there or in place of what colours the
   /// noise.
   Standing beside_memory(const Standing& standing) const;

@@ -131,8 +131,8 @@ Standing SetSearcher::searched_beside_tails(Standing standing) {
     hidden_from_response_ = bench_.masked();
     bench_.mask_too(unknown_samples(standing.scenario));
     if (round > 0 && bench_.masked() == hidden) break;
-    standing = coloured_anew(
-        responding_without_names(responding_anew(searched(bench_.refitted(standing.scenario)))));
+    standing = without_wide_lines(coloured_anew(
+        responding_without_names(responding_anew(searched(bench_.refitted(standing.scenario))))));
   }
   return standing;
 }

@@ -24,11 +24,12 @@ namespace needs {
 
 std::string nothing(const Conditions& /*conditions*/) { return {}; }
 
-std::string warming(const Conditions& c, double least_C) {
+std::string warming(const Conditions& c) {
   if (!c.has_temperature()) return "there is no temperature_C column; record the sensor's";
   const double span = extent(c.slow_temperature_C());
-  if (span >= least_C) return {};
-  return fmt::format("the temperature spans {:.2g} °C; at least {:g} °C are needed", span, least_C);
+  if (span >= least_warming_C) return {};
+  return fmt::format("the temperature spans {:.2g} °C; at least {:g} °C are needed", span,
+                     least_warming_C);
 }
 
 std::string time(const Conditions& c) {

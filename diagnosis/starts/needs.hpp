@@ -13,10 +13,10 @@ namespace needs {
 
 /// Any recording shows the effect.
 std::string nothing(const Conditions& conditions);
-inline constexpr double least_warming_C = 4.0;
+inline constexpr double least_warming_C = 1.0;
 
 /// A temperature that changes by so much.
-std::string warming(const Conditions& conditions, double least_C = least_warming_C);
+std::string warming(const Conditions& conditions);
 /// Minutes, for 1/f noise: in less it cannot be told from the memory of the random error.
 std::string time(const Conditions& conditions);
 /// A reference rate that changes.

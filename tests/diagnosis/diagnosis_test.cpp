@@ -284,7 +284,7 @@ TEST(Diagnosis, SaysWhatItCannotAssess) {
       if (n.effect == effect) return n.why;
     return "assessed";
   };
-  EXPECT_THAT(why("thermal_hysteresis"), testing::HasSubstr("at least 4 °C"));
+  EXPECT_THAT(why("thermal_hysteresis"), testing::HasSubstr("at least 1 °C"));
   EXPECT_THAT(why("scale_factor"), testing::HasSubstr("rate_ref_dps"));
   EXPECT_THAT(why("hard_iron"), testing::HasSubstr("heading_deg"));
   EXPECT_THAT(why("bias_instability"), testing::HasSubstr("at least 600 s"));

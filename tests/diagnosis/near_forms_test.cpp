@@ -178,8 +178,6 @@ TEST(NearForms, ValuesThatAreCutOffUnderAMotionAreOneEffect) {
   }
 }
 
-/// Simulators add up so many Gauss-Markov processes, from a time of their own on: a fourth of the
-/// coefficient, a telegraph and steps stood in for what is not faster.
 /// Three neighbours, twice in a row, and the converter's noise: taps 1, 2, 3, 2, 1, which leave
 /// nothing at a third of the rate. A filter of any damping, a line and an average of faster samples
 /// stood in for them.
@@ -222,6 +220,64 @@ TEST(NearForms, BurstsOfASlowCompassAreFound) {
   EXPECT_EQ(Found(series).names(), std::set<std::string>{"magnetic_bursts"});
 }
 
+/// Means of a fifth of a second have no resonances, and hid it: three sines stood in for it, and a
+/// filter of the noise for what they left.
+TEST(NearForms, ALineThatIsSlowInAShortRecordingIsALine) {
+  Scenario s = still();
+  s.sampling = {700.0, 25.0};
+  s.effects = {effects::Vibration{.std_dps = 0.04, .centre_hz = 1.85, .bandwidth_hz = 0.16}};
+  EXPECT_EQ(Found(recorded(s, 74, false)).names(), std::set<std::string>{"vibration"});
+}
+
+/// Three times a minute at one phase: a comb of sines, of which a band of a hundredth of a hertz
+/// leaves others.
+TEST(NearForms, ALineThatComesThreeTimesIsOneEffect) {
+  Series series = recorded(still(), 75, false);
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const bool is_on = std::fmod(series.t_s[i] + 330.0, 390.0) < 60.0;
+    if (is_on) series.gyro_dps[i] += 0.15 * std::sin(2.0 * std::numbers::pi * 5.16 * series.t_s[i]);
+  }
+  EXPECT_EQ(Found(series).names(), std::set<std::string>{"vibration_bursts"});
+}
+
+/// One band that is half as wide as its centre is high stood in for both, with a telegraph or
+/// without.
+TEST(NearForms, AnAnglesErrorsBesideFlickerAreNoBand) {
+  Scenario s = still();
+  s.sampling = {1760.0, 30.0};
+  s.random_error.measurement_noise_std_dps = 0.041;
+  for (const double coefficient_deg : {8e-4, 1e-3}) {
+    s.effects = {effects::AngleQuantization{coefficient_deg},
+                 effects::BiasInstability{.coefficient_dps = 0.024}};
+    EXPECT_EQ(Found(recorded(s, 1, false)).names(),
+              (std::set<std::string>{"angle_quantization", "bias_instability"}))
+        << coefficient_deg;
+  }
+}
+
+/// Three degrees up and down are two widths.
+TEST(NearForms, HysteresisOfARoomIsFound) {
+  Scenario s = still();
+  s.temperature = temperature::Cycle{24.0, 27.0, 800.0};
+  s.effects = {effects::ThermalHysteresis{.amplitude_dps = 0.08, .width_C = 0.8}};
+  EXPECT_EQ(Found(recorded(s, 77, false)).names(), std::set<std::string>{"thermal_hysteresis"});
+}
+
+/// Recorders differ by half samples, not by a fifteenth of one.
+TEST(NearForms, AFractionOfASampleIsALag) {
+  for (const double recorder : {-0.5, 0.0, 0.5}) {
+    Series series = recorded(moving(), 78, true);
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      const double late_s = (recorder + 1.0 / 15.0) / 20.0;
+      series.heading_deg[i] =
+          std::remainder(series.heading_deg[i] - late_s * series.rate_ref_dps[i], 360.0);
+    }
+    EXPECT_EQ(Found(series).names(), std::set<std::string>{"compass_lag"}) << recorder;
+  }
+}
+
+/// Simulators add up so many Gauss-Markov processes, from a time of their own on: a fourth of the
+/// coefficient, a telegraph and steps stood in for what is not faster.
 TEST(NearForms, FlickerThatEndsAtSomeFrequencyIsOneEffect) {
   Scenario s = still();
   s.effects = {effects::BiasInstability{.coefficient_dps = 0.05, .shortest_s = 1.2}};

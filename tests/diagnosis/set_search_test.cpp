@@ -419,7 +419,6 @@ TEST(SetSearch, NamesALineThatWandersLittle) {
             (std::set<std::string>{"quantization", "wandering_line"}));
 }
 
-/// Where noise in a band is not in the catalogue, it is no line that wanders.
 /// Taken out sample by sample, an accelerometer's own noise, 0.09 m/s^2 times 0.06 dps/(m/s^2),
 /// would be a ninth of the gyro's: 12,000 half squares of it, 130 nats, which every further effect
 /// would have had to gain first.
@@ -447,6 +446,7 @@ TEST(SetSearch, AnAccelerometersOwnNoiseIsNotFelt) {
   EXPECT_GT(bench.refitted(felt.scenario).score, felt.score - 10.0);
 }
 
+/// Where noise in a band is not in the catalogue, it is no line that wanders.
 TEST(SetSearch, NoiseInABandHasNoOtherName) {
   Scenario s = still();
   s.effects = {effects::Vibration{0.04, 4.0, 0.4}};
