@@ -22,8 +22,9 @@ struct EffectType : ParametricType {
   std::span<std::vector<double> Series::*const> needs;  ///< channels
   void (*apply)(const std::any& effect, Series& series, const Noise& noise) = nullptr;
   /// Whether it changes each sample of the gyro by the channels of that sample alone, without
-  /// noise: then it may be given any samples, also those of several trials, in any order.
-  bool sample_by_sample = false;
+  /// noise: then it may be given any samples, also those of several trials, in any order. Null: it
+  /// does not.
+  bool (*is_sample_by_sample)(const std::any& effect) = nullptr;
   /// Whether it says how the rate is sensed: it comes before the electronics' other effects, to
   /// which the rate is what is sensed. Null: it does not.
   bool (*is_response)(const std::any& effect) = nullptr;
@@ -49,16 +50,22 @@ class Effect : public Chosen<EffectType> {
   using Chosen::Chosen;
 
   Stage stage() const { return type().stage; }
+  bool is_sample_by_sample() const {
+    return type().is_sample_by_sample != nullptr && type().is_sample_by_sample(plugin());
+  }
   bool is_response() const { return type().is_response != nullptr && type().is_response(plugin()); }
   /// Changes the series as the effect does, under the trial's noise.
   void apply(Series& series, const Noise& noise) const { type().apply(plugin(), series, noise); }
 };
 
-/// An effect says so by a static `sample_by_sample`.
+/// An effect says so by a static `sample_by_sample`, and by `is_sample_by_sample` where it depends
+/// on its parameters.
 template <class E>
-inline constexpr bool acts_sample_by_sample = requires {
-  E::sample_by_sample;
-};
+bool acts_sample_by_sample(const std::any& effect) {
+  if constexpr (requires(const E& e) { e.is_sample_by_sample(); })
+    return std::any_cast<E>(&effect)->is_sample_by_sample();
+  return requires { E::sample_by_sample; };
+}
 
 /// An effect that may say how the rate is sensed has an `is_response`.
 template <class E>

@@ -14,9 +14,9 @@ namespace gyrostat::gap {
 template <>
 struct Diagnosed<effects::DeadZone> {
   static constexpr auto signature = Signature::repeated;
-  static constexpr std::array free_parameters = {&effects::DeadZone::half_width_dps,
-                                                 &effects::DeadZone::lost_beyond,
-                                                 &effects::DeadZone::dither};
+  static constexpr std::array free_parameters = {
+      &effects::DeadZone::half_width_dps, &effects::DeadZone::lost_beyond,
+      &effects::DeadZone::dither, &effects::DeadZone::below_dps};
 
   static std::size_t chosen_parameters(const effects::DeadZone& effect) {
     return effect.dither != 0.0 ? 1 : 0;
@@ -26,20 +26,36 @@ struct Diagnosed<effects::DeadZone> {
     // That of a play adds up far below the noise, by the direction of the rate.
     const double narrowest_dps = std::min(0.001 * fastest_dps(e.conditions()),
                                           0.01 * e.baseline.random_error.measurement_noise_std_dps);
-    std::vector<effects::DeadZone> found;
+    const double widest_dps = most_of_motion * fastest_dps(e.conditions());
+    using Zone = effects::DeadZone;
+    std::vector<Zone> found;
     for (const double dither : {0.0, 0.3})
       for (const double lost : {0.0, 1.0})
-        found.push_back(shaped(e, Trace::rate,
-                               effects::DeadZone{.lost_beyond = lost, .dither = dither},
-                               &effects::DeadZone::half_width_dps, narrowest_dps,
-                               most_of_motion * fastest_dps(e.conditions())));
+        found.push_back(shaped(e, Trace::rate, Zone{.lost_beyond = lost, .dither = dither},
+                               &Zone::half_width_dps, narrowest_dps, widest_dps));
+    // One side after the other. A level that walks takes up what a zone begun from elsewhere is off
+    // by: only beside the right ones does it see either edge.
+    Evidence steady = e;
+    steady.level_gain = 0.0;
+    constexpr double near = 1.1;
+    for (const std::size_t even : {0, 1}) {
+      Zone zone = found[even];
+      zone.below_dps = zone.half_width_dps;
+      constexpr std::array sides = {&Zone::half_width_dps, &Zone::below_dps};
+      for (int pass = 0; pass < 2; ++pass)
+        for (const auto side : sides)
+          zone = shaped(steady, Trace::rate, zone, side, narrowest_dps, widest_dps);
+      for (const auto side : sides)
+        zone = shaped(e, Trace::rate, zone, side, zone.*side / near, zone.*side * near);
+      found.push_back(zone);
+    }
     return found;
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }
 
   static bool is_what_it_is_called(const effects::DeadZone& effect, const Conditions& c) {
-    return effect.half_width_dps <= most_of_motion * fastest_dps(c);
+    return std::max(effect.half_width_dps, effect.below_dps) <= most_of_motion * fastest_dps(c);
   }
 
  private:

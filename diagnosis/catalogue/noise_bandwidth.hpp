@@ -10,7 +10,7 @@
 
 namespace gyrostat::gap {
 
-/// Noise through a low-pass filter of one, two or four poles, of two that ring, or of two before it
+/// Noise through a low-pass filter of one to four poles, of two that ring, or of two before it
 /// was sampled, each a start of its own.
 template <>
 struct Diagnosed<effects::NoiseBandwidth> {
@@ -30,7 +30,7 @@ struct Diagnosed<effects::NoiseBandwidth> {
   static std::vector<effects::NoiseBandwidth> guesses(const Beside& beside) {
     std::vector<effects::NoiseBandwidth> all;
     for (const double flat : {0.0, 1.0})
-      for (const double poles : {1.0, 2.0, 4.0})
+      for (const double poles : {1.0, 2.0, 3.0, 4.0})
         for (const double share : {0.03, 0.1, 0.25})
           all.push_back(
               {share * beside.conditions.rate_hz() * (flat > 0.5 ? 1.0 : std::sqrt(poles)), poles,

@@ -7,6 +7,7 @@
 #include <span>
 
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/gap/recorders_way.hpp>
 #include <gyrostat/diagnosis/gap/spectral_bands.hpp>
 
 namespace gyrostat::gap {
@@ -25,9 +26,8 @@ Spectrum spectrum_of(const std::vector<double>& values, const std::vector<Span>&
   return welch(stretches, rate_hz, length, segments < 32 ? length / 2 : length);
 }
 
-/// Takes out of `heading`, without its mean, what a misalignment of time by up to one sampling
-/// interval explains: the true heading at a sample and at the one before it are the same thing to
-/// most recorders.
+/// Takes out of `heading`, without its mean, by how far the recorder's way of sampling it is from
+/// ours.
 void align(const Conditions& conditions, std::vector<double>& heading) {
   const auto& rate = conditions.series().rate_ref_dps;
   const auto over_valid = [&](auto&& add) {
@@ -43,8 +43,8 @@ void align(const Conditions& conditions, std::vector<double>& heading) {
     square += (rate[i] - mean) * (rate[i] - mean);
   });
   if (square == 0.0) return;
-  const double lag = product / square;
-  if (std::abs(lag) > conditions.interval_s()) return;  // more than a misalignment
+  const double interval_s = conditions.interval_s();
+  const double lag = interval_s * way_of_recorders(product / square / interval_s);
   for (std::size_t i = 0; i < heading.size(); ++i) heading[i] -= lag * (rate[i] - mean);
 }
 

@@ -7,20 +7,11 @@
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/core/values.hpp>
+#include <gyrostat/diagnosis/gap/recorders_way.hpp>
 #include <gyrostat/diagnosis/likelihood/walking_level.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
-namespace {
-
-/// A recorder's sample has turned by its own rate, by half of it or not yet: the likeliest of these
-/// ways where the heading is late by so many samples.
-double way_of_recorders(double late_samples) {
-  return std::clamp(0.5 * std::round(2.0 * late_samples), -1.0, 1.0);
-}
-
-}  // namespace
-
 CompassErrors::CompassErrors(const Conditions& conditions, const Series& recording)
     : conditions_(conditions), recording_(recording) {
   Series held;

@@ -6,11 +6,13 @@
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/block_level.hpp>
+#include <gyrostat/diagnosis/likelihood/blurred_grid.hpp>
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/truncation.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 #include <gyrostat/diagnosis/thresholds.hpp>
+#include <gyrostat/generators/effects/dead_zone.hpp>
 
 namespace gyrostat::gap {
 
@@ -45,10 +47,15 @@ Series SetSearcher::as_converted(const Simulator& simulator, Series recording,
                                  const SetSearchOptions& options) {
   auto& z = recording.gyro_dps;
   const auto& without = options.without;
+  if (std::find(without.begin(), without.end(), "quantization") != without.end()) return recording;
   const double lsb_dps = step_of_grid(simulator, z, noise_of_steps(simulator.conditions(), z));
-  is_cut_off_ = std::find(without.begin(), without.end(), "quantization") == without.end() &&
-                (options.is_cut_off || is_cut_off(simulator.conditions(), z, lsb_dps));
+  is_cut_off_ = options.is_cut_off || is_cut_off(simulator.conditions(), z, lsb_dps);
   if (is_cut_off_) z = middles_of_cut_off(simulator.conditions(), z, lsb_dps);
+  if (lsb_dps > 0.0) return recording;
+  if (const auto grid = blurred_grid(simulator, z)) {
+    blur_dps_ = grid->noise_dps;
+    for (double& value : z) value = grid->nearest_dps(value);
+  }
   return recording;
 }
 
@@ -61,7 +68,8 @@ std::vector<Effect> SetSearcher::read_off(const Marks& marks, FoundSet& found) {
   if (marks.lsb_dps > 0.0 && bench_.is_allowed("quantization"))
     add(with_values("quantization", {{"lsb_dps", marks.lsb_dps},
                                      {"offset_dps", is_cut_off_ ? 0.0 : marks.grid_offset_dps},
-                                     {"towards_zero", is_cut_off_ ? 1.0 : 0.0}}));
+                                     {"towards_zero", is_cut_off_ ? 1.0 : 0.0},
+                                     {"after_dps", blur_dps_}}));
   if (marks.stale_probability > 0.0 && bench_.is_allowed("stale_samples")) {
     add(with_values("stale_samples", {{"probability", marks.stale_probability},
                                       {"mean_run", marks.stale_run},
@@ -131,11 +139,11 @@ void SetSearcher::give_grid_to_angle(const Marks& marks, FoundSet& found) const 
   double& coefficient_deg = angle->value(field_of(*angle, "coefficient_deg"));
   if (std::abs(std::sqrt(12.0) * coefficient_deg / lsb_deg - 1.0) > most_apart) return;
   coefficient_deg = lsb_deg / std::sqrt(12.0);
-  angle->value(field_of(*angle, "on_grid")) = 1.0;
+  if (blur_dps_ == 0.0) angle->value(field_of(*angle, "on_grid")) = 1.0;
   remove(grid, found);
   // What was taken for the error of rounding rates.
   double& white = found.scenario.random_error.measurement_noise_std_dps;
-  white = std::hypot(white, marks.lsb_dps / std::sqrt(12.0));
+  white = std::hypot(white, marks.lsb_dps / std::sqrt(12.0), blur_dps_);
 }
 
 void SetSearcher::remove(std::vector<Effect>::iterator effect, FoundSet& found) {
@@ -176,11 +184,14 @@ std::vector<char> SetSearcher::edges_of_the_dead_zone(const Scenario& scenario) 
   std::vector<char> edges(recording_.size(), 0);
   for (const auto& effect : scenario.effects) {
     if (effect.id() != "dead_zone" || reference.empty()) continue;
-    const double edge = effect.value(field_of(effect, "half_width_dps"));
+    const auto& zone = *effect.as<effects::DeadZone>();
     const double near = reach * white_with_rounding(scenario);
-    if (near > edge) continue;  // nothing would be left of it
-    for (std::size_t i = 0; i < edges.size(); ++i)
-      edges[i] = std::abs(std::abs(reference[i]) - edge) < near ? 1 : 0;
+    if (near > std::min(zone.half_width_at(1.0), zone.half_width_at(-1.0)))
+      continue;  // nothing would be left of it
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const double edge = zone.half_width_at(reference[i]);
+      if (std::abs(std::abs(reference[i]) - edge) < near) edges[i] = 1;
+    }
   }
   return edges;
 }

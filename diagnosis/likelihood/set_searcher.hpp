@@ -51,7 +51,7 @@ class SetSearcher {
   std::vector<Detectable> detectable();
 
  private:
-  /// With the middles of what was cut off to a grid, where it was.
+  /// With the middles of what was cut off to a grid, or on the grid that values lie about.
   Series as_converted(const Simulator& simulator, Series recording,
                       const SetSearchOptions& options);
   /// What a response without a name has to gain: it has eight sizes, half a nat each by chance.
@@ -169,6 +169,7 @@ class SetSearcher {
   const Simulator& simulator_;
   const Conditions& conditions_;
   bool is_cut_off_ = false;
+  double blur_dps_ = 0.0;   ///< of the noise about a grid
   const Series recording_;  ///< as_converted()
   SetSearchOptions options_;
   SetSearchProgress progress_;

@@ -14,8 +14,11 @@ struct Tails {
   double noise_per_C = 0.0, noise_per_C2 = 0.0, reference_C = 0.0;
   double temperature_gain = 0.0;       ///< log-likelihood beyond even noise
   double mean_square_of_warmth = 1.0;  ///< of the size relative to that at the reference
-  std::vector<char> outliers;     ///< a flag a sample, of all samples: far off
-  double quiet = 1.0;  ///< of the deviation of samples without a flag, what is no outliers'
+  /// By how many turns a sample the size of innovations goes round; 0: it does not. The largest of
+  /// them are then no outliers.
+  double turns = 0.0;
+  std::vector<char> outliers;  ///< a flag a sample, of all samples: far off
+  double quiet = 1.0;          ///< of the deviation of samples without a flag, what is no outliers'
 };
 
 /// Innovations of an autoregression fitted to the train part of `left_dps` (NaN: unknown): what a

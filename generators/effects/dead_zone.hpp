@@ -16,12 +16,13 @@ namespace gyrostat::effects {
 /// Beyond it is the rate itself, as behind a threshold, or the rate less the half width, as behind
 /// a mechanical play, or between. What moves the element besides, as a dither does, rounds the
 /// corners: sensed is the mean over its normal distribution. Drivers do the same to what the sensor
-/// says, bias and noise included.
+/// says, bias and noise included. The zone may end elsewhere below zero.
 struct DeadZone {
   double half_width_dps = 0.5;
   double lost_beyond = 0.0;
   double of_output = 0.0;
   double dither = 0.0;
+  double below_dps = 0.0;
 
   static constexpr std::string_view title = "small rates are not sensed";
   static constexpr Stage stage = Stage::electronics;
@@ -39,6 +40,8 @@ struct DeadZone {
               "1: what is written is 0 where it would be small; 0: the rate is not sensed"},
         Field{"dither", &P::dither, "1", ranges::fraction,
               "standard deviation of what moves the element besides, over the half width"},
+        Field{"below_dps", &P::below_dps, "dps", ranges::non_negative,
+              "half width below zero; 0: as above"},
     };
   }
 
@@ -53,12 +56,19 @@ struct DeadZone {
     }
   }
 
+  /// On a rate's side of zero.
+  double half_width_at(double rate_dps) const {
+    return rate_dps < 0.0 && below_dps > 0.0 ? below_dps : half_width_dps;
+  }
+
  private:
   double lost(double rate_dps) const {
-    const double width = half_width_dps, spread = dither * half_width_dps;
+    const double spread = dither * half_width_dps;
+    const double above = half_width_dps, under = half_width_at(-1.0);
     constexpr double never = 9.0;  // standard deviations
-    if (std::abs(std::abs(rate_dps) - width) >= never * spread)
-      return std::abs(rate_dps) <= width ? rate_dps : std::copysign(lost_beyond * width, rate_dps);
+    if (rate_dps - above > never * spread) return lost_beyond * above;
+    if (-rate_dps - under > never * spread) return -lost_beyond * under;
+    if (above - rate_dps >= never * spread && under + rate_dps >= never * spread) return rate_dps;
     const auto below = [](double z) {
       return std::abs(z) >= never ? (z > 0.0 ? 1.0 : 0.0)
                                   : 0.5 * std::erfc(-z / std::numbers::sqrt2);
@@ -67,10 +77,10 @@ struct DeadZone {
       return std::abs(z) >= never ? 0.0
                                   : std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
     };
-    const double low = (-width - rate_dps) / spread, high = (width - rate_dps) / spread;
+    const double low = (-under - rate_dps) / spread, high = (above - rate_dps) / spread;
     const double below_low = below(low), below_high = below(high);
     return rate_dps * (below_high - below_low) + spread * (density(low) - density(high)) +
-           lost_beyond * width * (1.0 - below_high - below_low);
+           lost_beyond * (above * (1.0 - below_high) - under * below_low);
   }
 };
 

@@ -23,8 +23,10 @@ namespace gyrostat::effects {
 /// stages x length samples it is 0, and with stages x length <= 1 the noise stays white. What
 /// averages the output's own samples (`of_samples`), the last of them in part, has the
 /// autocovariance of its taps: once over whole samples it is the same, twice over two they are
-/// 1, 2, 1. The
-/// noise keeps its density at rest, as behind noise_bandwidth.
+/// 1, 2, 1. What is read in straight lines between the samples of another clock, which runs ahead
+/// by `slip` of a sample at each, averages two of them in shares that go round: the variance comes
+/// and goes with them, and on average neighbours are alike by a quarter. The noise keeps its
+/// density at rest, as behind noise_bandwidth.
 ///
 /// What is of faster samples is made of the white noise by the innovations algorithm (Brockwell &
 /// Davis, Time Series: Theory and Methods, 1991, 5.3.9), so that it is stationary from the first
@@ -35,6 +37,7 @@ struct NoiseAveraging {
   double stages = 1.0;
   double of_samples = 0.0;
   double after_dps = 0.0;
+  double slip = 0.0;
 
   static constexpr std::string_view title = "the white noise is a moving average";
   static constexpr Stage stage = Stage::noise;
@@ -52,6 +55,9 @@ struct NoiseAveraging {
               "1: of the output's own samples; 0: of faster ones"},
         Field{"after_dps", &P::after_dps, "dps", ranges::non_negative,
               "standard deviation of the white noise after the averages"},
+        Field{"slip", &P::slip, "samples", Range{.from = 0, .to = 0.5},
+              "by which the clock of what is read in straight lines runs ahead at each sample; 0: "
+              "nothing is, and the length counts"},
     };
   }
 
@@ -60,6 +66,7 @@ struct NoiseAveraging {
   /// Of unit white noise, from lag 0 to the last at which it is not 0. Lag 0 and twice the others
   /// add up to 1.
   std::vector<double> autocovariance() const {
+    if (slip > 0.0) return {2.0 / 3.0, 1.0 / 6.0};
     if (of_samples > 0.5) {
       const auto taps = taps_of_samples();
       std::vector<double> b(taps.size(), 0.0);
@@ -82,7 +89,9 @@ struct NoiseAveraging {
   }
 
   void apply(Series& series, const Noise& noise) const {
-    if (of_samples > 0.5)
+    if (slip > 0.0)
+      pass_between(series, noise.stream("noise_averaging/place").uniform(0));
+    else if (of_samples > 0.5)
       pass_own(series);
     else
       pass_faster(series);
@@ -122,6 +131,19 @@ struct NoiseAveraging {
       for (std::size_t k = 0; k < taps.size(); ++k)
         averaged += taps[k] * white[i >= k ? i - k : i + n - k];
       series.gyro_dps[i] += averaged - white[i];
+    }
+  }
+
+  /// Its samples are the white noise, which begins anew where it ends.
+  void pass_between(Series& series, double place) const {
+    const std::size_t n = samples_with(series, needs);
+    std::vector<double> white(n);
+    for (std::size_t i = 0; i < n; ++i) white[i] = error_beside_drift(series, i);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double at = place + (1.0 + slip) * static_cast<double>(i), before = std::floor(at);
+      const auto k = static_cast<std::size_t>(before) % n;
+      const double now = white[k] + (at - before) * (white[(k + 1) % n] - white[k]);
+      series.gyro_dps[i] += now - white[i];
     }
   }
 

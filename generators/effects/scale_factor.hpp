@@ -10,9 +10,11 @@
 
 namespace gyrostat::effects {
 
-/// The output is a fraction more than the rate (IEEE Std 528, scale factor error): + error rate.
+/// The output is a fraction more than the rate (IEEE Std 528, scale factor error), and that
+/// fraction may grow with the rate's square (its nonlinearity): + (error + cubic rate^2) rate.
 struct ScaleFactor {
   double error = 0.01;
+  double cubic_per_dps2 = 0.0;
 
   static constexpr std::string_view title = "the rate is scaled";
   static constexpr Stage stage = Stage::electronics;
@@ -23,14 +25,18 @@ struct ScaleFactor {
     using P = ScaleFactor;
     return std::array{
         Field{"error", &P::error, "1", ranges::any, "share of the rate that is added"},
+        Field{"cubic_per_dps2", &P::cubic_per_dps2, "1/dps²", ranges::any,
+              "what it grows by with the square of the rate"},
     };
   }
 
   static constexpr ScaleFactor absent() { return {.error = 0.0}; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
-    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i)
-      series.gyro_dps[i] += error * series.rate_ref_dps[i];
+    for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
+      const double rate = series.rate_ref_dps[i];
+      series.gyro_dps[i] += (error + cubic_per_dps2 * rate * rate) * rate;
+    }
   }
 };
 

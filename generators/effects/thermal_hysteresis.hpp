@@ -19,7 +19,8 @@ namespace gyrostat::effects {
 /// (Krasnosel'skii and Pokrovskii, Systems with Hysteresis, 1989, ch. 1.) Plays of three
 /// narrower widths may be added, which makes a loop of any convex course. Or the branch is
 /// approached the slower, the nearer it is: B += amplitude z, dz = (dT - |dT| z) / width (Dahl,
-/// AIAA Journal 14, 1976).
+/// AIAA Journal 14, 1976), T behind a play of a twentieth of the width: what a thermometer's noise
+/// goes to and fro by would wear z away.
 struct ThermalHysteresis {
   double amplitude_dps = 0.01;
   double width_C = 3.0;
@@ -73,10 +74,12 @@ struct ThermalHysteresis {
 
   /// From one temperature to the next, monotonically, in closed form.
   void approach(Series& series) const {
+    const double noise_C = 0.05 * width_C;
     double share = first_branch, before_C = series.temperature_C.front();
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
-      const double rise_C = series.temperature_C[i] - before_C;
-      before_C = series.temperature_C[i];
+      const double T = series.temperature_C[i];
+      const double now_C = std::clamp(before_C, T - noise_C, T + noise_C);
+      const double rise_C = now_C - std::exchange(before_C, now_C);
       const double branch = rise_C < 0.0 ? -1.0 : 1.0;
       share = branch + (share - branch) * std::exp(-std::abs(rise_C) / width_C);
       series.thermal_bias_dps[i] += amplitude_dps * share;

@@ -39,7 +39,7 @@ std::optional<SharedConditions> shared_conditions(const Scenario& scenario) {
   SharedConditions shared;
   shared.on_gyro = effects_on_gyro(scenario);
   if (!std::all_of(shared.on_gyro.begin(), shared.on_gyro.end(),
-                   [](const Effect& effect) { return effect.type().sample_by_sample; }))
+                   [](const Effect& effect) { return effect.is_sample_by_sample(); }))
     return std::nullopt;
   if (std::any_of(scenario.effects.begin(), scenario.effects.end(), looks_at_the_rate))
     return std::nullopt;

@@ -148,7 +148,7 @@ TEST_P(EffectContract, AbsentItChangesNothing) {
 /// backwards, each twice.
 TEST_P(EffectContract, SampleBySampleItDoesNotMatterWhereTheyStand) {
   const Effect& effect = it().effect;
-  if (!effect.type().sample_by_sample) GTEST_SKIP() << "it does not say so";
+  if (!effect.is_sample_by_sample()) GTEST_SKIP() << "it does not say so";
   EXPECT_GE(effect.stage(), Stage::noise);
   EXPECT_NE(effect.stage(), Stage::compass);
   const auto rearranged = [](const Series& series) {

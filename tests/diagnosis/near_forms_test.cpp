@@ -52,6 +52,19 @@ TEST(NearForms, FilteredNoiseWithWhiteNoiseAfterItIsOneEffect) {
   EXPECT_NEAR(effect.after_dps, 0.012, 5.0 * 0.012 / std::sqrt(2.0 * 10000.0));
 }
 
+/// Butterworth's of third order: one of fourth order, an average and lines stood in for it. So far
+/// above its cutoff the memory of a random error would show, which is not what this is about.
+TEST(NearForms, AFilterOfThreePolesIsOneEffect) {
+  Scenario s = still();
+  s.random_error.phi = 0.0;
+  s.random_error.delta1_dps = 1e-4;
+  s.random_error.delta2_dps = 0.0;
+  s.effects = {effects::NoiseBandwidth{.cutoff_hz = 1.9, .poles = 3.0, .maximally_flat = 1.0}};
+  const Found found(recorded(s, 82, false));
+  ASSERT_EQ(found.names(), std::set<std::string>{"noise_bandwidth"});
+  EXPECT_EQ(found.first<effects::NoiseBandwidth>().poles, 3.0);
+}
+
 TEST(NearForms, ALineWithAHarmonicIsOneEffect) {
   Series series = recorded(still(), 62, false);
   for (std::size_t i = 0; i < series.size(); ++i) {
@@ -193,6 +206,15 @@ TEST(NearForms, AnAverageOfTheOutputsOwnSamplesIsOne) {
   EXPECT_NEAR(average.length, 3.0, 0.05);
 }
 
+/// As where a log is put on another clock. The largest innovations had been outliers.
+TEST(NearForms, LinesBetweenTheSamplesOfAnotherClockAreAnAverage) {
+  Scenario s = still();
+  s.effects = {effects::NoiseAveraging{.slip = 0.0121}};
+  const Found found(recorded(s, 84, false));
+  ASSERT_EQ(found.names(), std::set<std::string>{"noise_averaging"});
+  EXPECT_NEAR(found.first<effects::NoiseAveraging>().slip, 0.0121, 1e-4);
+}
+
 /// A sine that is on for a quarter of the time, each time for half a minute, softly and from
 /// another phase: in its spectrum it is as narrow as one whose phase goes astray, and was called a
 /// wandering line.
@@ -255,12 +277,53 @@ TEST(NearForms, AnAnglesErrorsBesideFlickerAreNoBand) {
   }
 }
 
+/// A recorder's own noise, or a calibration after the converter, leaves values about a grid, on
+/// which none is. The standard errors are those of a mean deviation of 18,000 values.
+TEST(NearForms, AGridWithNoiseOnItIsAGrid) {
+  for (const double lsb_dps : {0.02, 0.12}) {
+    Scenario s = still();
+    const double after_dps = 0.06 * lsb_dps;
+    s.effects = {effects::Quantization{
+        .lsb_dps = lsb_dps, .offset_dps = 0.3 * lsb_dps, .after_dps = after_dps}};
+    const Found found(recorded(s, 79, false));
+    ASSERT_EQ(found.names(), std::set<std::string>{"quantization"}) << lsb_dps;
+    const auto& grid = found.first<effects::Quantization>();
+    EXPECT_NEAR(grid.lsb_dps, lsb_dps, 1e-3 * lsb_dps);
+    EXPECT_NEAR(grid.offset_dps, 0.3 * lsb_dps, 0.01 * lsb_dps);
+    EXPECT_NEAR(grid.after_dps, after_dps, 5.0 * after_dps / std::sqrt(2.0 * 18000.0));
+  }
+}
+
 /// Three degrees up and down are two widths.
 TEST(NearForms, HysteresisOfARoomIsFound) {
   Scenario s = still();
   s.temperature = temperature::Cycle{24.0, 27.0, 800.0};
   s.effects = {effects::ThermalHysteresis{.amplitude_dps = 0.08, .width_C = 0.8}};
   EXPECT_EQ(Found(recorded(s, 77, false)).names(), std::set<std::string>{"thermal_hysteresis"});
+}
+
+/// Whose end had been a dead zone and a limit.
+TEST(NearForms, AScaleThatIsNotLinearIsOne) {
+  Scenario s = moving();
+  s.effects = {effects::ScaleFactor{.error = 0.004, .cubic_per_dps2 = 2e-7}};
+  const Found found(recorded(s, 81, true));
+  ASSERT_EQ(found.names(), std::set<std::string>{"scale_factor"});
+  EXPECT_NEAR(found.first<effects::ScaleFactor>().cubic_per_dps2, 2e-7, 2e-8);
+}
+
+/// A scale, a limit and a line stood in for the other side. The edges are between samples 0.4 dps
+/// apart.
+TEST(NearForms, ADeadZoneThatEndsElsewhereBelowZeroIsOne) {
+  for (const double lost : {0.0, 1.0}) {
+    Scenario s = moving();
+    s.effects = {effects::DeadZone{.half_width_dps = 1.4, .lost_beyond = lost, .below_dps = 0.7}};
+    const Found found(recorded(s, 80, true));
+    ASSERT_EQ(found.names(), std::set<std::string>{"dead_zone"}) << lost;
+    const auto& zone = found.first<effects::DeadZone>();
+    EXPECT_NEAR(zone.half_width_dps, 1.4, 0.4);
+    EXPECT_NEAR(zone.below_dps, 0.7, 0.4);
+    EXPECT_NEAR(zone.lost_beyond, lost, 0.05);
+  }
 }
 
 /// Recorders differ by half samples, not by a fifteenth of one.

@@ -125,13 +125,17 @@ TEST(ThermalHysteresis, DependsOnTheOrderOfTemperaturesAndNotOnTime) {
   for (std::size_t k = 0; k < fast.size(); ++k) EXPECT_EQ(fast[k], slow[2 * k]);
 }
 
-/// 1 - exp(-rise / width), and from there to the other branch.
+/// 1 - exp(-rise / width), and from there to the other branch: a twentieth of the width behind, and
+/// on the way back twice that. What goes to and fro by less is not seen.
 TEST(ThermalHysteresis, MayApproachItsBranchGradually) {
   const ThermalHysteresis gradual{.amplitude_dps = 0.01, .width_C = 3.0, .gradual = 1.0};
-  const double up = 1.0 - std::exp(-20.0 / 3.0);
+  const double up = 1.0 - std::exp(-(20.0 - 0.15) / 3.0);
   EXPECT_NEAR(drift(gradual, moves({20.0, 40.0})).back(), 0.01 * up, 1e-15);
-  EXPECT_NEAR(drift(gradual, moves({20.0, 40.0, 37.0})).back(),
-              0.01 * (-1.0 + (up + 1.0) * std::exp(-1.0)), 1e-15);
+  EXPECT_NEAR(drift(gradual, moves({20.0, 40.0, 36.75})).back(),
+              0.01 * (-1.0 + (up + 1.0) * std::exp(-(3.25 - 0.3) / 3.0)), 1e-15);
+  auto noisy = moves({20.0, 40.0});
+  noisy.insert(noisy.end(), {39.8, 40.0, 39.8});
+  EXPECT_NEAR(drift(gradual, noisy).back(), 0.01 * up, 1e-15);
   const auto still = drift(gradual, {20.0, 25.0, 25.0, 25.0});
   EXPECT_EQ(still[1], still[3]);
 }

@@ -301,12 +301,22 @@ TEST(DeadZone, MayTakeItsHalfWidthFromLargerRates) {
       (std::vector{0.0, 0.0, 0.25, -7.5}));
 }
 
+TEST(DeadZone, MayEndElsewhereBelowZero) {
+  EXPECT_EQ(sensed(effects::DeadZone{.half_width_dps = 0.5, .below_dps = 2.0},
+                   {0.5, 0.51, -0.51, -2.0, -2.5}),
+            (std::vector<double>{0.0, 0.51, 0.0, 0.0, -2.5}));
+  EXPECT_EQ(sensed(effects::DeadZone{.half_width_dps = 0.5, .lost_beyond = 1.0, .below_dps = 2.0},
+                   {0.75, -1.0, -2.5}),
+            (std::vector<double>{0.25, 0.0, -0.5}));
+}
+
 /// The mean over a normal dither, by the midpoint rule.
 TEST(DeadZone, IsRoundedByADither) {
   constexpr int steps = 20000;
   constexpr double reach = 8.0;
   for (const double lost : {0.0, 0.4, 1.0}) {
-    const effects::DeadZone sharp{.half_width_dps = 0.5, .lost_beyond = lost};
+    const effects::DeadZone sharp{
+        .half_width_dps = 0.5, .lost_beyond = lost, .below_dps = lost == 0.4 ? 0.8 : 0.0};
     auto rounded = sharp;
     rounded.dither = 0.3;
     for (const double rate : {0.0, 0.2, -0.45, 0.6, -3.0}) {
