@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
 #include <gyrostat/diagnosis/starts/motion.hpp>
@@ -27,9 +29,11 @@ struct Diagnosed<effects::ScaleFactor> {
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }
 
-  static bool is_what_it_is_called(const effects::ScaleFactor& /*effect*/,
-                                   const Conditions& /*c*/) {
-    return true;
+  /// What bends by more than a tenth of the fastest rate is no scale: between the few rates of a
+  /// table it is any function.
+  static bool is_what_it_is_called(const effects::ScaleFactor& effect, const Conditions& c) {
+    constexpr double most_bent = 0.1;
+    return std::abs(effect.cubic_per_dps2) * fastest_dps(c) * fastest_dps(c) < most_bent;
   }
 };
 

@@ -119,6 +119,19 @@ BlurredGrid about(const std::vector<double>& values, double lsb_dps) {
   return grid;
 }
 
+/// Whether noise takes values from one of the grid to the next, as it does on any that is not far
+/// coarser: a motion between a few rates does not.
+bool is_crossed(const std::vector<double>& values, const BlurredGrid& grid) {
+  constexpr double least = 0.02;
+  double crossed = 0.0, before = 0.0;
+  for (const double value : values) {
+    const double step = std::nearbyint((value - grid.offset_dps) / grid.lsb_dps);
+    crossed += std::abs(step - before) == 1.0 ? 1.0 : 0.0;
+    before = step;
+  }
+  return crossed > least * static_cast<double>(values.size());
+}
+
 }  // namespace
 
 double BlurredGrid::nearest_dps(double value_dps) const {
@@ -143,7 +156,7 @@ std::optional<BlurredGrid> blurred_grid(const Simulator& simulator,
       continue;
     // Beside values that may be anywhere between two of the grid.
     const double gain = -std::log(share * std::sqrt(2.0 * std::numbers::pi)) - 0.5;
-    if (gain <= most) continue;
+    if (gain <= most || !is_crossed(values.dps, grid)) continue;
     most = gain;
     best = grid;
   }

@@ -322,7 +322,8 @@ TEST(NearForms, ADeadZoneThatEndsElsewhereBelowZeroIsOne) {
     const auto& zone = found.first<effects::DeadZone>();
     EXPECT_NEAR(zone.half_width_dps, 1.4, 0.4);
     EXPECT_NEAR(zone.below_dps, 0.7, 0.4);
-    EXPECT_NEAR(zone.lost_beyond, lost, 0.05);
+    EXPECT_NEAR(zone.lost_beyond * zone.half_width_dps, lost * 1.4, 0.05);
+    EXPECT_NEAR(zone.lost_beyond * zone.below_dps, lost * 0.7, 0.05);
   }
 }
 
