@@ -33,6 +33,7 @@ std::vector<KnownSize> SetBench::known_within(const Effect& effect,
                                               const std::vector<double>& error) const {
   if (!is_shaken_ || effect.id() != "g_sensitivity") return {};
   const auto fields = amplitudes_of(effect, cause_types().named(effect.id(), "effects"));
+  if (fields.empty()) return {};  // of none of the axes
   std::vector<std::vector<double>> courses;
   for (const auto unit : fields) {
     Effect one = effect;

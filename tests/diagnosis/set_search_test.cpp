@@ -446,6 +446,22 @@ TEST(SetSearch, AnAccelerometersOwnNoiseIsNotFelt) {
   EXPECT_GT(bench.refitted(felt.scenario).score, felt.score - 10.0);
 }
 
+/// As a fit leaves it along an axis that does not feel the shaker.
+TEST(SetSearch, OfAShakerNothingIsFeltWithoutASize) {
+  Series series = recorded(still(), 84, false);
+  for (auto channel : {&Series::acc_x_mps2, &Series::acc_y_mps2, &Series::acc_z_mps2})
+    (series.*channel).assign(series.size(), 0.0);
+  for (std::size_t i = 0; i < series.size(); ++i)
+    series.acc_x_mps2[i] = 3.0 * std::sin(20.0 * series.t_s[i]);
+  const Simulator simulator(series, 1);
+  const SetBench bench(simulator, series, {});
+  auto scenario = bench.beside_noise({}).scenario;
+  const std::vector<char> all(series.size(), 0);
+  const auto without = bench.rate_left_by(scenario, all);
+  scenario.effects = {effects::GSensitivity{0.0, 0.0, 0.0}};
+  EXPECT_EQ(bench.rate_left_by(scenario, all), without);
+}
+
 /// Where noise in a band is not in the catalogue, it is no line that wanders.
 TEST(SetSearch, NoiseInABandHasNoOtherName) {
   Scenario s = still();
