@@ -29,10 +29,10 @@ struct Span {
 /// it moved, where the compass could be used - and how the samples are split in parts.
 ///
 /// Time is cut into eight equal blocks of whole clusters, of which the third and the seventh are
-/// held out, or the second and the sixth; what is bridged or averaged never mixes the parts. Fast readings come from single
-/// samples, slow ones from the means of `cluster` samples, of which there are about three thousand;
-/// or a thousand at least where they would last less than 0.4 s: what a mean hides has no line. Of
-/// short recordings there are fewer, of four samples.
+/// held out, or the second and the sixth; what is bridged or averaged never mixes the parts. Fast
+/// readings come from single samples, slow ones from the means of `cluster` samples, of which there
+/// are about three thousand; or a thousand at least where they would last less than 0.4 s: what a
+/// mean hides has no line. Of short recordings there are fewer, of four samples.
 class Conditions {
  public:
   /// Of an evenly sampled series; NaN marks a missing sample. Gaps of up to `bridged` samples are

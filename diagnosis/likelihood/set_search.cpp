@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include <gyrostat/diagnosis/likelihood/compass_search.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
-#include <gyrostat/diagnosis/likelihood/hidden_line.hpp>
 #include <gyrostat/diagnosis/likelihood/line_names.hpp>
 #include <gyrostat/diagnosis/likelihood/set_searcher.hpp>
 
@@ -15,34 +13,6 @@ namespace gyrostat::gap {
 namespace {
 
 bool is_compass(const CauseType& cause) { return cause.effect().stage() == Stage::compass; }
-
-/// What settles about as fast as a filter or a shift of time follows the rate is what they do not
-/// know of before the first sample.
-bool is_what_was_before(const Effect& effect, const Scenario& scenario) {
-  if (effect.id() != "start_up") return false;
-  constexpr double as_fast = 5.0;
-  double follows_s = 0.0;
-  for (const auto& other : scenario.effects) {
-    const auto value = [&](std::string_view name) { return other.value(field_of(other, name)); };
-    if (other.id() == "time_offset") follows_s += std::abs(value("offset_s"));
-    if (other.id() == "sensor_bandwidth")
-      follows_s += 0.5 / (std::numbers::pi * value("cutoff_hz"));
-  }
-  return effect.value(field_of(effect, "settling_time_s")) < as_fast * follows_s;
-}
-
-/// A line that a few bursts are is a comb of sines, and what its band leaves of them is another
-/// sine; so is what is left of one whose band is as narrow as a spectrum of this length can tell.
-bool is_part_of_a_line(const Effect& effect, const Scenario& scenario, double duration_s) {
-  constexpr double fewest_cycles = 32.0;  // of a band's own time, beside which a sine is told
-  if (effect.id() != "sinusoidal") return false;
-  const Resonance sine{0.0, effect.value(field_of(effect, "frequency_hz")), 0.0};
-  return std::any_of(scenario.effects.begin(), scenario.effects.end(), [&](const auto& other) {
-    if (!is_line(other.id())) return false;
-    const auto band = band_of_line(other);
-    return band.bandwidth_hz * duration_s < fewest_cycles && are_neighbours(sine, band);
-  });
-}
 
 /// Where a motion hardly stays near zero, what is cut off towards it shows as a zone that takes
 /// half a step off each value.
@@ -81,20 +51,6 @@ FoundSet that_may_be_asked(FoundSet found, const std::shared_ptr<SetSearcher>& s
 }
 
 }  // namespace
-
-Standing SetSearcher::without_what_others_are(Standing standing, FoundSet& found) const {
-  const double duration_s = conditions_.interval_s() * static_cast<double>(conditions_.size());
-  auto scenario = standing.scenario;
-  if (std::erase_if(scenario.effects, [&](const auto& effect) {
-        return is_what_was_before(effect, standing.scenario) ||
-               is_part_of_a_line(effect, standing.scenario, duration_s);
-      }) == 0)
-    return standing;
-  std::erase_if(found.members, [&](const auto& m) {
-    return has(standing.scenario, m.effect) && !has(scenario, m.effect);
-  });
-  return bench_.refitted(scenario);
-}
 
 FoundSet SetSearcher::run() {
   FoundSet found;

@@ -23,8 +23,8 @@ void add_mark(std::string_view effect, FoundSet& found);
 double white_with_rounding(const Scenario& scenario);
 
 /// find_set() and what may be asked of it afterwards: its moves are in set_moves.cpp and
-/// set_exchange.cpp, beginnings from elsewhere in set_beginnings.cpp, what other axes give in
-/// set_given.cpp, what is read off values in
+/// set_exchange.cpp, beginnings from elsewhere in set_beginnings.cpp, what stands for others of the
+/// set in set_needless.cpp, what other axes give in set_given.cpp, what is read off values in
 /// set_marks.cpp, what only sizes of innovations say in set_tails.cpp, where a dead zone ends in
 /// set_threshold.cpp, what is asked afterwards in set_afterwards.cpp.
 class SetSearcher {
