@@ -9,6 +9,7 @@
 #include <gyrostat/diagnosis/likelihood/block_level.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/line_names.hpp>
+#include <gyrostat/generators/effects/noise_averaging.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -156,7 +157,13 @@ void SetSearcher::add_tails(FoundSet& found) const {
   const auto law = law_of(found.scenario, conditions_.interval_s());
   if (tails_.turns > 0.0)
     for (auto& effect : found.scenario.effects)
-      if (effect.id() == "noise_averaging") effect.value(field_of(effect, "slip")) = tails_.turns;
+      if (effect.id() == "noise_averaging") {
+        // Of a clock that is behind neighbours are more alike.
+        constexpr double even = 0.25;
+        const auto covariance = effect.as<effects::NoiseAveraging>()->autocovariance();
+        const bool is_behind = covariance[1] > even * covariance[0];
+        effect.value(field_of(effect, "slip")) = is_behind ? -tails_.turns : tails_.turns;
+      }
   if (has_outliers_) {
     for (const auto& population : tails_.populations)
       found.scenario.effects.emplace_back(population);

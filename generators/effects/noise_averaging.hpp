@@ -24,9 +24,9 @@ namespace gyrostat::effects {
 /// averages the output's own samples (`of_samples`), the last of them in part, has the
 /// autocovariance of its taps: once over whole samples it is the same, twice over two they are
 /// 1, 2, 1. What is read in straight lines between the samples of another clock, which runs ahead
-/// by `slip` of a sample at each, averages two of them in shares that go round: the variance comes
-/// and goes with them, and on average neighbours are alike by a quarter. The noise keeps its
-/// density at rest, as behind noise_bandwidth.
+/// by `slip` of a sample at each, or behind, averages two of them in shares that go round: the
+/// variance comes and goes with them, and on average over all places neighbours are alike by about
+/// a quarter. The noise keeps its density at rest, as behind noise_bandwidth.
 ///
 /// What is of faster samples is made of the white noise by the innovations algorithm (Brockwell &
 /// Davis, Time Series: Theory and Methods, 1991, 5.3.9), so that it is stationary from the first
@@ -55,7 +55,7 @@ struct NoiseAveraging {
               "1: of the output's own samples; 0: of faster ones"},
         Field{"after_dps", &P::after_dps, "dps", ranges::non_negative,
               "standard deviation of the white noise after the averages"},
-        Field{"slip", &P::slip, "samples", Range{.from = 0, .to = 0.5},
+        Field{"slip", &P::slip, "samples", Range{.from = -0.3, .to = 0.3},
               "by which the clock of what is read in straight lines runs ahead at each sample; 0: "
               "nothing is, and the length counts"},
     };
@@ -66,7 +66,12 @@ struct NoiseAveraging {
   /// Of unit white noise, from lag 0 to the last at which it is not 0. Lag 0 and twice the others
   /// add up to 1.
   std::vector<double> autocovariance() const {
-    if (slip > 0.0) return {2.0 / 3.0, 1.0 / 6.0};
+    if (slip != 0.0) {
+      const auto between = between_samples();
+      std::vector<double> b;
+      for (const double covariance : between.covariance) b.push_back(covariance / between.at_rest);
+      return b;
+    }
     if (of_samples > 0.5) {
       const auto taps = taps_of_samples();
       std::vector<double> b(taps.size(), 0.0);
@@ -89,7 +94,7 @@ struct NoiseAveraging {
   }
 
   void apply(Series& series, const Noise& noise) const {
-    if (slip > 0.0)
+    if (slip != 0.0)
       pass_between(series, noise.stream("noise_averaging/place").uniform(0));
     else if (of_samples > 0.5)
       pass_own(series);
@@ -134,16 +139,34 @@ struct NoiseAveraging {
     }
   }
 
+  struct Between {
+    std::array<double, 3> covariance;
+    double at_rest;  ///< density
+  };
+  /// Of unit white noise, the mean over all places; a clock that is behind may be asked twice
+  /// between two of its samples.
+  Between between_samples() const {
+    const double behind = std::max(-slip, 0.0), ahead = std::max(slip, 0.0);
+    Between b{{2.0 / 3.0, std::pow(1.0 - ahead, 3) / 6.0, std::pow(2.0 * behind, 3) / 6.0}, 0.0};
+    if (behind > 0.0)
+      b.covariance[1] = 0.5 * (1.0 + behind) * (1.0 - behind * behind) -
+                        (1.0 - std::pow(behind, 3)) / 3.0 + behind * behind -
+                        std::pow(behind, 3) / 3.0;
+    b.at_rest = b.covariance[0] + 2.0 * (b.covariance[1] + b.covariance[2]);
+    return b;
+  }
+
   /// Its samples are the white noise, which begins anew where it ends.
   void pass_between(Series& series, double place) const {
     const std::size_t n = samples_with(series, needs);
     std::vector<double> white(n);
     for (std::size_t i = 0; i < n; ++i) white[i] = error_beside_drift(series, i);
+    const double scale = 1.0 / std::sqrt(between_samples().at_rest);
     for (std::size_t i = 0; i < n; ++i) {
       const double at = place + (1.0 + slip) * static_cast<double>(i), before = std::floor(at);
       const auto k = static_cast<std::size_t>(before) % n;
       const double now = white[k] + (at - before) * (white[(k + 1) % n] - white[k]);
-      series.gyro_dps[i] += now - white[i];
+      series.gyro_dps[i] += scale * now - white[i];
     }
   }
 
