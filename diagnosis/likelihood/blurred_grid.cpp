@@ -5,12 +5,10 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <numeric>
-
-#include <unsupported/Eigen/FFT>
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
+#include <gyrostat/diagnosis/starts/spectral_peak.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -70,18 +68,14 @@ double clearest_frequency(const Values& values, double resolution_dps) {
   std::vector<double> counts(2 * std::bit_ceil(static_cast<std::size_t>((*high - *low) / bin) + 2));
   for (const double value : values.dps)
     counts[static_cast<std::size_t>((value - *low + 0.5 * resolution_dps) / bin)] += 1.0;
-  std::vector<std::complex<double>> transform;
-  Eigen::FFT<double> fft;
-  fft.fwd(transform, counts);
   const double resolution = 1.0 / (bin * static_cast<double>(counts.size()));
   const auto first = static_cast<std::size_t>(lowest / (values.noise_dps * resolution));
   const auto last = std::min(counts.size() / 4,
                              static_cast<std::size_t>(highest / (values.noise_dps * resolution)));
   if (first >= last) return 0.0;
   // Of independent values without a grid each is exponential, of mean 1.
-  std::vector<double> power;
-  for (std::size_t k = first; k < last; ++k)
-    power.push_back(std::norm(transform[k]) / static_cast<double>(values.dps.size()));
+  auto power = powers_of(counts, first, last);
+  for (double& p : power) p /= static_cast<double>(values.dps.size());
   const auto peak = std::max_element(power.begin(), power.end());
   constexpr double clear = 40.0;
   const double usual = std::max(1.0, quantile(power, 0.5) / std::numbers::ln2);

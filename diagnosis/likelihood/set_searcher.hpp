@@ -156,6 +156,10 @@ class SetSearcher {
   /// Log-likelihood that a filter of the noise gains at most where it is only repeats, which are
   /// not told, that make neighbours alike.
   double feigned_by_repeats(const Marks& marks) const;
+  /// Whether the noise is averaged between the samples of another clock, now one, now two of them.
+  bool slips(const Scenario& set) const {
+    return tails_.turns > 0.0 && has(set, "noise_averaging");
+  }
   /// What the innovations say of outliers and of noise over temperature, beside the set.
   void judge_tails(const Standing& standing);
   void add_tails(FoundSet& found) const;

@@ -91,9 +91,7 @@ void SetSearcher::judge_tails(const Standing& standing) {
   if (undithered_lsb_dps_ > 0.0)
     feigned_.warmth = feigned_by_grid(undithered_lsb_dps_ / noise_about_levels(left)).warmth;
   const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
-  // Lines between the samples of another clock average now one, now two of them.
-  const bool slips = tails_.turns > 0.0 && has(standing.scenario, "noise_averaging");
-  has_outliers_ = bench_.is_allowed("outliers") && !slips &&
+  has_outliers_ = bench_.is_allowed("outliers") && !slips(standing.scenario) &&
                   tails_.outlier_gain > prior_of_sizes + 2.0 * value + 4.0 + feigned_.tails;
   has_warm_noise_ = bench_.is_allowed("noise_temperature") &&
                     tails_.temperature_gain > prior_of_sizes + value + feigned_.warmth;
@@ -104,8 +102,7 @@ void SetSearcher::add_nameless_tails(FoundSet& found) const {
   const auto add = [&](const std::string& what, double gain, double values) {
     found.unexplained.push_back({what, std::min(1.0, std::exp(values * value - gain))});
   };
-  const bool slips = tails_.turns > 0.0 && has(found.scenario, "noise_averaging");
-  if (!has_outliers_ && !slips)
+  if (!has_outliers_ && !slips(found.scenario))
     add("tails of the noise", tails_.outlier_gain - feigned_.tails, 2.0);
   if (!has_warm_noise_)
     add("noise over temperature", tails_.temperature_gain - feigned_.warmth, 1.0);
@@ -155,7 +152,7 @@ void SetSearcher::leave_to_tails(const Scenario& set, Arima111<double>& fitted) 
 
 void SetSearcher::add_tails(FoundSet& found) const {
   const auto law = law_of(found.scenario, conditions_.interval_s());
-  if (tails_.turns > 0.0)
+  if (slips(found.scenario))
     for (auto& effect : found.scenario.effects)
       if (effect.id() == "noise_averaging") {
         // Of a clock that is behind neighbours are more alike.

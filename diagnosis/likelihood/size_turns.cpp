@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
-#include <unsupported/Eigen/FFT>
-
 #include <gyrostat/diagnosis/starts/quantile.hpp>
+#include <gyrostat/diagnosis/starts/spectral_peak.hpp>
 
 namespace gyrostat::gap {
 
@@ -21,14 +19,9 @@ double turns_of(const std::vector<std::size_t>& samples, const std::vector<doubl
     mean += std::min(s / narrow, largest) / static_cast<double>(squares.size());
   for (std::size_t k = 0; k < samples.size(); ++k)
     sizes[samples[k]] = std::min(squares[k] / narrow, largest) - mean;
-  std::vector<std::complex<double>> transform;
-  Eigen::FFT<double> fft;
-  fft.fwd(transform, sizes);
   const auto length = static_cast<double>(sizes.size());
   const auto first = static_cast<std::size_t>(slowest * length);
-  std::vector<double> power;
-  for (std::size_t k = first; k < static_cast<std::size_t>(fastest * length); ++k)
-    power.push_back(std::norm(transform[k]));
+  const auto power = powers_of(sizes, first, static_cast<std::size_t>(fastest * length));
   if (power.empty()) return 0.0;
   const auto peak = std::max_element(power.begin(), power.end());
   if (*peak < obvious * quantile(power, 0.5) / std::numbers::ln2) return 0.0;

@@ -46,30 +46,37 @@ SpectralPeak highest_peak(const Spectrum& spectrum, std::size_t widest) {
   return best;
 }
 
+std::vector<double> powers_of(const std::vector<double>& values, std::size_t first,
+                              std::size_t last) {
+  std::vector<std::complex<double>> transform;
+  Eigen::FFT<double> fft;
+  fft.fwd(transform, values);
+  std::vector<double> powers;
+  for (std::size_t k = first; k < last; ++k) powers.push_back(std::norm(transform[k]));
+  return powers;
+}
+
 double clearest_line_hz(const std::vector<double>& values, double interval_s, std::size_t around,
                         double lowest_hz) {
   constexpr std::size_t fewest = 64, padding = 4, lowest_periods = 3;
   if (values.size() < fewest) return 0.0;
   std::vector<double> padded(std::bit_ceil(padding * values.size() / 2 + 1), 0.0);
   std::copy(values.begin(), values.end(), padded.begin());
-  std::vector<std::complex<double>> transform;
-  Eigen::FFT<double> fft;
-  fft.fwd(transform, padded);
   const double length = static_cast<double>(padded.size()) / static_cast<double>(values.size());
   const double resolution_hz = 1.0 / (interval_s * static_cast<double>(padded.size()));
   const auto first = static_cast<std::size_t>(
       std::max(static_cast<double>(lowest_periods) * length, lowest_hz / resolution_hz));
   const std::size_t bins = padded.size() / 2;
+  const auto powers = powers_of(padded, 0, bins);
   const std::size_t block =
       around == 0 ? bins : static_cast<std::size_t>(static_cast<double>(around) * length);
   double best = 0.0, highest = 0.0;
-  std::vector<double> power;
   for (std::size_t from = first; from < bins; from += block) {
     // The last has as many as the others.
     const std::size_t to = std::min(from + block, bins),
                       begin = std::max(first, to - std::min(to, block));
-    power.clear();
-    for (std::size_t k = begin; k < to; ++k) power.push_back(std::norm(transform[k]));
+    const std::vector<double> power(powers.begin() + static_cast<std::ptrdiff_t>(begin),
+                                    powers.begin() + static_cast<std::ptrdiff_t>(to));
     const auto peak = std::max_element(power.begin(), power.end());
     const auto at = static_cast<std::size_t>(peak - power.begin());
     const double over = around == 0 ? *peak : *peak / std::max(quantile(power, 0.5), 1e-300);

@@ -16,6 +16,10 @@ struct SpectralPeak {
 /// Of peaks of at most `widest` bins to either side.
 SpectralPeak highest_peak(const Spectrum& spectrum, std::size_t widest = 64);
 
+/// Squares of the discrete Fourier transform of `values`, from bin `first` to before bin `last`.
+std::vector<double> powers_of(const std::vector<double>& values, std::size_t first,
+                              std::size_t last);
+
 /// Frequency of the highest line in the periodogram of `values`, to half of what their length
 /// resolves, over the median of as many resolved frequencies `around` it (0: over all alike), above
 /// `lowest_hz`; 0 where they are too few.
