@@ -12,7 +12,7 @@ namespace gyrostat::gap {
 
 double turns_of(const std::vector<std::size_t>& samples, const std::vector<double>& squares,
                 double narrow) {
-  constexpr double obvious = 40.0, fastest = 0.4, slowest = 1.0 / 512.0, largest = 9.0;
+  constexpr double obvious = 40.0, fastest = 0.3, slowest = 1.0 / 512.0, largest = 9.0;
   std::vector<double> sizes(std::bit_ceil(samples.back() + 1), 0.0);
   double mean = 0.0;
   for (const double s : squares)
