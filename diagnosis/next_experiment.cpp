@@ -52,14 +52,15 @@ double power(const Scenario& conditions, const Scenario& first, const Scenario& 
   Series imagined;
   synthesise(conditions, {seed, 0}, imagined);
   const Simulator simulator(imagined, seed, interrupt);
-  const auto a = simulator.ensemble(first, 0, replicas)[0];
-  const auto b = simulator.ensemble(second, 0, replicas)[0];
+  const auto readings = [&](const Scenario& scenario, std::uint32_t from) {
+    return simulator.ensemble(scenario, from, replicas, train_alone)[0];
+  };
+  const auto a = readings(first, 0), b = readings(second, 0);
   const Ensemble yardstick(simulator.instrument(Part::train), a, {});
   double right = 0.0;
-  for (std::size_t k = 0; k < replicas; ++k) {
-    const auto number = static_cast<std::uint32_t>(1000 + k);
-    for (const bool is_first : {true, false}) {
-      const auto seen = simulator.readings(simulator.replica(is_first ? first : second, number))[0];
+  for (const bool is_first : {true, false}) {
+    const auto imagined_readings = readings(is_first ? first : second, 1000);
+    for (const auto& seen : imagined_readings.colwise()) {
       const Scoring scoring(yardstick, seen);
       const double gain = scoring.of(a).value - scoring.of(b).value;
       right += (gain > 0.0) == is_first ? 1.0 : 0.0;

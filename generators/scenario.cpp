@@ -108,10 +108,10 @@ void follow(const Chosen<Type>& profile, Series& series,
 void copy_without_gaps(const std::vector<double>& from, std::vector<double>& to) {
   const auto is_there = [](double value) { return !std::isnan(value); };
   const auto first = std::find_if(from.begin(), from.end(), is_there);
-  to.resize(first == from.end() ? 0 : from.size());
-  if (to.empty()) return;
+  if (first == from.end()) return to.clear();
+  to = from;
   double last = *first;
-  for (std::size_t i = 0; i < to.size(); ++i) to[i] = last = is_there(from[i]) ? from[i] : last;
+  for (double& value : to) last = value = is_there(value) ? value : last;
 }
 
 void copy_gaps(const std::vector<double>& from, std::vector<double>& to) {
