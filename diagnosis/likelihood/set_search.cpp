@@ -121,6 +121,7 @@ Standing SetSearcher::concluded(Standing standing, FoundSet& found) {
 FoundSet SetSearcher::described(Standing standing, FoundSet found) {
   searched_ = found;
   tell("looking for what has no name", 1);
+  found.scenario = standing.scenario;
   found.score = standing.score;
   found.gain = standing.score - begun_.score;
   found.unexplained = unexplained_by(conditions_, *standing.fitter, standing.scenario);
@@ -132,7 +133,6 @@ FoundSet SetSearcher::described(Standing standing, FoundSet found) {
   });
   add_nameless_tails(found);
   found.screening = screening_;
-  found.scenario = standing.scenario;
   found.intervals = bench_.intervals_of(standing);
   place_threshold(found);
   if (!is_coarse_) end_ = standing;

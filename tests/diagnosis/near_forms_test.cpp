@@ -214,6 +214,7 @@ TEST(NearForms, LinesBetweenTheSamplesOfAnotherClockAreAnAverage) {
     const Found found(recorded(s, 84, false));
     ASSERT_EQ(found.names(), std::set<std::string>{"noise_averaging"}) << slip;
     EXPECT_NEAR(found.first<effects::NoiseAveraging>().slip, slip, 1e-4);
+    for (const auto& left : found.set.unexplained) EXPECT_GT(left.p_value, 1e-4) << left.what;
   }
 }
 
