@@ -1,5 +1,6 @@
 #include <gyrostat/generators/sampled_low_pass.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -15,13 +16,16 @@ std::vector<double> autocovariance_of(const LowPassSystem& filter, std::size_t l
   both.topLeftCorner(order, order) = -filter.A;
   both.topRightCorner(order, order) = filter.b * filter.b.transpose();
   both.bottomRightCorner(order, order) = filter.A.transpose();
-  const Eigen::MatrixXd over = matrix_exponential(both);
-  const Eigen::MatrixXd transition = over.bottomRightCorner(order, order).transpose();
+  // Over a part of an interval in which no pole forgets much: -A grows as A decays.
+  const int halvings = std::max(0, std::ilogb(filter.A.cwiseAbs().rowwise().sum().maxCoeff()) + 1);
+  const Eigen::MatrixXd over = matrix_exponential(both * std::ldexp(1.0, -halvings));
+  Eigen::MatrixXd transition = over.bottomRightCorner(order, order).transpose();
   Eigen::MatrixXd covariance = transition * over.topRightCorner(order, order), power = transition;
   // Sums of twice as many intervals at a time.
   for (int doubling = 0; doubling < 40; ++doubling) {
     covariance += (power * covariance * power.transpose()).eval();
     power = (power * power).eval();
+    if (doubling < halvings) transition = power;
   }
   Eigen::VectorXd row = covariance.col(filter.output);
   std::vector<double> all;

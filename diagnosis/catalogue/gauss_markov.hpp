@@ -7,7 +7,7 @@
 
 namespace gyrostat::gap {
 
-/// A decaying error of one memory.
+/// A decaying error of one memory, or of two that are nearly one.
 template <>
 struct Diagnosed<effects::GaussMarkov> {
   static constexpr auto signature = Signature::none;
@@ -16,13 +16,24 @@ struct Diagnosed<effects::GaussMarkov> {
 
   static std::vector<effects::GaussMarkov> guesses(const Beside& beside) {
     std::vector<effects::GaussMarkov> all;
-    for (const double memory_s : beside.memories_s())
-      all.push_back({0.7 * beside.slow_std_dps(), memory_s});
+    for (const double order : {1.0, 2.0})
+      for (const double memory_s : beside.memories_s())
+        all.push_back({0.7 * beside.slow_std_dps(), memory_s, order});
     return all;
   }
 
+  static std::vector<effects::GaussMarkov> told_otherwise(const effects::GaussMarkov& effect,
+                                                          const Conditions& /*conditions*/) {
+    return {{effect.std_dps, effect.correlation_time_s, 3.0 - effect.order}};
+  }
+
   static void enter(const effects::GaussMarkov& effect, NoiseLaw& law) {
-    law.decaying.push_back({effect.std_dps * effect.std_dps, effect.correlation_time_s});
+    const double variance = effect.std_dps * effect.std_dps, memory_s = effect.time_constant_s();
+    if (!effect.is_of_second_order()) return law.decaying.push_back({variance, memory_s});
+    // A difference of two that decay at nearly one pace.
+    constexpr double apart = 1.2, square = apart * apart;
+    law.decaying.push_back({variance * square / (square - 1.0), memory_s * apart});
+    law.decaying.push_back({-variance / (square - 1.0), memory_s / apart});
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }

@@ -9,7 +9,8 @@
 
 namespace gyrostat::gap {
 
-/// A stationary error whose autocovariance decays exponentially.
+/// A stationary error whose autocovariance decays exponentially. One whose variance is below 0
+/// takes from the one before it.
 struct Decaying {
   double variance;  ///< dps²
   double memory_s;

@@ -33,8 +33,12 @@ Bands bands_of(const NoiseLaw& law, double cluster_s) {
   bands.slow.walk = std::exchange(bands.fast.walk, 0.0);
   bands.slow.jumps = std::exchange(bands.fast.jumps, std::nullopt);
   bands.fast.decaying.clear();
-  for (const auto& d : law.decaying)
-    (d.memory_s < shortest_memory * cluster_s ? bands.fast : bands.slow).decaying.push_back(d);
+  NoiseLaw* band = nullptr;
+  for (const auto& d : law.decaying) {
+    if (band == nullptr || d.variance >= 0.0)
+      band = d.memory_s < shortest_memory * cluster_s ? &bands.fast : &bands.slow;
+    band->decaying.push_back(d);
+  }
   return bands;
 }
 

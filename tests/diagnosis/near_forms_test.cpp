@@ -117,6 +117,18 @@ TEST(NearForms, AGaussMarkovProcessOfFewSamplesIsOne) {
             (std::set<std::string>{"gauss_markov", "noise_bandwidth"}));
 }
 
+/// It had no name, or steps, settling and an angle's errors stood in for it.
+TEST(NearForms, AProcessOfSecondOrderIsAGaussMarkovProcess) {
+  Scenario s = still();
+  s.effects = {effects::GaussMarkov{.std_dps = 0.03, .correlation_time_s = 8.0, .order = 2.0}};
+  const Found found(recorded(s, 85, false));
+  ASSERT_EQ(found.names(), std::set<std::string>{"gauss_markov"});
+  const auto& process = found.first<effects::GaussMarkov>();
+  EXPECT_EQ(process.order, 2.0);
+  // Some 600 s hold 75 correlation times: 5 standard errors.
+  EXPECT_NEAR(process.std_dps / 0.03, 1.0, 5.0 / std::sqrt(2.0 * 75.0));
+}
+
 /// Of the element, and noise comes after: steps and bursts stood in for it.
 TEST(NearForms, ALimitOnOneSideIsOneEffect) {
   Scenario s = moving();

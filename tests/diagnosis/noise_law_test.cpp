@@ -89,6 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
         Effect(effects::NoiseAveraging{.length = 1.7, .stages = 2.0}),
         Effect(effects::AngleQuantization{.coefficient_deg = 0.003}),
         Effect(effects::GaussMarkov{.std_dps = 0.05, .correlation_time_s = 1.0}),
+        Effect(effects::GaussMarkov{.std_dps = 0.05, .correlation_time_s = 1.0, .order = 2.0}),
         Effect(effects::BiasInstability{.coefficient_dps = 0.03}),
         Effect(effects::Telegraph{.amplitude_dps = 0.05, .mean_dwell_s = 1.5}),
         Effect(effects::Vibration{.std_dps = 0.05, .centre_hz = 4.0, .bandwidth_hz = 0.8}),

@@ -44,6 +44,23 @@ TEST(GaussMarkov, HasItsVarianceAndExponentialCorrelationAtUnevenTimes) {
                            [](double lag) { return 0.04 * std::exp(-lag / 4.0); });
 }
 
+TEST(GaussMarkov, OfSecondOrderIsSmoothAtUnevenTimes) {
+  const effects::GaussMarkov effect{.std_dps = 0.2, .correlation_time_s = 4.0, .order = 2.0};
+  const double T = effect.time_constant_s();
+  expect_stationary_normal(
+      effect, [&](double lag) { return 0.04 * (1.0 + lag / T) * std::exp(-lag / T); });
+}
+
+TEST(GaussMarkov, OfSecondOrderForgetsNothingOverManyShortIntervals) {
+  const effects::GaussMarkov effect{.std_dps = 1.0, .correlation_time_s = 2.0, .order = 2.0};
+  const auto draw = [&](std::uint32_t trial) {
+    return added(effect, even_times(201, 100.0), trial);
+  };
+  const double rho = std::exp(-1.0);
+  EXPECT_NEAR(mean_product(draw, trials, 0, 200), rho, 5.0 * std::sqrt((1.0 + rho * rho) / trials));
+  EXPECT_NEAR(mean_product(draw, trials, 200, 200), 1.0, 5.0 * std::sqrt(2.0 / trials));
+}
+
 TEST(GaussMarkov, ForgetsNothingOverManyShortIntervals) {
   const effects::GaussMarkov effect{.std_dps = 1.0, .correlation_time_s = 2.0};
   const auto draw = [&](std::uint32_t trial) {

@@ -24,6 +24,8 @@ std::string write_gazebo(const ModelSheet& sheet) {
       correlation_s = bias->correlation_time_s;
       drive = radians * bias->std_dps * std::sqrt(2.0 / correlation_s);
       remarks.emplace_back("Its one dynamic bias is gauss_markov; the walk K finds no place.");
+      if (bias->is_of_second_order())
+        remarks.emplace_back("It is of first order there, and of second order was found.");
     }
     if (const auto* grid = effect.as<effects::Quantization>()) precision = radians * grid->lsb_dps;
   }

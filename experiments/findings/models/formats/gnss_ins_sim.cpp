@@ -23,6 +23,8 @@ std::string write_gnss_ins_sim(const ModelSheet& sheet) {
       correlation_s = bias->correlation_time_s;
       stability = radians * bias->std_dps;
       remarks.emplace_back("Its one drifting bias is gauss_markov; the walk K finds no place.");
+      if (bias->is_of_second_order())
+        remarks.emplace_back("It is of first order there, and of second order was found.");
     }
   const auto of_each = [](const char* key, double value, const char* unit) {
     return fmt::format("    '{0}': np.array([{1:.9e}, {1:.9e}, {1:.9e}]),  # {2}\n", key, value,
