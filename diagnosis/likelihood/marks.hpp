@@ -20,6 +20,7 @@ struct Marks {
   double stale_probability = 0.0;  ///< chance that a repeat begins at a sample; 0: no repeats
   double stale_run = 1.0;          ///< mean length of a repeat
   bool stale_is_regular = false;   ///< whether repeats begin at even distances
+  std::size_t stale_back = 1;      ///< how many samples old what is repeated is
   bool repeats_are_told = true;    ///< from neighbours that are equal by chance
   double limit_dps = 0.0;          ///< beyond which the output is clipped; 0: none is
   double below_dps = 0.0;          ///< as far below zero; 0: as above

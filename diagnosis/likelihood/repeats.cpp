@@ -98,25 +98,25 @@ bool come_regularly(const Conditions& conditions, const std::vector<char>& flags
   return squares / count - mean * mean < alike * alike * mean * mean;
 }
 
-}  // namespace
-
+/// Those that are as old; none for older ones where a grid makes values equal.
 void read_repeats(const Simulator& simulator, const std::vector<double>& z, const Ends& ends,
-                  Marks& marks) {
+                  std::size_t back, Marks& marks) {
   const auto is_silent = [&](std::size_t i) {
     return !marks.silent.samples.empty() && z[i] == 0.0;
   };
   double equal = 0.0, twice = 0.0, count = 0.0;
   std::vector<double> differences;
   for (const auto& span : simulator.conditions().spans(Part::train))
-    for (std::size_t i = span.first + 2; i < span.last; ++i) {
+    for (std::size_t i = span.first + back + 1; i < span.last; ++i) {
       count += 1.0;
-      differences.push_back(z[i] - z[i - 1]);
+      differences.push_back(z[i] - z[i - back]);
       // What is clipped is not repeated.
-      if (z[i] != z[i - 1] || ends.holds(z[i]) || is_silent(i)) continue;
+      if (z[i] != z[i - back] || ends.holds(z[i]) || is_silent(i)) continue;
       equal += 1.0;
-      if (z[i - 1] == z[i - 2]) twice += 1.0;
+      if (z[i - 1] == z[i - 1 - back]) twice += 1.0;
     }
   const double grid = marks.lsb_dps > 0.0 ? marks.lsb_dps : step_of_moved_grid(differences);
+  if (back > 1 && grid > 0.0) return;
   double by_chance = 0.0;
   if (grid > 0.0)
     by_chance = equal_by_chance(differences, grid);
@@ -132,7 +132,8 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
   // So many pairs say that there are none, too.
   constexpr double enough_pairs = 1000.0;
   const auto apart =
-      kept_apart_by_motion(simulator.conditions(), z, marks, simulator.resolution_dps());
+      back > 1 ? Apart{}
+               : kept_apart_by_motion(simulator.conditions(), z, marks, simulator.resolution_dps());
   if (apart.pairs >= enough_pairs || apart.shows_repeats()) {
     marks.turns_through_grid = apart.pairs > 0.5 * count;
     by_chance = apart.by_chance / apart.pairs * count;
@@ -160,9 +161,19 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
     return ends.holds(z[i]) &&
            (reference.empty() || std::abs(reference[i]) > std::abs(z[i]) - apart.far_dps);
   };
-  for (std::size_t i = 1; i < z.size(); ++i)
-    marks.repeats[i] = z[i] == z[i - 1] && !is_clipped(i) && !is_silent(i) && is_told(i) ? 1 : 0;
+  for (std::size_t i = back; i < z.size(); ++i)
+    marks.repeats[i] = z[i] == z[i - back] && !is_clipped(i) && !is_silent(i) && is_told(i) ? 1 : 0;
+  marks.stale_back = back;
   marks.stale_is_regular = come_regularly(simulator.conditions(), marks.repeats);
+}
+
+}  // namespace
+
+void read_repeats(const Simulator& simulator, const std::vector<double>& values, const Ends& ends,
+                  Marks& marks) {
+  constexpr std::size_t oldest = 4;
+  for (std::size_t back = 1; back <= oldest && marks.repeats.empty(); ++back)
+    read_repeats(simulator, values, ends, back, marks);
 }
 
 }  // namespace gyrostat::gap

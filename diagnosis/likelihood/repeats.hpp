@@ -12,8 +12,8 @@ struct Ends {
   bool holds(double value) const { return value == low || value == high; }
 };
 
-/// Which of the values repeat the one before, beyond what chance and the grid do: beside the marks
-/// of grid, limits and silence. Without such values nothing is changed.
+/// Which of the values repeat the one before, or one that is a few samples older, beyond what chance
+/// and the grid do: beside the marks of grid, limits and silence. Without such values nothing is changed.
 void read_repeats(const Simulator& simulator, const std::vector<double>& values, const Ends& ends,
                   Marks& marks);
 

@@ -73,7 +73,8 @@ std::vector<Effect> SetSearcher::read_off(const Marks& marks, FoundSet& found) {
   if (marks.stale_probability > 0.0 && bench_.is_allowed("stale_samples")) {
     add(with_values("stale_samples", {{"probability", marks.stale_probability},
                                       {"mean_run", marks.stale_run},
-                                      {"regular", marks.stale_is_regular ? 1.0 : 0.0}}));
+                                      {"regular", marks.stale_is_regular ? 1.0 : 0.0},
+                                      {"back", static_cast<double>(marks.stale_back)}}));
     bench_.mask_too(marks.repeats);
   }
   if (marks.limit_dps > 0.0 && bench_.is_allowed("saturation")) {

@@ -14,11 +14,13 @@ namespace gyrostat::effects {
 /// The recorder repeats its last value where a new one came too late. Repeats last a geometric
 /// number of samples and a fresh one follows each, so that the share of repeated samples is p m /
 /// (1 + p m) with p = probability and m = mean run. Or they come at even distances, as where the
-/// sensor's clock is slower than the recorder's: each 1 / p + m samples one begins.
+/// sensor's clock is slower than the recorder's: each 1 / p + m samples one begins. A buffer of
+/// several places may hold an older value than the last.
 struct StaleSamples {
   double probability = 0.01;
   double mean_run = 1.0;
   double regular = 0.0;
+  double back = 1.0;
 
   static constexpr std::string_view title = "values are repeated";
   static constexpr Stage stage = Stage::transport;
@@ -33,6 +35,8 @@ struct StaleSamples {
               "mean length of a repeat"},
         Field{"regular", &P::regular, "1", Range{.from = 0, .to = 1, .whole = true},
               "1: repeats begin at even distances; 0: by chance"},
+        Field{"back", &P::back, "samples", Range{.from = 1, .to = 64, .whole = true},
+              "how old the repeated value is"},
     };
   }
 
@@ -51,9 +55,10 @@ struct StaleSamples {
       return regular > 0.5 ? round_of(i) > round_of(i - 1) : begins.uniform(i) < probability;
     };
     bool stale = false;
+    const auto age = static_cast<std::size_t>(back);
     for (std::size_t i = 1, n = samples_with(series, needs); i < n; ++i) {
       stale = stale ? goes_on.uniform(i) < 1.0 - 1.0 / mean_run : is_begun(i);
-      if (stale) series.gyro_dps[i] = series.gyro_dps[i - 1];
+      if (stale && i >= age) series.gyro_dps[i] = series.gyro_dps[i - age];
     }
   }
 };

@@ -169,6 +169,20 @@ TEST(Marks, RepeatsMayFollowOneAnother) {
   EXPECT_LT(marks_in(even).stale_run, 1.01);
 }
 
+/// A buffer of two places whose other one is sent: outliers and lines stood in for these.
+TEST(Marks, AnOlderValueThanTheLastIsARepeat) {
+  Scenario s = still();
+  s.effects = {effects::StaleSamples{.probability = 0.02, .back = 2.0}};
+  const auto series = recorded(s, 45, false);
+  const auto marks = marks_in(series);
+  EXPECT_EQ(marks.stale_back, 2);
+  EXPECT_NEAR(marks.stale_probability, 0.02, 5.0 * std::sqrt(0.02 / 18000.0));
+  const Simulator simulator(series, 1);
+  const auto found = find_set(simulator, series, {});
+  ASSERT_EQ(found.members.size(), 1);
+  EXPECT_EQ(found.members[0].effect, "stale_samples");
+}
+
 /// A sensor whose clock is slower than the recorder's: a repeat each 1 / p + 1 samples, and between
 /// them no two samples are 16 away from any. By chance, distances spread as far as their mean: of
 /// hundreds, never a third of it.
