@@ -59,7 +59,8 @@ std::vector<Dial> dials_of(const Scenario& scenario) {
         continue;
       const auto value = [k, f](Scenario& s) -> double& { return s.effects[k].value(f); };
       const double start = effect.value(f);
-      if (start == 0.0 && field.range.from == 0.0) continue;  // of another form
+      const bool may_be_below = field.range.from < 0.0 && cause.signature != Signature::slow;
+      if (start == 0.0 && !may_be_below) continue;  // of another form
       double largest = 1e-12;
       for (std::size_t g = 0; g < effect.fields().size(); ++g)
         if (effect.fields()[g].unit == field.unit)

@@ -9,6 +9,23 @@ namespace {
 
 constexpr double most_odds = 1e4;
 
+/// A curve that is nearly as likely as the slow noise in whose place it stands, the likeliest:
+/// beside another one it may be likelier. nullptr: there is none.
+const Standing* curve_for(const Standing& standing, const Effect& noise,
+                          const std::vector<Standing>& others) {
+  constexpr double nearly = 15.0;
+  if (band_of(noise.id()) != EffectBand::slow ||
+      cause_types().named(noise.id(), "effects").signature != Signature::none)
+    return nullptr;
+  const Standing* best = nullptr;
+  for (const auto& other : others) {
+    if (other.score <= (best == nullptr ? standing.score - nearly : best->score)) continue;
+    const auto id = other.scenario.effects.back().id();
+    if (cause_types().named(id, "effects").signature == Signature::slow) best = &other;
+  }
+  return best;
+}
+
 }  // namespace
 
 Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
@@ -72,7 +89,16 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
         standing.fit.scenario.effects = effects;
         best = &rest;
       }
-      if (best->score > standing.score + 0.1) {
+      const bool is_better = best->score > standing.score + 0.1;
+      if (const auto* curve = is_better ? nullptr : curve_for(standing, effect, others)) {
+        if (auto several = searched(*curve); several.score > standing.score + 0.1) {
+          standing = std::move(several);
+          swapped = ++exchanges < 2 * options_.most_effects;
+          break;
+        }
+        put_back();
+      }
+      if (is_better) {
         standing = searched(*best);
         // A name is worth what a response without one has to gain.
         const double least =

@@ -104,7 +104,10 @@ SetFitter::Regressors SetFitter::regressors_of(const Scenario& scenario) const {
   for (const auto& effect : scenario.effects) {
     const auto* cause = cause_types().find(effect.id());
     if (cause == nullptr || cause->signature != Signature::slow) continue;
-    const bool is_fixed = cause->free_parameters.size() == cause->amplitudes;
+    const bool is_fixed =
+        std::all_of(cause->free_parameters.begin() + static_cast<std::ptrdiff_t>(cause->amplitudes),
+                    cause->free_parameters.end(),
+                    [&](auto name) { return effect.value(field_of(effect, name)) == 0.0; });
     const auto amplitudes = amplitudes_of(effect, *cause);
     for (const auto unit : amplitudes) {
       Effect one = effect;

@@ -129,6 +129,18 @@ TEST(NearForms, AProcessOfSecondOrderIsAGaussMarkovProcess) {
   EXPECT_NEAR(process.std_dps / 0.03, 1.0, 5.0 / std::sqrt(2.0 * 75.0));
 }
 
+/// Of two slopes: steps of the bias and a memory stood in for them.
+TEST(NearForms, AKinkOverTemperatureIsACurvature) {
+  Scenario s = still();
+  s.effects = {effects::ThermalCurvature{
+      .curvature_dps_per_C2 = 0.0, .kink_dps_per_C = 0.004, .kink_C = 33.0}};
+  const Found found(recorded(s, 86, false));
+  ASSERT_EQ(found.names(), std::set<std::string>{"thermal_curvature"});
+  const auto& kink = found.first<effects::ThermalCurvature>();
+  EXPECT_EQ(kink.curvature_dps_per_C2, 0.0);
+  EXPECT_NEAR(kink.kink_C, 33.0, 1.5);
+}
+
 /// Of the element, and noise comes after: steps and bursts stood in for it.
 TEST(NearForms, ALimitOnOneSideIsOneEffect) {
   Scenario s = moving();

@@ -50,6 +50,15 @@ TEST(ThermalCurvature, AddsACubicAboutTheSameReference) {
   EXPECT_DOUBLE_EQ(bias[2], 0.03);
 }
 
+TEST(ThermalCurvature, HasAKink) {
+  const auto bias = drift(
+      ThermalCurvature{.curvature_dps_per_C2 = 0.0, .kink_dps_per_C = -0.02, .kink_C = 40.0},
+      {10.0, 40.0, 50.0});
+  EXPECT_EQ(bias[0], 0.0);
+  EXPECT_EQ(bias[1], 0.0);
+  EXPECT_DOUBLE_EQ(bias[2], -0.2);
+}
+
 TEST(EmpiricalMean, GoesStraightFromKnotToKnotAndStaysBeyond) {
   const auto bias = drift(effects::EmpiricalMeanOverTemperature{.from = 20.0,
                                                                 .span = 40.0,
