@@ -17,7 +17,7 @@ namespace gyrostat::gap {
 
 /// Rates beyond a limit are cut; limits above the fastest rate cut nothing. A limit of the output
 /// is read off its values, so that what the likelihood finds is one of the sensing element, at once
-/// or bent into, on both sides or on one.
+/// or bent into, on both sides, alike or not, or on one.
 template <>
 struct Diagnosed<effects::Saturation> {
   static constexpr auto signature = Signature::repeated;
@@ -31,6 +31,11 @@ struct Diagnosed<effects::Saturation> {
                            &effects::Saturation::limit_dps, 0.05 * fastest_dps(e.conditions()),
                            1.02 * fastest_dps(e.conditions())));
     all.push_back({.limit_dps = mean_of_fastest_dps(e), .of_element = 1.0});
+    // What is clipped with its bias has, beside the bias, two limits.
+    for (const std::size_t alike : {std::size_t{0}, all.size() - 1}) {
+      all.push_back(all[alike]);
+      all.back().below_dps = all.back().limit_dps;
+    }
     // On one side alone.
     const double fastest = fastest_dps(e.conditions()), never = 2.0 * fastest;
     using Limit = effects::Saturation;

@@ -141,6 +141,19 @@ TEST(NearForms, AKinkOverTemperatureIsACurvature) {
   EXPECT_NEAR(kink.kink_C, 33.0, 1.5);
 }
 
+/// Clipped with its bias of 0.25 dps, and noise comes after: without the bias, the limits differ by
+/// twice as much. Telegraph noise and steps stood in for it.
+TEST(NearForms, LimitsOfBothSidesNeedNotBeAlike) {
+  Scenario s = moving();
+  s.effects = {effects::Saturation{.limit_dps = 69.75, .of_element = 1.0, .below_dps = 70.25}};
+  const Found found(recorded(s, 88, true));
+  ASSERT_EQ(found.names(), std::set<std::string>{"saturation"});
+  const auto& limit = found.first<effects::Saturation>();
+  // Of 14,400 samples of the train part a sixth are at each limit: 5 standard errors.
+  EXPECT_NEAR(limit.limit_dps, 69.75, 5.0 * 0.05 / std::sqrt(2400.0));
+  EXPECT_NEAR(limit.below_dps, 70.25, 5.0 * 0.05 / std::sqrt(2400.0));
+}
+
 /// Of the element, and noise comes after: steps and bursts stood in for it.
 TEST(NearForms, ALimitOnOneSideIsOneEffect) {
   Scenario s = moving();
