@@ -14,17 +14,16 @@ struct Diagnosed<effects::GaussMarkov> {
   static constexpr std::array free_parameters = {&effects::GaussMarkov::std_dps,
                                                  &effects::GaussMarkov::correlation_time_s};
 
+  static std::size_t chosen_parameters(const effects::GaussMarkov& effect) {
+    return std::size_t{effect.is_of_second_order()};
+  }
+
   static std::vector<effects::GaussMarkov> guesses(const Beside& beside) {
     std::vector<effects::GaussMarkov> all;
     for (const double order : {1.0, 2.0})
       for (const double memory_s : beside.memories_s())
         all.push_back({0.7 * beside.slow_std_dps(), memory_s, order});
     return all;
-  }
-
-  static std::vector<effects::GaussMarkov> told_otherwise(const effects::GaussMarkov& effect,
-                                                          const Conditions& /*conditions*/) {
-    return {{effect.std_dps, effect.correlation_time_s, 3.0 - effect.order}};
   }
 
   static void enter(const effects::GaussMarkov& effect, NoiseLaw& law) {
