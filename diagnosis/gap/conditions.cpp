@@ -133,11 +133,12 @@ void Conditions::find_spans() {
 }
 
 void Conditions::find_drift() {
+  constexpr double least_C = 0.02;
   const bool regress =
       has_temperature() &&
       *std::max_element(slow_temperature_C_.begin(), slow_temperature_C_.end()) -
               *std::min_element(slow_temperature_C_.begin(), slow_temperature_C_.end()) >
-          0.5;
+          least_C;
   drift_regressors_ =
       Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(slow_size()), regress ? 4 : 1);
   for (std::size_t i = 0; regress && i < slow_size(); ++i) {

@@ -129,6 +129,16 @@ TEST(NearForms, AProcessOfSecondOrderIsAGaussMarkovProcess) {
   EXPECT_NEAR(process.std_dps / 0.03, 1.0, 5.0 / std::sqrt(2.0 * 75.0));
 }
 
+/// What a third of a degree moves the bias by is the baseline's own drift: a ramp, or the memory of
+/// a slow error, stood in for it.
+TEST(NearForms, TheDriftOfARoomIsNoEffect) {
+  Scenario s = still();
+  s.temperature = temperature::QuietRoom{.start_C = 25.0, .end_C = 25.3};
+  s.random_error.delta1_dps = s.random_error.delta2_dps = 1e-6;
+  s.thermal_drift.a_dps_per_C = 0.15;
+  EXPECT_EQ(Found(recorded(s, 89, false)).names(), std::set<std::string>{});
+}
+
 /// Of two slopes: steps of the bias and a memory stood in for them.
 TEST(NearForms, AKinkOverTemperatureIsACurvature) {
   Scenario s = still();
