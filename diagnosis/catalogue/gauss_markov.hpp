@@ -38,6 +38,11 @@ struct Diagnosed<effects::GaussMarkov> {
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
   static bool is_what_it_is_called(const effects::GaussMarkov& effect, const Conditions& c) {
+    // One that is smooth all along a recording is any curve.
+    constexpr double least_memories = 3.0;
+    const double duration_s = c.interval_s() * static_cast<double>(c.size());
+    if (effect.is_of_second_order() && effect.correlation_time_s * least_memories > duration_s)
+      return false;
     // What forgets as fast as a filter of the noise does must be seen by means of clusters.
     constexpr double fewest_means = 2.0;
     return is_slow(effect.correlation_time_s, c) ||

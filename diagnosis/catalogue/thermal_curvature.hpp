@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
 #include <gyrostat/generators/effects/thermal_curvature.hpp>
@@ -31,9 +33,14 @@ struct Diagnosed<effects::ThermalCurvature> {
 
   static std::string why_not_assessable(const Conditions& c) { return needs::warming(c); }
 
-  static bool is_what_it_is_called(const effects::ThermalCurvature& /*effect*/,
-                                   const Conditions& /*c*/) {
-    return true;
+  /// Beyond a kink there is a slope on either side.
+  static bool is_what_it_is_called(const effects::ThermalCurvature& effect, const Conditions& c) {
+    if (effect.kink_dps_per_C == 0.0) return true;
+    const auto& T = c.slow_temperature_C();
+    const auto [low, high] = std::minmax_element(T.begin(), T.end());
+    const double at = (effect.kink_C - *low) / (*high - *low);
+    constexpr double edge = 0.08;
+    return at > edge && at < 1.0 - edge;
   }
 };
 
