@@ -30,6 +30,9 @@ constexpr std::array short_names = {
     ShortName{"temperature", "temperature_C"},
     ShortName{"heading", "heading_deg"},
     ShortName{"rate_ref", "rate_ref_dps"},
+    ShortName{"rate_ref_x", "rate_ref_x_dps"},
+    ShortName{"rate_ref_y", "rate_ref_y_dps"},
+    ShortName{"rate_ref_z", "rate_ref_z_dps"},
     ShortName{"acc_x", "acc_x_mps2"},
     ShortName{"acc_y", "acc_y_mps2"},
     ShortName{"acc_z", "acc_z_mps2"},
@@ -52,7 +55,7 @@ std::string standard_name(const std::string& channel, const std::string& place) 
 
 /// The quantity of a standard column.
 std::string_view quantity_of(std::string_view standard) {
-  if (standard.starts_with("gyro_")) return "dps";
+  if (standard.starts_with("gyro_") || standard.starts_with("rate_ref_")) return "dps";
   const auto channel = std::ranges::find(channels, standard, &Channel::name);
   return channel == channels.end() ? std::string_view() : channel->unit;
 }
@@ -150,7 +153,9 @@ const Unit* unit_of(const FileColumn& column, const std::string& wanted,
 std::vector<std::string> standard_columns() {
   Names names;
   for (const auto& channel : channels) names.emplace_back(channel.name);
-  for (const char* gyro : {"gyro_x_dps", "gyro_y_dps", "gyro_z_dps"}) names.emplace_back(gyro);
+  for (const char* of_axis : {"gyro_x_dps", "gyro_y_dps", "gyro_z_dps", "rate_ref_x_dps",
+                              "rate_ref_y_dps", "rate_ref_z_dps"})
+    names.emplace_back(of_axis);
   return names;
 }
 

@@ -74,18 +74,23 @@ std::string_view turned_about(std::string_view axis, const Names& names) {
   return "";
 }
 
-/// The column of a channel: of the gyro that of its axis, of the rates about the other axes theirs
-/// where they have none of their own.
+std::string reference_name(std::string_view axis) { return fmt::format("rate_ref_{}_dps", axis); }
+
+/// The column of a channel: of the gyro and of its reference that of its axis, of the rates about
+/// the other axes theirs where they have none of their own, by the reference or else by the gyro.
 std::string column_of(const Channel& channel, const std::string& axis, const Names& names) {
   if (channel.name == "gyro_dps") return gyro_name(axis);
   const std::size_t steps = channel.name == "cross_rate_1_dps"   ? 1
                             : channel.name == "cross_rate_2_dps" ? 2
                                                                  : 0;
+  const bool is_reference = channel.name == "rate_ref_dps";
   const auto about = turned_about(axis, names);
-  if (steps == 0 || about.empty() || contains(names, channel.name))
+  if ((steps == 0 && !is_reference) || about.empty() || contains(names, channel.name))
     return std::string(channel.name);
   constexpr std::string_view cycle = "xyzxy";
-  return gyro_name(cycle.substr(cycle.find(about) + steps, 1));
+  const auto of_axis = cycle.substr(cycle.find(about) + steps, 1);
+  if (const auto reference = reference_name(of_axis); contains(names, reference)) return reference;
+  return is_reference ? std::string(channel.name) : gyro_name(of_axis);
 }
 
 /// Times since 1970 become those since the first sample, which a double holds to the nanosecond.

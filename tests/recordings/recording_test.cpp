@@ -171,6 +171,19 @@ TEST(Recording, AGyroBesideThoseOfOtherAxesTurnsAboutTheOneThatIsLeft) {
   EXPECT_THAT(alone.cross_rate_1_dps, IsEmpty());
 }
 
+/// A table of three axes: each gyro has its own reference, and across it turn the others'.
+TEST(Recording, EachAxisHasItsOwnReference) {
+  const Folder folder;
+  const auto path = folder.file("a.csv",
+                                "t_s,gyro_x_dps,gyro_y_dps,gyro_z_dps,rate_ref_x_dps,"
+                                "rate_ref_y_dps,rate_ref_z_dps\n0,1,2,3,10,20,30\n");
+  const auto y = read_recording(path, "y").series;
+  EXPECT_THAT(y.gyro_dps, ElementsAre(2));
+  EXPECT_THAT(y.rate_ref_dps, ElementsAre(20));
+  EXPECT_THAT(y.cross_rate_1_dps, ElementsAre(30));
+  EXPECT_THAT(y.cross_rate_2_dps, ElementsAre(10));
+}
+
 TEST(Recording, RatesAboutTheOtherAxesOfTheirOwnComeFirst) {
   const Folder folder;
   const auto series =
