@@ -66,9 +66,12 @@ void CompassBench::shift_beside(const std::vector<Effect>& set) {
 }
 
 double CompassBench::cost(const Effect& effect) const {
-  return prior +
-         cost_of_a_value_ * static_cast<double>(
-                                cause_types().named(effect.id(), "effects").free_parameters.size());
+  const auto& cause = cause_types().named(effect.id(), "effects");
+  // Bursts are seen in means of clusters.
+  const double value = effect.id() == "magnetic_bursts"
+                           ? 0.5 * std::log(static_cast<double>(conditions_.slow_size()))
+                           : cost_of_a_value_;
+  return prior + value * static_cast<double>(cause.free_parameters.size());
 }
 
 std::vector<Effect> CompassBench::starts(const CauseType& cause,
