@@ -93,7 +93,11 @@ void SetSearcher::judge_tails(const Standing& standing) {
   const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
   has_outliers_ = bench_.is_allowed("outliers") && !slips(standing.scenario) &&
                   tails_.outlier_gain > prior_of_sizes + 2.0 * value + 4.0 + feigned_.tails;
+  // Of noise that is next to nothing beside its rounding, no size is known.
+  constexpr double next_to_nothing = 0.03;
+  const auto law = law_of(standing.scenario, conditions_.interval_s());
   has_warm_noise_ = bench_.is_allowed("noise_temperature") &&
+                    law.white > next_to_nothing * law.rounding &&
                     tails_.temperature_gain > prior_of_sizes + value + feigned_.warmth;
 }
 
