@@ -7,6 +7,7 @@
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/hidden_line.hpp>
 #include <gyrostat/diagnosis/likelihood/response_left.hpp>
+#include <gyrostat/generators/effects/gauss_markov.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -173,13 +174,21 @@ Standing SetSearcher::best_from(const Standing& standing, std::vector<Standing> 
 Standing SetSearcher::beside_memory(const Standing& standing) const {
   if (standing.scenario.random_error.phi != 0.0) return {};
   Standing best = bench_.beside_memory(standing);
-  Scenario plain = standing.scenario;
-  std::erase_if(plain.effects, [&](const auto& effect) {
-    return !bench_.is_marked(effect.id()) && band_of(effect.id()) == EffectBand::fast;
-  });
-  if (plain.effects.size() < standing.scenario.effects.size())
+  const auto try_without = [&](const auto& is_in_its_place) {
+    Scenario plain = standing.scenario;
+    std::erase_if(plain.effects, [&](const auto& effect) {
+      return !bench_.is_marked(effect.id()) && is_in_its_place(effect);
+    });
+    if (plain.effects.size() == standing.scenario.effects.size()) return;
     if (auto other = bench_.beside_memory(bench_.refitted(plain)); other.score > best.score)
       best = std::move(other);
+  };
+  try_without([](const Effect& effect) { return band_of(effect.id()) == EffectBand::fast; });
+  // A walk whose steps remember one another is smooth, too.
+  try_without([](const Effect& effect) {
+    const auto* process = effect.as<effects::GaussMarkov>();
+    return process != nullptr && process->is_of_second_order();
+  });
   return best;
 }
 
