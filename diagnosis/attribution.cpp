@@ -182,12 +182,14 @@ void Diagnosing::see_what_is_left() {
   const Ensemble enriched(simulator_.instrument(Part::train), rungs_.back().replicas[0], {});
   result_.p_after = enriched.p_value(observed_[0]);
   result_.where_after = departures_of(enriched);
+  p_beside_compass_ = enriched.p_value_without("heading_deg", observed_[0]);
 }
 
 bool Diagnosing::is_left_in_the_compass_alone() const {
   const auto& where = result_.where_after;
-  return !where.empty() && std::all_of(where.begin(), where.end(),
-                                       [](const auto& w) { return w.channel == "heading_deg"; });
+  return result_.p_after < thresholds::departure && p_beside_compass_ >= thresholds::departure &&
+         std::all_of(where.begin(), where.end(),
+                     [](const auto& w) { return w.channel == "heading_deg"; });
 }
 
 bool Diagnosing::only_the_compass_is_left() const {

@@ -106,6 +106,7 @@ class Diagnosing {
   std::unique_ptr<Ensemble> train_, held_out_;
   std::unique_ptr<Scoring> scoring_, held_out_scoring_;
   ReplicaReadings baseline_replicas_;
+  double p_beside_compass_ = 1.0;  ///< of all that the set leaves but in the heading
   bool has_searched_ = false;
   std::string looking_ = "looking for effects";
   FoundSet found_;

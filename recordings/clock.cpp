@@ -95,15 +95,15 @@ std::vector<double> at_ticks(const std::vector<double>& from, const Ticks& ticks
                              const Channel& channel) {
   std::vector<double> to(ticks.back() + std::size_t{1}, no_value);
   for (std::size_t i = 0; i < from.size();) {
-    double sum = 0.0;
+    double sum = 0.0, last = 0.0;
     std::size_t count = 0, k = i;
     for (; k < from.size() && ticks[k] == ticks[i]; ++k)
       if (!std::isnan(from[k])) {
-        sum += from[k];
+        sum += last = from[k];
         ++count;
       }
-    if (count == 1 || (count > 0 && channel.values == &Series::heading_deg))
-      sum = from[k - 1];
+    if (count == 1 || channel.values == &Series::heading_deg)
+      sum = last;
     else if (count > 0)
       sum /= static_cast<double>(count);
     if (channel.values == &Series::mag_valid && count > 0) sum = std::round(sum);

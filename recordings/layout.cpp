@@ -38,6 +38,9 @@ constexpr std::array short_names = {
     ShortName{"acc_z", "acc_z_mps2"},
     ShortName{"cross_rate_1", "cross_rate_1_dps"},
     ShortName{"cross_rate_2", "cross_rate_2_dps"},
+    ShortName{"mag_x", "mag_x_uT"},
+    ShortName{"mag_y", "mag_y_uT"},
+    ShortName{"mag_z", "mag_z_uT"},
 };
 
 /// The standard name of the column of a channel.
@@ -153,8 +156,9 @@ const Unit* unit_of(const FileColumn& column, const std::string& wanted,
 std::vector<std::string> standard_columns() {
   Names names;
   for (const auto& channel : channels) names.emplace_back(channel.name);
-  for (const char* of_axis : {"gyro_x_dps", "gyro_y_dps", "gyro_z_dps", "rate_ref_x_dps",
-                              "rate_ref_y_dps", "rate_ref_z_dps"})
+  for (const char* of_axis :
+       {"gyro_x_dps", "gyro_y_dps", "gyro_z_dps", "rate_ref_x_dps", "rate_ref_y_dps",
+        "rate_ref_z_dps", "mag_x_uT", "mag_y_uT", "mag_z_uT"})
     names.emplace_back(of_axis);
   return names;
 }

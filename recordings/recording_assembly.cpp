@@ -133,6 +133,13 @@ RecordingAssembly::RecordingAssembly(const CsvHeader& header, std::string file,
     if (place_of(channel) < names_.size() && is_wanted && !has_clock)
       targets_[place_of(channel)] = &(recording_.series.*channel.values);
   }
+  const auto& heading = recording_.series.heading_deg;
+  if (std::ranges::find(targets_, &heading) == targets_.end()) return;
+  constexpr std::array field_columns = {"mag_x_uT", "mag_y_uT", "mag_z_uT"};
+  for (std::size_t i = 0; i < names_.size(); ++i)
+    if (const auto* found = std::ranges::find(field_columns, names_[i]);
+        found != field_columns.end())
+      targets_[i] = &field_[static_cast<std::size_t>(found - field_columns.begin())];
 }
 
 std::size_t RecordingAssembly::place_of(const Channel& channel) const {
@@ -168,6 +175,9 @@ Recording RecordingAssembly::finished(bool calendar_times) && {
                      fmt::format("column '{}' is blank throughout; required: a gyro signal",
                                  gyro_name(recording_.axis)));
   count_from_the_first(series.t_s, recording_);
+  if (const auto repeats = leave_out_repeats(series.heading_deg, field_); repeats > 0)
+    recording_.notes.push_back(fmt::format(
+        "heading_deg: {} values repeat the compass' last reading and are left out", repeats));
   return std::move(recording_);
 }
 

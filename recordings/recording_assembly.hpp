@@ -7,6 +7,7 @@
 
 #include <gyrostat/recordings/csv_header.hpp>
 #include <gyrostat/recordings/recording.hpp>
+#include <gyrostat/recordings/repeated_heading.hpp>
 
 namespace gyrostat {
 
@@ -36,6 +37,7 @@ class RecordingAssembly {
   std::vector<FileColumn> columns_;
   std::vector<std::string> names_;  ///< standard ones
   Recording recording_;
+  MagneticField field_;
   Targets targets_;
   double rate_hz_;
 };

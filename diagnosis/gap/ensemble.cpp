@@ -165,9 +165,11 @@ Eigen::VectorXd Ensemble::lens_deviations(const Eigen::VectorXd& z) const {
   return t;
 }
 
-double Ensemble::least_probability(const Eigen::VectorXd& z, const std::vector<Tail>& tails) const {
+double Ensemble::least_probability(const Eigen::VectorXd& z, const std::vector<Tail>& tails,
+                                   std::string_view without) const {
   double least = 1.0;
   for (std::size_t l = 0; l < lenses_.size(); ++l) {
+    if (lenses_[l].channel == without) continue;
     const auto& tail = tails[l];
     const double off = std::log(mean_square(z, lenses_[l])) - tail.centre;
     const double beyond =
@@ -179,9 +181,9 @@ double Ensemble::least_probability(const Eigen::VectorXd& z, const std::vector<T
   return least;
 }
 
-double Ensemble::p_value(const Eigen::VectorXd& readings) const {
+double Ensemble::p_value_without(std::string_view channel, const Eigen::VectorXd& readings) const {
   const double least = least_probability(
-      deviations(readings + made_up(replica_least_.size()) - mean_made_up_), tails_);
+      deviations(readings + made_up(replica_least_.size()) - mean_made_up_), tails_, channel);
   const auto below = std::upper_bound(replica_least_.begin(), replica_least_.end(), least) -
                      replica_least_.begin();
   const double n = static_cast<double>(replica_least_.size());

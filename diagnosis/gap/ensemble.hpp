@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include <gyrostat/diagnosis/gap/instrument.hpp>
@@ -41,7 +42,9 @@ class Ensemble {
   /// deviation are held against the other replicas' (log-normal above, chi-squared of no more
   /// degrees than readings below, and Gumbel, by moments); the least of these probabilities is
   /// ranked among the replicas' own least ones, and beyond them goes on in proportion.
-  double p_value(const Eigen::VectorXd& readings) const;
+  double p_value(const Eigen::VectorXd& readings) const { return p_value_without({}, readings); }
+  /// As far off in any lens but those of one channel, among lenses of every one.
+  double p_value_without(std::string_view channel, const Eigen::VectorXd& readings) const;
   /// Readings that leave the spread with a family-wise probability below `level`.
   std::vector<Departure> departures(const Eigen::VectorXd& readings, double level) const;
   /// Deviations decorrelated within each lens, by the shrunk covariance of the replicas.
@@ -53,7 +56,9 @@ class Ensemble {
   };
   /// What a column of readings lacks of the credited spread, drawn.
   Eigen::VectorXd made_up(std::uint64_t column) const;
-  double least_probability(const Eigen::VectorXd& deviations, const std::vector<Tail>& tails) const;
+  /// In lenses of any channel but one.
+  double least_probability(const Eigen::VectorXd& deviations, const std::vector<Tail>& tails,
+                           std::string_view without = {}) const;
   double log_mean_square(const Eigen::VectorXd& deviations, const LensView& lens) const;
 
   std::vector<LensView> lenses_;

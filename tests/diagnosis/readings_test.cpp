@@ -293,6 +293,26 @@ TEST(Ensemble, ReadingsNearTheMeanAreAsOddAsChiSquaredHasIt) {
   EXPECT_LT(ensemble.p_value(recording), 0.01);
 }
 
+/// A recording that is a replica but in its heading is odd by that alone.
+TEST(Ensemble, TellsWhatIsOddInOneChannelAlone) {
+  const Conditions conditions(rich());
+  const Instrument instrument(conditions, Part::train);
+  constexpr Eigen::Index replicas = 50;
+  Eigen::MatrixXd readings(instrument.size(), replicas);
+  for (Eigen::Index k = 0; k < replicas; ++k) {
+    const auto noise = white(static_cast<std::size_t>(instrument.size()), std::to_string(k));
+    readings.col(k) = Eigen::Map<const Eigen::VectorXd>(noise.data(), instrument.size());
+  }
+  const Ensemble ensemble(instrument, readings, {});
+  Eigen::VectorXd recording = readings.col(0);
+  const auto typical = ensemble.p_value(recording);
+  EXPECT_GE(ensemble.p_value_without("heading_deg", recording), typical);
+  for (const auto& lens : instrument.lenses())
+    if (lens.channel == "heading_deg") recording.segment(lens.first, lens.count) *= 10.0;
+  EXPECT_LT(ensemble.p_value(recording), 1e-3);
+  EXPECT_GE(ensemble.p_value_without("heading_deg", recording), typical);
+}
+
 /// A hundred samples of ten times the noise are outliers where they are scattered, and none where
 /// they come ten in a row.
 TEST(Tails, AreOfWhatComesOneByOne) {

@@ -441,9 +441,9 @@ TEST_P(RealRecording, IsReadWhole) {
 INSTANTIATE_TEST_SUITE_P(Each, RealRecording,
                          testing::Values(Real{"mtig_static_a", "", 200'000, 0, true},
                                          Real{"adis16405_static_1", "z", 360'000, 0, true},
-                                         Real{"mpu6050_static", "z", 65'067, 1, true},
-                                         Real{"mpu6050_static_bursty", "z", 65'067, 1, false},
-                                         Real{"mpu6050_turning", "z", 2'393, 1, false},
+                                         Real{"mpu6050_static", "z", 65'067, 16'429, true},
+                                         Real{"mpu6050_static_bursty", "z", 65'067, 16'429, false},
+                                         Real{"mpu6050_turning", "z", 2'393, 604, false},
                                          Real{"cubesat_cooldown", "x", 6'250, 0, false}),
                          [](const auto& instance) { return instance.param.name; });
 
