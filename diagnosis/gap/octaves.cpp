@@ -42,7 +42,8 @@ std::vector<Octave> octaves(const std::vector<double>& values, std::span<const S
       }
     centre /= static_cast<double>(std::max<std::size_t>(present, 1));
     for (std::size_t level = 0; level < levels && means.size() > 1; ++level) {
-      auto& at = sums[level];
+      auto at = sums[level];
+      std::size_t count = 0;
       double level_square = 0.0, level_fourth = 0.0;
       for (std::size_t i = 0; i < means.size(); ++i) {
         const double d = means[i] - centre;
@@ -55,11 +56,13 @@ std::vector<Octave> octaves(const std::vector<double>& values, std::span<const S
         at.square += square;
         at.fourth += square * square;
         at.peak = std::max(at.peak, square);
-        ++result[level].count;
+        ++count;
       }
       at.level += static_cast<double>(means.size());
       at.level_square += level_square;
       at.level_fourth += level_fourth;
+      sums[level] = at;
+      result[level].count += count;
       for (std::size_t i = 0; i + 1 < means.size(); i += 2)
         means[i / 2] = 0.5 * (means[i] + means[i + 1]);
       means.resize(means.size() / 2);

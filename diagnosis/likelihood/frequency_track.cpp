@@ -15,8 +15,9 @@ constexpr double half_way = 4.0 / (std::numbers::pi * std::numbers::pi);
 double bell(double x, double std) { return std::exp(-0.5 * (x / std) * (x / std)); }
 
 /// Of a sine with such a power over the noise's: Rice's density over the exponential one.
-double log_ratio(double seen, double power) {
-  return log_bessel_i0(2.0 * std::sqrt(seen * power)) - power;
+Scaled ratio(double seen, double power) {
+  const auto bessel = bessel_i0(2.0 * std::sqrt(seen * power));
+  return {bessel.factor, bessel.exponent - power};
 }
 
 }  // namespace
@@ -69,22 +70,28 @@ template <class Visit>
 double FrequencyTrack::forward(const std::vector<std::vector<double>>& span,
                                const std::vector<double>& power, const Visit& visit) const {
   double sum = 0.0;
-  std::vector<double> states, before, ratios(first_.size());
+  std::vector<double> states, before;
+  std::vector<Scaled> ratios(first_.size());
   for (const auto& powers : span) {
     states = states.empty() ? first_ : moved(states);
     before = states;
     if (!powers.empty()) {
       double most = -1e300;
-      for (std::size_t s = 0; s < states.size(); ++s) {
+      Scaled half_below{};
+      for (std::size_t s = 0; s < states.size(); s += 2) {
         const std::size_t k = s / 2;
-        ratios[s] = s % 2 == 0 ? log_ratio(powers[k], power[k])
-                               : log_ratio(powers[k], half_way * power[k]) +
-                                     log_ratio(powers[k + 1], half_way * power[k + 1]);
-        most = std::max(most, ratios[s]);
+        ratios[s] = ratio(powers[k], power[k]);
+        const auto half = ratio(powers[k], half_way * power[k]);
+        if (s > 0) {
+          ratios[s - 1] = {half_below.factor * half.factor, half_below.exponent + half.exponent};
+          most = std::max(most, ratios[s - 1].exponent);
+        }
+        most = std::max(most, ratios[s].exponent);
+        half_below = half;
       }
       double total = 0.0;
       for (std::size_t s = 0; s < states.size(); ++s)
-        total += states[s] *= std::exp(ratios[s] - most);
+        total += states[s] *= ratios[s].factor * std::exp(ratios[s].exponent - most);
       for (double& p : states) p /= total;
       sum += most + std::log(total);
     }

@@ -77,12 +77,35 @@ std::vector<double> gain_of_white(const NoiseLaw& law, const Angles& angles) {
   return gain;
 }
 
-std::vector<double> density_of(const NoiseLaw& given, const Angles& angles) {
+namespace {
+
+void take_parts(const NoiseLaw& law, const Angles& angles, DensityParts& parts) {
+  if (parts.gain_of_white.size() != angles.cosines.size() || law.filter != parts.filter ||
+      law.averaging != parts.averaging)
+    parts.gain_of_white = gain_of_white(law, angles);
+  parts.filter = law.filter;
+  parts.averaging = law.averaging;
+  parts.of_lines.resize(law.wandering.size());
+  for (std::size_t l = 0; l < law.wandering.size(); ++l)
+    if (l >= parts.lines.size() || law.wandering[l] != parts.lines[l])
+      parts.of_lines[l] = density_of(law.wandering[l], angles.cosines.size(), law.interval_s);
+  parts.lines = law.wandering;
+}
+
+}  // namespace
+
+std::vector<double> density_of(const NoiseLaw& law, const Angles& angles) {
+  DensityParts parts;
+  return density_of(law, angles, parts);
+}
+
+std::vector<double> density_of(const NoiseLaw& given, const Angles& angles, DensityParts& parts) {
   const NoiseLaw law = given.without_jumps();
+  take_parts(law, angles, parts);
   const double step = law.walk * law.interval_s;
   const auto& cosines = angles.cosines;
   const std::size_t bins = cosines.size();
-  const auto gain = gain_of_white(law, angles);
+  const auto& gain = parts.gain_of_white;
   std::vector<double> density(bins, law.rounding);
   for (std::size_t k = 0; k < bins; ++k) {
     density[k] += law.white * std::max(gain[k], 1e-9) + law.angle * (1.0 - cosines[k]);
@@ -106,10 +129,8 @@ std::vector<double> density_of(const NoiseLaw& given, const Angles& angles) {
                     (poisson_kernel(a, in_phase + across) + poisson_kernel(a, in_phase - across));
     }
   }
-  for (const auto& line : law.wandering) {
-    const auto of_line = density_of(line, bins, law.interval_s);
+  for (const auto& of_line : parts.of_lines)
     for (std::size_t k = 0; k < bins; ++k) density[k] += of_line[k];
-  }
   for (double& d : density) d *= 2.0 * law.interval_s;
   return density;
 }

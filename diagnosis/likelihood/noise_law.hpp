@@ -54,7 +54,18 @@ struct NoiseLaw {
 /// Of what passes the law's filter and its averaging, as a share of its density.
 std::vector<double> gain_of_white(const NoiseLaw& law, const Angles& angles);
 
+/// What of a density takes long, and what it is of.
+struct DensityParts {
+  std::optional<effects::NoiseBandwidth> filter{};
+  std::vector<double> averaging{}, gain_of_white{};
+  std::vector<effects::WanderingLine> lines{};
+  std::vector<std::vector<double>> of_lines{};
+};
+
 /// One-sided density, dps²/Hz, as a periodogram with these bins shows it.
 std::vector<double> density_of(const NoiseLaw& law, const Angles& angles);
+/// The same; what `parts`, of a law at the same bins and interval, has of it is taken from there.
+/// They are then those of this law.
+std::vector<double> density_of(const NoiseLaw& law, const Angles& angles, DensityParts& parts);
 
 }  // namespace gyrostat::gap

@@ -96,11 +96,13 @@ double fast_ratio(const ReducedRate& reduced, const NoiseLaw& law) {
   return sum / bins;
 }
 
-RateBands rate_bands(const ReducedRate& reduced, const NoiseLaw& law) {
+RateBands rate_bands(const ReducedRate& reduced, const NoiseLaw& law, DensityParts near) {
   const double interval_s = law.interval_s * std::round(reduced.cluster_s() / law.interval_s);
   const auto bands = bands_of(law, interval_s);
-  auto density = density_of(bands.fast, reduced.grid().angles());
-  RateBands found{.slow = slow_law_of(reduced, bands.slow, density, interval_s), .fast = {}};
+  auto density = density_of(bands.fast, reduced.grid().angles(), near);
+  RateBands found{.slow = slow_law_of(reduced, bands.slow, density, interval_s),
+                  .fast = {},
+                  .parts = std::move(near)};
   const auto& seen = reduced.periodogram();
   if (seen.empty()) return found;
   const auto slow_density = density_of(bands.slow, reduced.grid().angles());

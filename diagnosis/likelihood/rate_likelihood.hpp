@@ -17,8 +17,10 @@ struct FastTerms {
 struct RateBands {
   SlowLaw slow;  ///< of cluster means
   FastTerms fast;
+  DensityParts parts;  ///< of what is fast
 };
-RateBands rate_bands(const ReducedRate& reduced, const NoiseLaw& law);
+/// `near` are parts of the bands of another law of the same recording.
+RateBands rate_bands(const ReducedRate& reduced, const NoiseLaw& law, DensityParts near = {});
 
 /// How likely the train part of a recording is under a law of the noise, with the terms that a
 /// Fisher score needs: cluster means by an exact likelihood, faster frequencies by Whittle's.

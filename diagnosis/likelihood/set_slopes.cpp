@@ -37,7 +37,7 @@ SetFitter::Slopes SetFitter::slopes_of(const Scenario& scenario, const std::vect
     auto& there = each[d];
     there.scenario = scenario;
     dials[d].set(there.scenario, dials[d].get(scenario) + step);
-    there.bands = rate_bands(*reduced_, law_for(there.scenario, jumping));
+    there.bands = rate_bands(*reduced_, law_for(there.scenario, jumping), here.bands.parts);
     there.moves_regressors = dials[d].place && has_slow_signature(scenario, dials[d].place->effect);
     there.is_slow = there.moves_regressors || !there.bands.slow.remembers_as(here.bands.slow);
   });

@@ -55,6 +55,7 @@ struct NoiseBandwidth {
   }
 
   static constexpr int most_poles = 8;
+  bool operator==(const NoiseBandwidth&) const = default;
   static constexpr NoiseBandwidth absent() { return {.cutoff_hz = 1e9}; }
 
   void apply(Series& series, const Noise& noise) const {
@@ -82,9 +83,10 @@ struct NoiseBandwidth {
       if (cutoff_hz * interval_s >= 0.5) return;
       const double edge = std::tan(std::numbers::pi * cutoff_hz * interval_s);
       for (std::size_t k = 0; k < gain.size(); ++k) {
-        const double bent = std::tan(0.5 * angles[k]) / edge;
-        gain[k] *= damping_ratio > 0.0 ? second_order_gain(bent * bent, damping_ratio)
-                                       : 1.0 / (1.0 + std::pow(bent, 2.0 * poles));
+        // The square of the tangent of half the angle; beyond 1e12 nothing passes.
+        const double bent = (1.0 - cosines[k]) / (std::max(1.0 + cosines[k], 1e-12) * edge * edge);
+        gain[k] *= damping_ratio > 0.0 ? second_order_gain(bent, damping_ratio)
+                                       : 1.0 / (1.0 + to_the_poles(bent));
       }
       return;
     }
@@ -92,14 +94,21 @@ struct NoiseBandwidth {
     for (std::size_t k = 0; k < gain.size(); ++k) {
       const double of_one =
           (1.0 - pole) * (1.0 - pole) / (1.0 - 2.0 * pole * cosines[k] + pole * pole);
-      gain[k] *= poles == 1.0 ? of_one : std::pow(of_one, poles);
+      gain[k] *= to_the_poles(of_one);
     }
   }
 
  private:
+  std::size_t count() const {
+    return static_cast<std::size_t>(std::clamp(std::lround(poles), 1L, long{most_poles}));
+  }
+  double to_the_poles(double x) const {
+    double power = x;
+    for (std::size_t k = 1; k < count(); ++k) power *= x;
+    return power;
+  }
+
   void pass(Series& series, std::size_t samples) const {
-    const auto count =
-        static_cast<std::size_t>(std::clamp(std::lround(poles), 1L, long{most_poles}));
     const auto filter = [&](auto&& passed) {
       for (std::size_t i = 0; i < samples; ++i) {
         const double white = error_beside_drift(series, i);
@@ -116,16 +125,17 @@ struct NoiseBandwidth {
     }
     if (damping_ratio > 0.0 || maximally_flat > 0.5) {
       auto sections = damping_ratio > 0.0 ? Butterworth::damped(cycles, damping_ratio)
-                                          : Butterworth(cycles, count);
+                                          : Butterworth(cycles, count());
       filter([&](std::size_t /*i*/, double white) { return sections(white); });
       return;
     }
     Decay decay(0.5 / (std::numbers::pi * cutoff_hz));
     std::array<double, most_poles> filtered{};
+    const std::size_t poles_of_all = count();
     filter([&](std::size_t i, double white) {
       const std::size_t to = std::max<std::size_t>(i, 1);
       const double pole = decay.over(series.t_s[to] - series.t_s[to - 1]);
-      for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t k = 0; k < poles_of_all; ++k)
         white = filtered[k] = i == 0 ? white * std::sqrt((1.0 - pole) / (1.0 + pole))
                                      : pole * filtered[k] + (1.0 - pole) * white;
       return white;

@@ -51,6 +51,7 @@ struct WanderingLine {
     return std::exp(-radians * radians * spread);
   }
 
+  bool operator==(const WanderingLine&) const = default;
   static constexpr WanderingLine absent() { return {.amplitude_dps = 0.0}; }
 
   void apply(Series& series, const Noise& noise) const {

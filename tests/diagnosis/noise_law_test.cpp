@@ -52,6 +52,32 @@ TEST_P(Density, IsWhatTheGeneratorMakes) {
   }
 }
 
+/// A density that takes over what another law has of it is the one that is made anew.
+TEST(DensityParts, AreTakenOverOnlyWhereTheyAreTheSame) {
+  const Angles angles(length / 2 + 1);
+  NoiseLaw law{.interval_s = 1.0 / rate_hz, .white = 0.01};
+  law.filter = effects::NoiseBandwidth{.cutoff_hz = 4.0, .poles = 3.0};
+  law.averaging = {0.75, 0.125};
+  law.wandering = {{.frequency_hz = 3.0}, {.frequency_hz = 5.0}};
+  DensityParts parts;
+  EXPECT_EQ(density_of(law, angles, parts), density_of(law, angles));
+  const auto first = parts;
+  const auto differs = [&](const auto& change) {
+    auto other = law;
+    change(other);
+    auto near = first;
+    EXPECT_EQ(density_of(other, angles, near), density_of(other, angles));
+    EXPECT_NE(density_of(other, angles), density_of(law, angles));
+  };
+  differs([](NoiseLaw& l) { l.white = 0.02; });
+  differs([](NoiseLaw& l) { l.filter->cutoff_hz = 4.1; });
+  differs([](NoiseLaw& l) { l.filter.reset(); });
+  differs([](NoiseLaw& l) { l.averaging = {0.7, 0.15}; });
+  differs([](NoiseLaw& l) { l.wandering[1].wander_hz = 0.1; });
+  differs([](NoiseLaw& l) { l.wandering.pop_back(); });
+  differs([](NoiseLaw& l) { l.wandering.push_back({.frequency_hz = 7.0}); });
+}
+
 /// The walk and the decaying error that an ARIMA(1,1,1) is taken apart into have its spectrum, and
 /// make it again.
 TEST(ArimaLaw, IsTheSpectrumOfTheModel) {
