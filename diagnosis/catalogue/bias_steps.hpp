@@ -28,10 +28,11 @@ struct Diagnosed<effects::BiasSteps> {
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
-  /// What jumps every few seconds, or by degrees a second, is the sensor in motion; what would not
-  /// have jumped once has not.
+  /// What jumps every second or two, or by degrees, is the sensor in motion, and what does so every
+  /// few seconds beside one is left of that; what would not have jumped once has not.
   static bool is_what_it_is_called(const effects::BiasSteps& effect, const Conditions& c) {
-    constexpr double least_wait_s = 5.0, largest_dps = 5.0, fewest_steps = 0.2;
+    constexpr double largest_dps = 5.0, fewest_steps = 0.2;
+    const double least_wait_s = c.has_motion() ? 5.0 : 2.5;
     const double hours = c.interval_s() * static_cast<double>(c.size()) / 3600.0;
     return effect.steps_per_hour * hours >= fewest_steps &&
            effect.steps_per_hour * least_wait_s <= 3600.0 && effect.std_dps <= largest_dps;
