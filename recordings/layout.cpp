@@ -156,10 +156,10 @@ const Unit* unit_of(const FileColumn& column, const std::string& wanted,
 std::vector<std::string> standard_columns() {
   Names names;
   for (const auto& channel : channels) names.emplace_back(channel.name);
-  for (const char* of_axis :
-       {"gyro_x_dps", "gyro_y_dps", "gyro_z_dps", "rate_ref_x_dps", "rate_ref_y_dps",
-        "rate_ref_z_dps", "mag_x_uT", "mag_y_uT", "mag_z_uT"})
+  for (const char* of_axis : {"gyro_x_dps", "gyro_y_dps", "gyro_z_dps", "rate_ref_x_dps",
+                              "rate_ref_y_dps", "rate_ref_z_dps"})
     names.emplace_back(of_axis);
+  names.insert(names.end(), field_columns.begin(), field_columns.end());
   return names;
 }
 

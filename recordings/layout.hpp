@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 #include <string>
@@ -47,6 +48,9 @@ struct FileColumn {
 std::vector<FileColumn> under_layout(std::span<const std::string> names,
                                      std::span<const std::string> units,
                                      const RecordingLayout& layout, const std::string& header);
+
+/// Of the magnetometer, which tells whether a heading is a new reading.
+inline constexpr std::array field_columns = {"mag_x_uT", "mag_y_uT", "mag_z_uT"};
 
 /// Every standard name of a column.
 std::vector<std::string> standard_columns();

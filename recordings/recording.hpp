@@ -17,7 +17,7 @@ struct ColumnTable;
 
 struct Recording {
   Series series;
-  std::vector<std::string> ignored_columns;  ///< in the file's order, unknown to `channels`
+  std::vector<std::string> ignored_columns;  ///< in the file's order, of no standard name
   std::string axis;                          ///< "x", "y" or "z"; empty for a column `gyro_dps`
   std::vector<std::string> taken_as;  ///< "Time as t_s in ms": what a layout made of which column
   std::size_t first_row = 2;          ///< line of sample 0; 0 in a file without lines

@@ -135,7 +135,6 @@ RecordingAssembly::RecordingAssembly(const CsvHeader& header, std::string file,
   }
   const auto& heading = recording_.series.heading_deg;
   if (std::ranges::find(targets_, &heading) == targets_.end()) return;
-  constexpr std::array field_columns = {"mag_x_uT", "mag_y_uT", "mag_z_uT"};
   for (std::size_t i = 0; i < names_.size(); ++i)
     if (const auto* found = std::ranges::find(field_columns, names_[i]);
         found != field_columns.end())

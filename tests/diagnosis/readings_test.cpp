@@ -239,6 +239,16 @@ TEST(Exceedances, HardlyMoveWithTheLevelOnACoarseGrid) {
   for (std::size_t k = 0; k < on.size(); ++k) EXPECT_NEAR(on[k], between[k], 2.5) << k;
 }
 
+/// A column of white noise for each replica.
+Eigen::MatrixXd white_readings(const Instrument& instrument, Eigen::Index replicas) {
+  Eigen::MatrixXd readings(instrument.size(), replicas);
+  for (Eigen::Index k = 0; k < replicas; ++k) {
+    const auto noise = white(static_cast<std::size_t>(instrument.size()), std::to_string(k));
+    readings.col(k) = Eigen::Map<const Eigen::VectorXd>(noise.data(), instrument.size());
+  }
+  return readings;
+}
+
 /// What all replicas read alike has the least spread that its lens credits it with: a recording
 /// that differs by half of that is none that the simulator could not make, and one that differs by
 /// a hundred of them is.
@@ -246,11 +256,7 @@ TEST(Ensemble, CreditsAReadingThatNeverVariesWithItsLeastSpread) {
   const Conditions conditions(rich());
   const Instrument instrument(conditions, Part::train);
   constexpr Eigen::Index replicas = 50;
-  Eigen::MatrixXd readings(instrument.size(), replicas);
-  for (Eigen::Index k = 0; k < replicas; ++k) {
-    const auto noise = white(static_cast<std::size_t>(instrument.size()), std::to_string(k));
-    readings.col(k) = Eigen::Map<const Eigen::VectorXd>(noise.data(), instrument.size());
-  }
+  Eigen::MatrixXd readings = white_readings(instrument, replicas);
   const auto& lenses = instrument.lenses();
   const auto lattice = std::find_if(lenses.begin(), lenses.end(),
                                     [](const auto& lens) { return lens.id == "lattice"; });
@@ -274,11 +280,7 @@ TEST(Ensemble, ReadingsNearTheMeanAreAsOddAsChiSquaredHasIt) {
   const Conditions conditions(rich());
   const Instrument instrument(conditions, Part::train);
   constexpr Eigen::Index replicas = 32;
-  Eigen::MatrixXd readings(instrument.size(), replicas + 1);
-  for (Eigen::Index k = 0; k <= replicas; ++k) {
-    const auto noise = white(static_cast<std::size_t>(instrument.size()), std::to_string(k));
-    readings.col(k) = Eigen::Map<const Eigen::VectorXd>(noise.data(), instrument.size());
-  }
+  const Eigen::MatrixXd readings = white_readings(instrument, replicas + 1);
   const auto& lenses = instrument.lenses();
   const auto eight =
       std::find_if(lenses.begin(), lenses.end(), [](const auto& lens) { return lens.count == 8; });
@@ -298,11 +300,7 @@ TEST(Ensemble, TellsWhatIsOddInOneChannelAlone) {
   const Conditions conditions(rich());
   const Instrument instrument(conditions, Part::train);
   constexpr Eigen::Index replicas = 50;
-  Eigen::MatrixXd readings(instrument.size(), replicas);
-  for (Eigen::Index k = 0; k < replicas; ++k) {
-    const auto noise = white(static_cast<std::size_t>(instrument.size()), std::to_string(k));
-    readings.col(k) = Eigen::Map<const Eigen::VectorXd>(noise.data(), instrument.size());
-  }
+  const Eigen::MatrixXd readings = white_readings(instrument, replicas);
   const Ensemble ensemble(instrument, readings, {});
   Eigen::VectorXd recording = readings.col(0);
   const auto typical = ensemble.p_value(recording);
