@@ -126,6 +126,16 @@ std::string answer(const Diagnosis& d) {
       what_was_held_out_in_words(d));
 }
 
+std::string transient_in_words(const Diagnosis& d) {
+  if (!d.transient) return "";
+  const auto& once = *d.transient;
+  return fmt::format(
+      "Between {:.2f} and {:.2f} s, and at no other time, it swings at {:.3g} Hz ({:.2g} dps rms; "
+      "p "
+      "{}): look what happened then, or leave that out.",
+      once.from_s, once.to_s, once.frequency_hz, once.rms_dps, chance_in_words(once.p_value));
+}
+
 std::string remainder_in_words(const Diagnosis& d) {
   if (d.remainder.parts.empty()) return "";
   std::vector<std::string> words;

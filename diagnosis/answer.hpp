@@ -15,6 +15,9 @@ struct Diagnosis;
 /// What came out, in one sentence that needs no statistics.
 std::string answer(const Diagnosis& diagnosis);
 
+/// When it did what it never did before or after; empty where nothing is beyond chance.
+std::string transient_in_words(const Diagnosis& diagnosis);
+
 /// How much of the gap what has no name closes; empty where nothing.
 std::string remainder_in_words(const Diagnosis& diagnosis);
 

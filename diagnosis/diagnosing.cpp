@@ -18,6 +18,15 @@ namespace {
 
 constexpr std::size_t transfer_replicas = 6;
 
+std::optional<Transient> clearest_of(const std::array<std::optional<Transient>, 2>& parts) {
+  std::optional<Transient> clearest;
+  for (const auto& transient : parts)
+    if (transient && transient->p_value < thresholds::p_of_the_unexplained &&
+        (!clearest || transient->p_value < clearest->p_value))
+      clearest = transient;
+  return clearest;
+}
+
 }  // namespace
 
 void Diagnosing::tell(const std::string& phase, double share, const std::string& detail) {
@@ -87,6 +96,7 @@ void Diagnosing::localise() {
   double most_odds = found_.nameless_log_odds;
   for (const auto& m : found_.members) most_odds = std::max(most_odds, m.log_odds);
   result_.unexplained = found_.unexplained;
+  result_.transient = clearest_of(found_.transients);
   result_.log_score_gained = found_.log_score_gained;
   result_.p_before =
       p_of_the_clearest(result_.p_after, p_of_the_oddest(found_.unexplained), most_odds);

@@ -65,10 +65,13 @@ class Diagnosing {
   /// Puts it in the verdict's set, once.
   void cannot_rule_out(const Verdict& verdict);
   /// What each of the set's effects is worth: their names. Where the simulator with all of them
-  /// misses the recording, its likelihood is not the recording's, and an effect that is not clear
-  /// and without which the readings of the train part are foretold as well is the form of another
-  /// one: it goes.
+  /// misses the recording, its likelihood is not the recording's, and what is needless goes.
   std::vector<std::string> weighed(std::vector<Member> members, const std::string& phase);
+  /// Those that are not clear and without which the readings of the train part are foretold as
+  /// well: one that is the form of another, or two, the last first. `whole` is then the simulator
+  /// without them; `without` are those without one each.
+  std::vector<std::size_t> needless_among(const std::vector<Member>& members,
+                                          std::vector<Rung> without, Rung& whole);
   /// Whether the search without the least clear of these effects, and without its rivals, finds a
   /// set with which the simulator does not miss the recording, as it does with all of them: it then
   /// stands. The likelihood of the noise is Gaussian, and what is nearly as likely may have another

@@ -9,6 +9,7 @@
 #include <gyrostat/core/interrupt.hpp>
 #include <gyrostat/diagnosis/likelihood/detectable.hpp>
 #include <gyrostat/diagnosis/likelihood/nameless.hpp>
+#include <gyrostat/diagnosis/likelihood/transient.hpp>
 #include <gyrostat/diagnosis/likelihood/unexplained.hpp>
 #include <gyrostat/diagnosis/line_source.hpp>
 #include <gyrostat/diagnosis/next_experiment.hpp>
@@ -95,6 +96,7 @@ struct Diagnosis {
   Scenario enriched;  ///< with every effect that was added; the baseline where none was
   std::vector<Where> where, where_after;  ///< on the train part, before and after the effects
   std::vector<Unexplained> unexplained;   ///< that the likelihood sees beside the effects
+  std::optional<Transient> transient;     ///< beside the effects, where it is beyond chance
   double gap_before = 0.0, gap_after = 0.0, closed = 0.0, closed_low = 0.0, closed_high = 0.0;
   double p_before = 1.0, p_after = 1.0;  ///< of the train part
   double p_held_out = 1.0;               ///< of the held-out part, with the effects

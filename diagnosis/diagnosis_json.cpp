@@ -136,6 +136,12 @@ Json to_json(const Diagnosis& d) {
   json["remainder"]["unexplained"] = Json::array();
   for (const auto& u : d.unexplained)
     json["remainder"]["unexplained"].push_back({{"what", u.what}, {"p", u.p_value}});
+  if (const auto& once = d.transient)
+    json["remainder"]["transient"] = {{"from_s", once->from_s},
+                                      {"to_s", once->to_s},
+                                      {"frequency_hz", once->frequency_hz},
+                                      {"rms_dps", once->rms_dps},
+                                      {"p", once->p_value}};
   json["verdict"] = d.verdict.text();
   json["verdict_set"] = Json::array();
   for (const auto& verdict : d.verdict_set) json["verdict_set"].push_back(verdict.text());

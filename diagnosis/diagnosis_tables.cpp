@@ -8,8 +8,8 @@
 namespace gyrostat::gap {
 std::string in_words(const Diagnosis& d, const std::string& name) {
   auto text = fmt::format("{}: {}", name, answer(d));
-  for (const auto& more : {in_words(d.line_sources), remainder_in_words(d), transfer_in_words(d),
-                           next_in_words(d), detectable_in_words(d)})
+  for (const auto& more : {in_words(d.line_sources), transient_in_words(d), remainder_in_words(d),
+                           transfer_in_words(d), next_in_words(d), detectable_in_words(d)})
     if (!more.empty()) text += ' ' + more;
   return text + fmt::format("\n\n{:.0f} s at {:.4g} Hz. {}\n", d.duration_s, d.rate_hz,
                             evidence_in_words(d));

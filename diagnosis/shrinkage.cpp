@@ -44,6 +44,8 @@ void Diagnosing::measure_shrinkage() {
   const auto truth = held_out(yardstick_ ? yardstick_->replicas : named);
   result_.gap_before = result_.gap_after = gap_of(before, truth);
   result_.p_held_out = Ensemble(instrument, named[1], {}).p_value(observed_[1]);
+  if (const auto& once = found_.transients[index_of(Part::held_out)])
+    result_.p_held_out = std::min(1.0, 2.0 * std::min(result_.p_held_out, once->p_value));
   if (!result_.claimed && result_.p_held_out < thresholds::p_of_the_unseen) {
     cannot_rule_out(Verdict::unknown());
     if (result_.verdict.is_none()) result_.verdict = Verdict::unknown();

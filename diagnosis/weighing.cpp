@@ -7,6 +7,15 @@
 #include <gyrostat/diagnosis/thresholds.hpp>
 
 namespace gyrostat::gap {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<Member>& members) {
+  std::vector<std::string> names;
+  for (const auto& m : members) names.push_back(m.effect);
+  return names;
+}
+
+}  // namespace
 
 /// Those of the search are of the effects under the names that it fitted them by.
 void Diagnosing::add_intervals(Included& included) const {
@@ -26,12 +35,43 @@ bool Diagnosing::is_missed_by(const Rung& rung) const {
   return enriched.p_value(observed_[0]) < thresholds::strictness_after * options_.significance;
 }
 
+/// An effect that the readings of its own channel bear out stays, whatever the others miss, and so
+/// does one that no misfit would feign. Of two wrong ones either may be needed beside the other, as
+/// a filter and what makes up for it: then both go.
+std::vector<std::size_t> Diagnosing::needless_among(const std::vector<Member>& members,
+                                                    std::vector<Rung> without, Rung& whole) {
+  std::vector<std::size_t> doubtful;
+  for (std::size_t k = members.size(); k-- > 0;)
+    if (members[k].log_odds < thresholds::odds_beyond_misfits &&
+        tempered(members[k], whole) < thresholds::clear_odds)
+      doubtful.push_back(k);
+  std::vector<std::size_t> needless;
+  double most = scoring_->of(whole.replicas[0]).value;
+  const auto may_go = [&](Rung& rest, const std::vector<std::size_t>& which) {
+    const double value = scoring_->of(rest.replicas[0]).value;
+    if (value < most) return;
+    most = value;
+    needless = which;
+    whole = std::move(rest);
+  };
+  for (const std::size_t k : doubtful) may_go(without[k], {k});
+  if (!needless.empty()) return needless;
+  for (auto k = doubtful.begin(); k != doubtful.end(); ++k)
+    for (auto l = std::next(k); l != doubtful.end(); ++l) {
+      auto others = names_of(members);
+      std::erase(others, members[*k].effect);
+      std::erase(others, members[*l].effect);
+      auto rest = rung({}, with_effects(others), lacking_replicas);
+      may_go(rest, {*k, *l});
+    }
+  return needless;
+}
+
 std::vector<std::string> Diagnosing::weighed(std::vector<Member> members,
                                              const std::string& phase) {
   auto whole = rung({}, result_.enriched, lacking_replicas);
   for (;;) {
-    std::vector<std::string> names;
-    for (const auto& m : members) names.push_back(m.effect);
+    const auto names = names_of(members);
     const auto truth = scoring_->of(whole.replicas[0]);
     std::vector<Rung> without;
     result_.effects.clear();
@@ -60,19 +100,11 @@ std::vector<std::string> Diagnosing::weighed(std::vector<Member> members,
       add_intervals(result_.effects.back());
     }
     if (members.size() < 2 || !is_missed_by(whole)) return names;
-    // An effect that the readings of its own channel bear out stays, whatever the others miss, and
-    // so does one that no misfit would feign.
-    std::ptrdiff_t at = -1;
-    for (std::size_t k = 0; k < members.size(); ++k)
-      if (const double lack = result_.effects[k].lack;
-          lack <= 0.0 && members[k].log_odds < thresholds::odds_beyond_misfits &&
-          tempered(members[k], whole) < thresholds::clear_odds &&
-          (at < 0 || lack < result_.effects[static_cast<std::size_t>(at)].lack))
-        at = static_cast<std::ptrdiff_t>(k);
-    if (at < 0) return names;
-    result_.enriched = without[static_cast<std::size_t>(at)].scenario;
-    whole = std::move(without[static_cast<std::size_t>(at)]);
-    members.erase(members.begin() + at);
+    const auto needless = needless_among(members, std::move(without), whole);
+    if (needless.empty()) return names;
+    result_.enriched = whole.scenario;
+    for (const std::size_t k : needless)
+      members.erase(members.begin() + static_cast<std::ptrdiff_t>(k));
   }
 }
 

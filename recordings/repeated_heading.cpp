@@ -81,8 +81,9 @@ Repeats beyond_chance(const std::vector<double>& heading_deg) {
 }  // namespace
 
 std::size_t leave_out_repeats(std::vector<double>& heading_deg, const MagneticField& field) {
-  const bool has_field =
-      std::ranges::none_of(field, [](const auto& component) { return component.empty(); });
+  const bool has_field = std::ranges::none_of(field, [](const auto& component) {
+    return std::ranges::all_of(component, [](double value) { return std::isnan(value); });
+  });
   const auto repeats = has_field ? at_once(field) : beyond_chance(heading_deg);
   if (count(repeats) < fewest || !are_regular(repeats)) return 0;
   std::size_t left_out = 0;

@@ -7,7 +7,7 @@
 namespace gyrostat {
 
 /// The magnetometer's components beside a heading, sample by sample, in any unit; a component that
-/// is empty has no column.
+/// is empty or missing throughout has no column.
 using MagneticField = std::array<std::vector<double>, 3>;
 
 /// Makes missing what a recorder that is faster than its compass wrote again: headings at which no

@@ -5,7 +5,9 @@
 #include <memory>
 
 #include <gyrostat/diagnosis/likelihood/compass_search.hpp>
+#include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/hidden_line.hpp>
 #include <gyrostat/diagnosis/likelihood/line_names.hpp>
 #include <gyrostat/diagnosis/likelihood/set_searcher.hpp>
 
@@ -148,6 +150,7 @@ FoundSet SetSearcher::described(Standing standing, FoundSet found) {
     for (std::size_t i = 0; i < unseen.size(); ++i)
       if (tails_.outliers[i] != 0) unseen[i] = 1;
   name_lines(bench_, standing, unseen, found);
+  look_for_transients(unseen, found);
   if (is_coarse_) {
     white_under_grid_dps_ = marks_.white_under_grid_dps;
     found.scenario.random_error.measurement_noise_std_dps = marks_.white_under_grid_dps;
@@ -162,6 +165,19 @@ FoundSet SetSearcher::described(Standing standing, FoundSet found) {
   put_in_order(found);
   if (conditions_.has_heading()) search_compass(simulator_, recording_, options_, found);
   return found;
+}
+
+void SetSearcher::look_for_transients(const std::vector<char>& hidden, FoundSet& found) const {
+  if (is_coarse_) return;  // a level that is at an edge of the grid for once comes and goes
+  std::vector<Resonance> lines;
+  for (const auto& effect : found.scenario.effects)
+    if (is_line(effect.id()) || effect.id() == "vibration_bursts")
+      lines.push_back(band_of_line(effect));
+  const auto left = bench_.rate_left_by(found.scenario, hidden);
+  for (const auto part : both_parts)
+    found.transients[index_of(part)] = clearest_transient(conditions_, part, left, lines);
+  if (const auto& transient = found.transients[index_of(Part::train)])
+    found.unexplained.push_back({"transient", transient->p_value});
 }
 
 Scenario SetSearcher::likeliest_baseline() {

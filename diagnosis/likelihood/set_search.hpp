@@ -11,6 +11,7 @@
 #include <gyrostat/diagnosis/likelihood/detectable.hpp>
 #include <gyrostat/diagnosis/likelihood/nameless.hpp>
 #include <gyrostat/diagnosis/likelihood/set_fit.hpp>
+#include <gyrostat/diagnosis/likelihood/transient.hpp>
 #include <gyrostat/diagnosis/likelihood/unexplained.hpp>
 #include <gyrostat/diagnosis/simulator.hpp>
 
@@ -67,6 +68,8 @@ struct FoundSet {
   std::vector<ParameterInterval>
       intervals{};                         ///< of parameters of `scenario`, where they are known
   std::vector<Unexplained> unexplained{};  ///< beside the set
+  /// The clearest of each part, by index_of(Part); its frequency is none of the set's.
+  std::array<std::optional<Transient>, 2> transients{};
   /// What rounds to it, where a grid is coarser than the noise that rests on it.
   std::optional<double> level_on_grid_dps{};
   double score = 0.0;  ///< log-likelihood of the rate's set, less its cost

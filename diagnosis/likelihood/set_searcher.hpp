@@ -92,6 +92,7 @@ class SetSearcher {
   Standing concluded(Standing standing, FoundSet& found);
   /// Adds what is known of the set where the search ended.
   FoundSet described(Standing standing, FoundSet found);
+  void look_for_transients(const std::vector<char>& hidden, FoundSet& found) const;
   /// With other effects of a part of the sensor.
   static Scenario end_with(std::string_view part, const std::vector<Effect>& effects, Scenario end);
   /// From its noise, and from as much white noise as the fast part of the end calls for beside it.

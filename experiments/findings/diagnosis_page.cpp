@@ -15,8 +15,8 @@ namespace {
 std::string head(const Diagnosis& d, const std::string& name) {
   std::string out =
       fmt::format("<h1>{}</h1>\n<p class=\"answer\">{}</p>\n", escaped(name), escaped(answer(d)));
-  for (const auto& more :
-       {in_words(d.line_sources), remainder_in_words(d), transfer_in_words(d), next_in_words(d)})
+  for (const auto& more : {in_words(d.line_sources), transient_in_words(d), remainder_in_words(d),
+                           transfer_in_words(d), next_in_words(d)})
     if (!more.empty()) out += fmt::format("<p>{}</p>\n", escaped(more));
   return out + fmt::format(
                    "<p class=\"note\">{:.0f} s at {:.4g} Hz, {} samples. What is said to be off or "

@@ -61,6 +61,16 @@ TEST(Answer, SaysWhatNothingExplains) {
   EXPECT_EQ(answer(d), "The simulator already makes recordings like this one.");
 }
 
+TEST(Answer, SaysWhenItDidWhatItNeverDidBefore) {
+  auto d = with_two_effects();
+  EXPECT_EQ(transient_in_words(d), "");
+  d.transient = {
+      .from_s = 54.8, .to_s = 55.3, .frequency_hz = 54.375, .rms_dps = 0.1104, .p_value = 2e-13};
+  EXPECT_THAT(transient_in_words(d), AllOf(HasSubstr("Between 54.80 and 55.30 s"),
+                                           HasSubstr("54.4 Hz"), HasSubstr("0.11 dps rms")));
+  EXPECT_THAT(in_words(d, "a.csv"), HasSubstr(transient_in_words(d)));
+}
+
 TEST(Answer, SaysWhereNamesLeaveMoreThanChance) {
   auto d = with_two_effects();
   EXPECT_THAT(answer(d), Not(HasSubstr("besides or instead")));

@@ -66,6 +66,9 @@ TEST(RepeatedHeading, IsWhereTheFieldDidNotChange) {
 TEST(RepeatedHeading, IsThatOfTheSampleBeforeWhereThereIsNoField) {
   for (const double share : {0.75, 0.5, 0.1}) {
     auto made = compass(share, 0.09, 0.0);
+    auto blank = made;  // one of the field's columns throughout
+    std::ranges::fill(blank.field[1], no_value);
+    EXPECT_EQ(leave_out_repeats(blank.heading_deg, blank.field), made.repeats);
     EXPECT_EQ(leave_out_repeats(made.heading_deg, {}), made.repeats);
     EXPECT_EQ(missing(made.heading_deg), made.repeats);
   }
