@@ -132,8 +132,9 @@ std::string transient_in_words(const Diagnosis& d) {
   return fmt::format(
       "Between {:.2f} and {:.2f} s, and at no other time, it swings at {:.3g} Hz ({:.2g} dps rms; "
       "p "
-      "{}): look what happened then, or leave that out.",
-      once.from_s, once.to_s, once.frequency_hz, once.rms_dps, chance_in_words(once.p_value));
+      "{}): look what happened then, or leave that out (--leave-out {:.2f}:{:.2f}).",
+      once.from_s, once.to_s, once.frequency_hz, once.rms_dps, chance_in_words(once.p_value),
+      once.from_s, once.to_s);
 }
 
 std::string remainder_in_words(const Diagnosis& d) {

@@ -45,6 +45,15 @@ std::string name_of(const gap::View& view, const std::string& recording, const S
                             looked_at.t_s.back() - begun_s);
 }
 
+/// Its times are from the first sample of the recording, not from where it was looked at.
+gap::Diagnosis timed_from(double begins_s, gap::Diagnosis diagnosis) {
+  if (auto& once = diagnosis.transient) {
+    once->from_s += begins_s;
+    once->to_s += begins_s;
+  }
+  return diagnosis;
+}
+
 /// In one go, so that what they have alike is fitted once.
 void diagnose_together(const std::vector<LookedAt*>& axes, const gap::DiagnosisOptions& options,
                        const Interrupt& interrupt, Console& console) {
@@ -62,7 +71,8 @@ void diagnose_together(const std::vector<LookedAt*>& axes, const gap::DiagnosisO
       },
       interrupt);
   for (std::size_t k = 0; k < axes.size(); ++k)
-    axes[k]->members.front().diagnosis = std::move(diagnoses[k]);
+    axes[k]->members.front().diagnosis =
+        timed_from(axes[k]->begins_s.front(), std::move(diagnoses[k]));
 }
 
 void diagnose_each(LookedAt& one, const gap::DiagnosisOptions& options, const Interrupt& interrupt,
@@ -71,9 +81,11 @@ void diagnose_each(LookedAt& one, const gap::DiagnosisOptions& options, const In
     if (!one.is_whole) console.log << one.members[k].name << '\n';
     interrupt.check();
     PhaseProgress progress(console.log, console.log_is_terminal, "diagnose");
-    one.members[k].diagnosis = gap::diagnose(
-        one.series[k], options,
-        [&](const auto& now) { progress.set(now.phase, now.detail, now.share); }, interrupt);
+    one.members[k].diagnosis = timed_from(
+        one.begins_s[k],
+        gap::diagnose(
+            one.series[k], options,
+            [&](const auto& now) { progress.set(now.phase, now.detail, now.share); }, interrupt));
   }
 }
 
@@ -128,7 +140,8 @@ std::vector<std::pair<std::size_t, std::size_t>> by_file(const std::vector<ToDia
 LookedAt looked_at(const ToDiagnose& one, const SpanOption& span,
                    const gap::DiagnosisOptions& options, Parts allowed, Console& console) {
   const auto& file = one.recording.file;
-  Series series = at_rest(one.recording.read(console.log, span), file, console.log);
+  auto read = one.recording.read_span(console.log, span);
+  Series series = at_rest(std::move(read.series), file, console.log);
   require_rate_of(options.claim, series, file);
   if (const auto share = gap::share_of_reference(series); gap::is_of_another_axis(share)) {
     const auto why = fmt::format(
@@ -147,6 +160,7 @@ LookedAt looked_at(const ToDiagnose& one, const SpanOption& span,
   if (found.is_whole) {
     found.members.push_back({.name = one.name, .diagnosis = {}});
     found.series.push_back(std::move(series));
+    found.begins_s.push_back(read.begins_s);
   } else {
     if (allowed == Parts::refused)
       throw InputError(file, fmt::format("{} samples; what is of one diagnosis is of up to {}: "
@@ -156,12 +170,14 @@ LookedAt looked_at(const ToDiagnose& one, const SpanOption& span,
     console.log << fmt::format("{}: {}\n", file, gap::in_words(views, series.size()));
     for (const auto& view : views) {
       auto part = gap::looked_at(series, view);
-      auto name = name_of(view, one.name, part, series.t_s.front());
+      const double begun_s = series.t_s.front() - read.begins_s;
+      auto name = name_of(view, one.name, part, begun_s);
       if (gap::never_changes(part.gyro_dps)) {
         console.log << fmt::format("{}: the gyro never changes; left out\n", name);
         continue;
       }
       found.members.push_back({.name = std::move(name), .diagnosis = {}, .mean_of = view.mean_of});
+      found.begins_s.push_back(part.t_s.front() - begun_s);
       found.series.push_back(std::move(part));
     }
   }

@@ -33,8 +33,9 @@ enum class Parts { allowed, refused };
 struct LookedAt {
   std::string file;
   std::vector<gap::FleetMember> members{};
-  std::vector<Series> series{};  ///< of each member
-  bool is_whole = true;        ///< so that there is one
+  std::vector<Series> series{};    ///< of each member
+  std::vector<double> begins_s{};  ///< each, from the first sample of the recording
+  bool is_whole = true;            ///< so that there is one
 };
 
 /// Nothing, which is told, of an axis that was not chosen and does not turn with the reference

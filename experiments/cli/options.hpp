@@ -13,6 +13,7 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/words.hpp>
+#include <gyrostat/experiments/cli/span_option.hpp>
 #include <gyrostat/experiments/study/json.hpp>
 #include <gyrostat/recordings/clock.hpp>
 #include <gyrostat/recordings/format_type.hpp>
@@ -71,22 +72,6 @@ inline CLI::Validator whole(std::uint64_t low, std::uint64_t high) {
 }
 inline constexpr std::uint64_t most_trials = 4294967295;  ///< of a cell
 inline constexpr std::uint64_t largest_seed = std::uint64_t{1} << 53;
-
-/// A span of the recording, in seconds from its first sample.
-struct SpanOption {
-  double from_s = 0.0;
-  double to_s = 1e12;
-
-  void add_to(CLI::App* verb) {
-    verb->add_option("--from", from_s, "start of the span, s from the first sample")
-        ->check(within(0.0, 1e12, "s"));
-    verb->add_option("--to", to_s, "end of the span, s from the first sample")
-        ->check(within(0.0, 1e12, "s"));
-  }
-  bool is_part_of(const Series& series) const {
-    return from_s > 0.0 || to_s <= series.duration_s();
-  }
-};
 
 /// The recording that a verb works on, with the axis where it has several, and what the program
 /// cannot tell from the file: its format, names, units, rate.
@@ -211,21 +196,31 @@ struct RecordingOption {
   /// Short bursts with long pauses, which only an Allan deviation is told by.
   enum class Bursts { refused, taken };
 
-  /// The span of it.
+  /// The span of it, and where that begins, s from the first sample of all.
+  struct Read {
+    Series series;
+    double begins_s = 0.0;
+  };
+  Read read_span(std::ostream& log, const SpanOption& span = {},
+                 std::span<const std::string_view> wanted = {},
+                 Bursts bursts = Bursts::refused) const {
+    auto whole = read_all(log, wanted).series;
+    span.leave_out(whole);
+    if (!span.is_part_of(whole)) {
+      if (bursts == Bursts::refused) require_dense(whole, file);
+      return {std::move(whole)};
+    }
+    Read read{cut(whole, span.from_s, span.to_s, file + ": --from, --to")};
+    require_samples(whole, span, file);
+    read.series = between_samples(read.series);
+    read.begins_s = read.series.t_s.front() - whole.t_s.front();
+    if (bursts == Bursts::refused) require_dense(read.series, file, read.begins_s);
+    return read;
+  }
   Series read(std::ostream& log, const SpanOption& span = {},
               std::span<const std::string_view> wanted = {},
               Bursts bursts = Bursts::refused) const {
-    auto whole = read_all(log, wanted).series;
-    if (!span.is_part_of(whole)) {
-      if (bursts == Bursts::refused) require_dense(whole, file);
-      return whole;
-    }
-    auto series = cut(whole, span.from_s, span.to_s, file + ": --from, --to");
-    require_samples(whole, span, file);
-    series = between_samples(series);
-    if (bursts == Bursts::refused)
-      require_dense(series, file, series.t_s.front() - whole.t_s.front());
-    return series;
+    return read_span(log, span, wanted, bursts).series;
   }
 };
 

@@ -162,6 +162,12 @@ TEST(BadInput, ASpanOutsideTheRecordingIsToldItsLength) {
   expect_refused(folder, {"fit", "rec.csv", "--from", "20"}, {"--from", "20 s", "9.99 s"});
   expect_refused(folder, {"fit", "rec.csv", "--from", "5", "--to", "3"}, {"--from", "--to"});
   expect_refused(folder, {"fit", "rec.csv", "--from", "nan"}, {"--from", "nan"});
+  for (const char* no_span : {"3-4", "4:3", "-1:3", "3:", "x:4", "3:nan"})
+    expect_refused(folder, {"fit", "rec.csv", "--leave-out", no_span},
+                   {"--leave-out", no_span, "FROM:TO"});
+  expect_refused(folder, {"fit", "rec.csv", "--leave-out", "20:30"},
+                 {"--leave-out", "20 s", "9.99 s"});
+  expect_refused(folder, {"fit", "rec.csv", "--leave-out", "0:30"}, {"rec.csv", "no sample"});
 }
 
 Json sound_study() {

@@ -133,6 +133,24 @@ TEST(Fit, TakesAnEvenSpanOfAnUnevenRecording) {
   run_well(folder, {"fit", "bursts.csv", "--from", "300"});
 }
 
+/// As blank cells do; an option takes one span, so that what follows is the recording.
+TEST(Fit, LeavesOutWhatDoesNotCount) {
+  const TestFolder folder;
+  std::string whole = "t_s,gyro_dps\n", blank = whole;
+  for (int i = 0; i < 2000; ++i) {
+    const bool is_out = (i >= 500 && i < 530) || i < 10;
+    const double rate = 0.1 * std::sin(i * i) + (is_out ? 5.0 : 0.0);
+    whole += fmt::format("{:.2f},{:.6f}\n", 7.0 + i / 100.0, rate);
+    blank += is_out ? fmt::format("{:.2f},\n", 7.0 + i / 100.0)
+                    : fmt::format("{:.2f},{:.6f}\n", 7.0 + i / 100.0, rate);
+  }
+  folder.write("rec.csv", whole);
+  const auto left_out =
+      run_well(folder, {"fit", "--leave-out", "5:5.299", "--leave-out", "0:0.1", "rec.csv"});
+  folder.write("rec.csv", blank);
+  EXPECT_EQ(left_out.out, run_well(folder, {"fit", "rec.csv"}).out);
+}
+
 // ---------------------------------------------------------------- apply
 
 constexpr const char* config = R"({"filters": [
