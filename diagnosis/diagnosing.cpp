@@ -176,9 +176,11 @@ void Diagnosing::look_ahead() {
   if (!is_apart) {
     const auto& set = result_.verdict_set;
     const bool may_be_unknown = std::find(set.begin(), set.end(), Verdict::unknown()) != set.end();
-    if (second != nullptr || may_be_unknown)
-      result_.next = wider_recording(simulator_.conditions(), result_.duration_s,
-                                     result_.causes.empty() ? "" : result_.causes.front().effect,
+    const std::string nearest = result_.causes.empty() ? "" : result_.causes.front().effect;
+    if (result_.transient)
+      result_.next = undisturbed_recording(nearest);
+    else if (second != nullptr || may_be_unknown)
+      result_.next = wider_recording(simulator_.conditions(), result_.duration_s, nearest,
                                      is_left_in_the_compass_alone());
     return;
   }

@@ -85,6 +85,14 @@ NextExperiment next_experiment(const Scenario& first, const Scenario& second, do
   return best;
 }
 
+NextExperiment undisturbed_recording(const std::string& nearest) {
+  return {.what =
+              "the same once more, with nobody near the bench: what happened once is seldom the "
+              "sensor's",
+          .first = nearest,
+          .second = Verdict::unknown().text()};
+}
+
 NextExperiment wider_recording(const Conditions& conditions, double recorded_s,
                                const std::string& nearest, bool of_compass_alone) {
   const double longer_h = 4.0 * recorded_s / 3600.0;

@@ -28,6 +28,9 @@ struct NextExperiment {
 NextExperiment next_experiment(const Scenario& first, const Scenario& second, double recorded_s,
                                std::uint64_t seed, const Interrupt& interrupt = {});
 
+/// Of what happened once; its `nearest` and power are as below.
+NextExperiment undisturbed_recording(const std::string& nearest);
+
 /// Of what nothing explains, in the gyro or in the compass alone: longer, and with what the
 /// recording does not hold. `nearest` is the effect that comes nearest, or nothing. Its power is 0:
 /// there is nothing to simulate.

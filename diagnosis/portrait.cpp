@@ -30,7 +30,7 @@ Envelope envelope_of(const Series& series, const std::vector<double>& values) {
       sum += values[i];
       count += 1.0;
     }
-    envelope.t_s.push_back(series.t_s[first]);
+    envelope.t_s.push_back(series.t_s[first] - series.t_s.front());
     envelope.low.push_back(count > 0.0 ? low : no_value);
     envelope.high.push_back(count > 0.0 ? high : no_value);
     envelope.mean.push_back(count > 0.0 ? sum / count : no_value);

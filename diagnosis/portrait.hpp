@@ -8,7 +8,8 @@ namespace gyrostat::gap {
 
 class Simulator;
 
-/// A long series in a few hundred stretches: least, mean and largest value of each.
+/// A long series in a few hundred stretches: least, mean and largest value of each; its times are
+/// from the first sample.
 struct Envelope {
   std::vector<double> t_s, low, mean, high;
 };

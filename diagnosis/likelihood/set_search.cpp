@@ -170,9 +170,13 @@ FoundSet SetSearcher::described(Standing standing, FoundSet found) {
 void SetSearcher::look_for_transients(const std::vector<char>& hidden, FoundSet& found) const {
   if (is_coarse_) return;  // a level that is at an edge of the grid for once comes and goes
   std::vector<Resonance> lines;
-  for (const auto& effect : found.scenario.effects)
-    if (is_line(effect.id()) || effect.id() == "vibration_bursts")
-      lines.push_back(band_of_line(effect));
+  constexpr double with_skirts = 3.0;  // which come and go with a burst
+  for (const auto& effect : found.scenario.effects) {
+    const bool comes_and_goes = effect.id() == "vibration_bursts";
+    if (!comes_and_goes && !is_line(effect.id())) continue;
+    auto& line = lines.emplace_back(band_of_line(effect));
+    if (comes_and_goes) line.bandwidth_hz *= with_skirts;
+  }
   const auto left = bench_.rate_left_by(found.scenario, hidden);
   for (const auto part : both_parts)
     found.transients[index_of(part)] = clearest_transient(conditions_, part, left, lines);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t per_length = 4;  // blocks begin
 constexpr std::size_t shortest = 32, blocks_for_a_mean = 25;
 constexpr double longest_s = 4.0;
-constexpr std::size_t lowest_tile = 4;  // bin, above what a level that walks leaves
+constexpr Eigen::Index lowest_tile = 4;  // bin, above what a level that walks leaves
 constexpr std::size_t fewest_rows = 8;
 
 /// Periodograms of blocks of one length, dps².
@@ -48,12 +48,12 @@ Tiles tiles_of(const Conditions& conditions, Part part, const std::vector<double
       if (weight < 0.75 * static_cast<double>(length)) continue;  // half of what all would have
       fft.fwd(transform, values);
       tiles.begins.push_back(at);
-      for (std::size_t k = lowest_tile; k < length / 2; ++k)
+      for (std::size_t k = 0; k < length / 2; ++k)
         powers.push_back(std::norm(transform[k]) / weight);
     }
-  tiles.powers = Eigen::Map<const Eigen::ArrayXXd>(
-      powers.data(), static_cast<Eigen::Index>(length / 2 - lowest_tile),
-      static_cast<Eigen::Index>(tiles.begins.size()));
+  tiles.powers =
+      Eigen::Map<const Eigen::ArrayXXd>(powers.data(), static_cast<Eigen::Index>(length / 2),
+                                        static_cast<Eigen::Index>(tiles.begins.size()));
   return tiles;
 }
 
@@ -86,7 +86,19 @@ double usual_at(Eigen::Index block, const Eigen::ArrayXXd& over, const Eigen::Ar
   return std::max(sum / count, *quartile / quartile_of_exponentials);
 }
 
-LargestTile largest_of(const Eigen::ArrayXXd& powers) {
+/// What all bins of a block, those of lines as well, may leave in one of them: of what begins in
+/// its middle 4 / (pi d)^2 is d bins further.
+double leaking_into(Eigen::Index bin, const Eigen::ArrayXXd::ConstColXpr& block) {
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < block.size(); ++j)
+    if (const auto d = static_cast<double>(j - bin); std::abs(d) > 2.0)
+      sum += 4.0 * block[j] / std::pow(std::numbers::pi * d, 2);
+  return sum;
+}
+
+/// Of those rows alone.
+LargestTile largest_of(const Eigen::ArrayXXd& all, const std::vector<Eigen::Index>& rows) {
+  const Eigen::ArrayXXd powers = all(rows, Eigen::all);
   const auto n = static_cast<double>(powers.cols());
   const Eigen::ArrayXd sums = powers.rowwise().sum();
   const Eigen::ArrayXXd over = powers.colwise() * (n / sums);
@@ -96,8 +108,10 @@ LargestTile largest_of(const Eigen::ArrayXXd& powers) {
     const double usual = usual_at(b, over, means);
     for (Eigen::Index k = 0; k < powers.rows(); ++k) {
       const double without = (sums[k] - powers(k, b)) / (n - 1.0);
-      if (const double size = powers(k, b) / (without * usual); size > largest.size)
-        largest = {k, b, size};
+      if (powers(k, b) <= largest.size * without * usual) continue;
+      const auto row = rows[static_cast<std::size_t>(k)];
+      const double size = powers(k, b) / std::max(without * usual, leaking_into(row, all.col(b)));
+      if (size > largest.size) largest = {row, b, size};
     }
   }
   return largest;
@@ -118,20 +132,19 @@ std::optional<Transient> clearest_transient(const Conditions& conditions, Part p
     if (tiles.begins.size() < blocks_for_a_mean * per_length) break;
     const double resolution_hz = rate_hz / static_cast<double>(length);
     const auto frequency_of = [&](Eigen::Index k) {
-      return resolution_hz * static_cast<double>(static_cast<std::size_t>(k) + lowest_tile);
+      return resolution_hz * static_cast<double>(k);
     };
     std::vector<Eigen::Index> rows;
-    for (Eigen::Index k = 0; k < tiles.powers.rows(); ++k) {
+    for (Eigen::Index k = lowest_tile; k < tiles.powers.rows(); ++k) {
       const Resonance tile{0.0, frequency_of(k), 2.0 * resolution_hz};
       if (std::none_of(lines.begin(), lines.end(),
                        [&](const auto& line) { return are_neighbours(line, tile); }))
         rows.push_back(k);
     }
     if (rows.size() < fewest_rows) continue;
-    const Eigen::ArrayXXd powers = tiles.powers(rows, Eigen::all);
-    const auto [row, block, size] = largest_of(powers);
-    const auto blocks = static_cast<double>(powers.cols()),
-               bins = static_cast<double>(powers.rows());
+    const auto& powers = tiles.powers;
+    const auto [row, block, size] = largest_of(powers, rows);
+    const auto blocks = static_cast<double>(powers.cols()), bins = static_cast<double>(rows.size());
     tried += blocks * bins;
     // An exponential over two means of exponentials. Of bins a taper leaves every other its own,
     // and of blocks that begin a half apart each.
@@ -144,7 +157,7 @@ std::optional<Transient> clearest_transient(const Conditions& conditions, Part p
     const auto begin = static_cast<double>(tiles.begins[static_cast<std::size_t>(block)]);
     clearest = Transient{.from_s = begin * conditions.interval_s(),
                          .to_s = (begin + static_cast<double>(length)) * conditions.interval_s(),
-                         .frequency_hz = frequency_of(rows[static_cast<std::size_t>(row)]),
+                         .frequency_hz = frequency_of(row),
                          .rms_dps = std::sqrt(std::max(0.0, 3.0 * (powers(row, block) - usual) /
                                                                 static_cast<double>(length))),
                          .p_value = p};

@@ -8,8 +8,8 @@
 
 namespace gyrostat::gap {
 
-/// What happens once, as a knock at the bench or a spike: for a moment a frequency has power that
-/// it has at no other time.
+/// What happens once, as a knock at the bench: for a moment a frequency has power that it has at no
+/// other time.
 struct Transient {
   double from_s, to_s;  ///< from the first sample; it is somewhere between
   double frequency_hz;
@@ -21,10 +21,10 @@ struct Transient {
 /// time and frequency (Anderson, Brady, Creighton and Flanagan, Physical Review D 63, 2001,
 /// 042003). Tiles are bins of tapered blocks that overlap by three quarters, of 32 samples to 4 s.
 /// A bin is held to what it has in all other blocks, and a block to those around it or to the lower
-/// quartile of its own bins, where it has 48 and that is more: neither a spectrum of any form is
-/// one nor noise whose size changes within tens of seconds. Where the noise is normal the ratio is
-/// distributed as F or less. None of a recording that turns: what is left of a motion comes and
-/// goes as it does.
+/// quartile of its own bins, where it has 48 and that is more, or to what may leak from them:
+/// neither a spectrum of any form is one, nor noise whose size changes within tens of seconds, nor
+/// a spike or a step. Where the noise is normal the ratio is distributed as F or less. None of a
+/// recording that turns: what is left of a motion comes and goes as it does.
 std::optional<Transient> clearest_transient(const Conditions& conditions, Part part,
                                             const std::vector<double>& left_dps,
                                             const std::vector<Resonance>& lines);

@@ -51,6 +51,8 @@ gap::Diagnosis timed_from(double begins_s, gap::Diagnosis diagnosis) {
     once->from_s += begins_s;
     once->to_s += begins_s;
   }
+  for (auto* envelope : {&diagnosis.portrait.recorded, &diagnosis.portrait.left})
+    for (double& t_s : envelope->t_s) t_s += begins_s;
   return diagnosis;
 }
 

@@ -152,11 +152,11 @@ std::string told(const Where& w) {
 }
 
 Picture envelope_picture(const Envelope& envelope, const std::string& id, const std::string& title,
-                         const std::string& note) {
+                         const std::string& note, const std::optional<Transient>& once) {
   Picture picture{.id = id,
                   .title = title,
                   .note = note,
-                  .x = {.label = "time", .unit = "s"},
+                  .x = {.label = "time from the first sample", .unit = "s"},
                   .y = {.label = "rate", .unit = "dps"}};
   if (envelope.t_s.empty()) return picture;
   auto& line = picture.marks.emplace_back(mark_of(Mark::Kind::line, "", "m0"));
@@ -164,6 +164,15 @@ Picture envelope_picture(const Envelope& envelope, const std::string& id, const 
   line.y = envelope.mean;
   line.y_low = envelope.low;
   line.y_high = envelope.high;
+  if (!once) return picture;
+  picture.note += " Dashed: what happened once.";
+  auto& when = picture.marks.emplace_back(
+      mark_of(Mark::Kind::line, fmt::format("once, {:.3g} Hz", once->frequency_hz), "m2"));
+  when.dashed = true;
+  const double middle_s = 0.5 * (once->from_s + once->to_s);
+  when.x = {middle_s, middle_s};
+  when.y = {*std::min_element(envelope.low.begin(), envelope.low.end()),
+            *std::max_element(envelope.high.begin(), envelope.high.end())};
   return picture;
 }
 
@@ -266,10 +275,11 @@ Picture waterfall_picture(const Diagnosis& d) {
 std::vector<Picture> recording_pictures(const Diagnosis& d) {
   return {
       envelope_picture(d.portrait.recorded, "recording", "The recording",
-                       "Line: mean; band: from the least to the largest value."),
+                       "Line: mean; band: from the least to the largest value.", d.transient),
       envelope_picture(d.portrait.left, "residual", "What motion, drift and effects leave of it",
                        "The same, less all that would be alike in every recording: what is "
-                       "left is noise, or not understood.")};
+                       "left is noise, or not understood.",
+                       d.transient)};
 }
 
 std::vector<Picture> noise_pictures(const Diagnosis& d) {

@@ -321,6 +321,7 @@ TEST(Diagnosis, AKnockIsUnknownAndToldWhen) {
     EXPECT_GT(d.transient->to_s, at_s);
     EXPECT_NEAR(d.transient->frequency_hz, 6.0, 1.0);
     EXPECT_TRUE(to_json(d)["remainder"].contains("transient"));
+    EXPECT_THAT(next_in_words(d), testing::HasSubstr("once more"));
   }
 }
 
