@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include <gyrostat/diagnosis/likelihood/set_search.hpp>
 #include <gyrostat/generators/effects/list.hpp>
+#include <gyrostat/tests/diagnosis/found_in.hpp>
 #include <gyrostat/tests/diagnosis/known_recordings.hpp>
 
 namespace gyrostat::gap::begun_before_test {
@@ -35,13 +35,6 @@ Series from_the_middle(const std::vector<Effect>& effects, std::uint64_t seed) {
   Series series = whole.slice(before, whole.size() - before);
   for (double& t_s : series.t_s) t_s -= 40.0;
   return series;
-}
-
-std::set<std::string> found_in(const Series& series) {
-  const Simulator simulator(series, 1);
-  std::set<std::string> names;
-  for (const auto& member : find_set(simulator, series, {}).members) names.insert(member.effect);
-  return names;
 }
 
 /// The first samples lag by several dps; that was a bias that settles within half a second.
