@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <gyrostat/diagnosis/compare/comparison_text.hpp>
+#include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
 #include <gyrostat/experiments/findings/lens_sections.hpp>
 #include <gyrostat/experiments/findings/report/live_page.hpp>
 #include <gyrostat/results/render/html.hpp>

@@ -5,6 +5,7 @@
 #include <gyrostat/diagnosis/answer.hpp>
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
 #include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
+#include <gyrostat/experiments/findings/lens_pictures.hpp>
 #include <gyrostat/experiments/findings/lens_sections.hpp>
 #include <gyrostat/experiments/findings/report/live_page.hpp>
 #include <gyrostat/results/render/html.hpp>

@@ -19,20 +19,7 @@ std::vector<Picture> noise_pictures(const Diagnosis& diagnosis);
 /// A metric of the filters each: recording, simulator before and after.
 std::vector<Picture> filter_pictures(const Diagnosis& diagnosis);
 
-/// What a lens says of the simulator with the effects.
-enum class Agreement { still_off, mended, always };
-
-struct LensPicture {
-  Picture picture;
-  Agreement agreement;
-  double p;  ///< least of its departures, family-wise
-};
-
-/// Of every lens, those that still disagree first, then those that the effects mended; within each
-/// the clearest first.
-std::vector<LensPicture> lens_pictures(const Diagnosis& diagnosis);
-
-/// All of the above that have something to show, in the order of the page.
+/// All of these, and those of every lens, that have something to show, in the order of the page.
 std::vector<Picture> diagnosis_pictures(const Diagnosis& diagnosis);
 
 }  // namespace gyrostat::gap

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
+#include <gyrostat/experiments/findings/lens_pictures.hpp>
 
 namespace gyrostat::gap {
 

@@ -1,6 +1,7 @@
 // The pictures of a diagnosis made by hand.
 
 #include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
+#include <gyrostat/experiments/findings/lens_pictures.hpp>
 
 #include <algorithm>
 #include <cmath>
