@@ -117,12 +117,37 @@ LargestTile largest_of(const Eigen::ArrayXXd& all, const std::vector<Eigen::Inde
   return largest;
 }
 
+/// Of nine tenths of the values: a knock is in few of them.
+double usual_extent(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return is_missing(value); });
+  if (values.empty()) return 0.0;
+  const auto at = [&](std::size_t twentieths) {
+    const auto place =
+        values.begin() + static_cast<std::ptrdiff_t>(twentieths * (values.size() - 1) / 20);
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+  };
+  return at(19) - at(1);
+}
+
+/// Neither turned nor tilted, as far as anything beside the gyro shows.
+bool is_at_rest(const Conditions& conditions) {
+  constexpr double most_mps2 = 0.5, most_dps = 5.0;
+  const auto& series = conditions.series();
+  const auto changes = [&](const std::vector<double>& channel) {
+    return channel.empty() ? 0.0 : usual_extent(conditions.slow_means(channel));
+  };
+  return series.rate_ref_dps.empty() && changes(series.acc_x_mps2) < most_mps2 &&
+         changes(series.acc_y_mps2) < most_mps2 && changes(series.acc_z_mps2) < most_mps2 &&
+         changes(series.cross_rate_1_dps) < most_dps && changes(series.cross_rate_2_dps) < most_dps;
+}
+
 }  // namespace
 
 std::optional<Transient> clearest_transient(const Conditions& conditions, Part part,
                                             const std::vector<double>& left_dps,
                                             const std::vector<Resonance>& lines) {
-  if (!conditions.series().rate_ref_dps.empty()) return std::nullopt;
+  if (!is_at_rest(conditions)) return std::nullopt;
   std::optional<Transient> clearest;
   double tried = 0.0;
   const double rate_hz = conditions.rate_hz();

@@ -24,7 +24,7 @@ struct Transient {
 /// quartile of its own bins, where it has 48 and that is more, or to what may leak from them:
 /// neither a spectrum of any form is one, nor noise whose size changes within tens of seconds, nor
 /// a spike or a step. Where the noise is normal the ratio is distributed as F or less. None of a
-/// recording that turns: what is left of a motion comes and goes as it does.
+/// recording that turns or tilts: what is left of a motion comes and goes as it does.
 std::optional<Transient> clearest_transient(const Conditions& conditions, Part part,
                                             const std::vector<double>& left_dps,
                                             const std::vector<Resonance>& lines);

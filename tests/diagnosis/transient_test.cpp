@@ -101,6 +101,13 @@ TEST(Transient, IsNotLookedForInTheBandOfALineNorOfAMotion) {
   auto series = noise(5, even);
   knock(series, 8.0, 20.0);
   EXPECT_GT(transient_of(series, {{1.0, 20.0, 4.0}})->p_value, 0.01);
+  auto tilted = series, turned = series;
+  for (std::size_t i = 0; i < samples; ++i) {
+    tilted.acc_x_mps2.push_back(i < samples / 2 ? 0.0 : 0.6);
+    turned.cross_rate_1_dps.push_back(i < samples / 2 ? 0.0 : 6.0);
+  }
+  EXPECT_FALSE(transient_of(tilted));
+  EXPECT_FALSE(transient_of(turned));
   series.rate_ref_dps.assign(samples, 0.0);
   series.rate_ref_dps[100] = 1.0;
   EXPECT_FALSE(transient_of(series));
