@@ -340,6 +340,16 @@ TEST(Diagnosis, TwoThatHoldEachOtherUpGoTogether) {
   EXPECT_GT(d.transient->to_s, 54.8);
 }
 
+/// Without a faint telegraph a broad line beside it is none by a hair: that it then has no name had
+/// been odds of 9,800 nats for the telegraph.
+TEST(Diagnosis, AnEffectIsNoSurerForTheNameOfAnother) {
+  const auto path = std::filesystem::path(places::recordings()) / "xsens_dot_02_static.csv.gz";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the recordings are not there";
+  const auto d = diagnose(read_recording(path.string(), "z").series, {});
+  for (const auto& effect : d.effects) EXPECT_LT(effect.log_odds, 10.0) << effect.effect;
+  EXPECT_GT(d.p_before, 1e-4);
+}
+
 TEST(Diagnosis, TheJsonKeepsTheContract) {
   const Json json = to_json(diagnose(recorded(still(), 21, false), {}));
   for (const char* key : {"recording", "baseline", "where", "gap", "causes", "verdict",
