@@ -75,6 +75,9 @@ class SetBench {
   Standing with(const Standing& standing, const CauseType& cause, const Evidence* left) const;
   /// Refitted with all that may stand in for it, as far as that could bring it near the whole.
   Standing without(const Standing& standing, std::size_t effect) const;
+  /// Where one of its effects is no longer what it is called, the best without one of them; else as
+  /// it is.
+  Standing as_called(const Standing& standing) const;
   /// The parameters of what is taken out, each by parabolas through the likelihood, the noise as it
   /// is; left as they are where passes that gain as much as the last will not bring its score to
   /// `to_reach`.

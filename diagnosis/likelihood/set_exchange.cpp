@@ -67,8 +67,10 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
       for (const auto& other : others)
         if (other.score > standing.score - moved && is_the_same(other))
           anew = std::min(anew, other.score);
-      double least_lost = standing.score - rest.score;
-      const Standing* best = &rest;
+      // Its rivals may yet give the others their names back.
+      const auto called = bench_.as_called(rest);
+      double least_lost = standing.score - called.score;
+      const Standing* best = &called;
       for (const auto& other : others) {
         if (other.score > best->score) best = &other;
         if (other.score < -1e299 || is_the_same(other)) continue;
@@ -80,14 +82,14 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
       }
       // From other parameters, what the others are worth beside it is as before.
       constexpr double little = 3.0;
-      if (!is_bare && best != &rest && is_the_same(*best) && best->score > standing.score &&
+      if (!is_bare && best != &called && is_the_same(*best) && best->score > standing.score &&
           best->score < standing.score + little) {
         standing = *best;
         auto& effects = standing.scenario.effects;
         std::rotate(effects.begin() + static_cast<std::ptrdiff_t>(k), effects.end() - 1,
                     effects.end());
         standing.fit.scenario.effects = effects;
-        best = &rest;
+        best = &called;
       }
       const bool is_better = best->score > standing.score + 0.1;
       if (const auto* curve = is_better ? nullptr : curve_for(standing, effect, others)) {

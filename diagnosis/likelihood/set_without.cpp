@@ -34,14 +34,18 @@ Standing SetBench::without(const Standing& standing, std::size_t effect) const {
   // The motion's other effects had moved beside it.
   if (band == EffectBand::motion)
     if (auto fit = polished(best, to_reach); fit.score > best.score) best = std::move(fit);
-  // One that is then no longer what it is called goes with it.
-  if (best.score < -1e299)
-    for (std::size_t k = 0; k < rest.effects.size(); ++k) {
-      Scenario less = rest;
-      less.effects.erase(less.effects.begin() + static_cast<std::ptrdiff_t>(k));
-      if (auto other = refitted(less); other.score > best.score) best = std::move(other);
-    }
   best.beside_the_last = as_it_was;
+  return best;
+}
+
+Standing SetBench::as_called(const Standing& standing) const {
+  Standing best = standing;
+  if (standing.score > -1e299) return best;
+  for (std::size_t k = 0; k < standing.scenario.effects.size(); ++k) {
+    Scenario less = standing.scenario;
+    less.effects.erase(less.effects.begin() + static_cast<std::ptrdiff_t>(k));
+    if (auto other = refitted(less); other.score > best.score) best = std::move(other);
+  }
   return best;
 }
 
