@@ -131,8 +131,7 @@ std::string transient_in_words(const Diagnosis& d) {
   const auto& once = *d.transient;
   return fmt::format(
       "Between {:.2f} and {:.2f} s, and at no other time, it swings at {:.3g} Hz ({:.2g} dps rms; "
-      "p "
-      "{}): look what happened then, or leave that out (--leave-out {:.2f}:{:.2f}).",
+      "p {}): look what happened then, or leave that out (--leave-out {:.2f}:{:.2f}).",
       once.from_s, once.to_s, once.frequency_hz, once.rms_dps, chance_in_words(once.p_value),
       once.from_s, once.to_s);
 }

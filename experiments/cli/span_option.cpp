@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <gyrostat/core/error.hpp>
 #include <gyrostat/core/values.hpp>
 #include <gyrostat/experiments/cli/options.hpp>
 
@@ -48,16 +47,9 @@ void SpanOption::add_to(CLI::App* verb) {
 void SpanOption::leave_out(Series& series) const {
   for (const auto& text : left_out) {
     const auto [from, to] = *span_of(text);
-    const auto begin = std::lower_bound(series.t_s.begin(), series.t_s.end(),
-                                        series.t_s.front() + from),
-               end = std::lower_bound(begin, series.t_s.end(), series.t_s.front() + to);
-    if (begin == end)
-      throw InputError(
-          "--leave-out",
-          fmt::format("no samples between {} s and {} s; the recording lasts {} s",
-                      short_number(from), short_number(to), short_number(series.duration_s())));
-    std::fill(series.gyro_dps.begin() + (begin - series.t_s.begin()),
-              series.gyro_dps.begin() + (end - series.t_s.begin()), no_value);
+    const auto out = cut(series, from, to, "--leave-out");
+    const auto first = std::ranges::lower_bound(series.t_s, out.t_s.front()) - series.t_s.begin();
+    std::fill_n(series.gyro_dps.begin() + first, out.size(), no_value);
   }
 }
 

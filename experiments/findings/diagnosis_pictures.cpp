@@ -32,8 +32,11 @@ Picture envelope_picture(const Envelope& envelope, const std::string& id, const 
   when.dashed = true;
   const double middle_s = 0.5 * (once->from_s + once->to_s);
   when.x = {middle_s, middle_s};
-  when.y = {*std::min_element(envelope.low.begin(), envelope.low.end()),
-            *std::max_element(envelope.high.begin(), envelope.high.end())};
+  when.y = {envelope.mean.front(), envelope.mean.front()};
+  for (std::size_t i = 0; i < envelope.t_s.size(); ++i) {  // fmin: a stretch may be missing
+    when.y[0] = std::fmin(when.y[0], envelope.low[i]);
+    when.y[1] = std::fmax(when.y[1], envelope.high[i]);
+  }
   return picture;
 }
 

@@ -7,11 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <filesystem>
-#include <optional>
-#include <regex>
-#include <set>
-#include <sstream>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -20,60 +15,13 @@
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/diagnosis/answer.hpp>
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
-#include <gyrostat/diagnosis/gap/ensemble.hpp>
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
-#include <gyrostat/diagnosis/model_fit.hpp>
-#include <gyrostat/diagnosis/simulator.hpp>
 #include <gyrostat/generators/effects/list.hpp>
 #include <gyrostat/generators/environment/temperature/list.hpp>
-#include <gyrostat/recordings/recording.hpp>
 #include <gyrostat/tests/diagnosis/known_recordings.hpp>
-#include <gyrostat/tests/places.hpp>
 
 namespace gyrostat::gap::diagnosis_test {
 namespace {
-
-/// p-values of 500 recordings of 40 s that the simulator made itself, known or fitted to each of
-/// them.
-std::vector<double> own_p_values(bool fitted) {
-  Scenario s;
-  s.sampling = {40.0, 50.0};
-  s.random_error = {
-      .phi = 0.5, .delta1_dps = 2e-3, .delta2_dps = 5e-4, .measurement_noise_std_dps = 0.05};
-  std::vector<double> p;
-  for (std::uint64_t k = 0; k < 500; ++k) {
-    const Series series = recorded(s, 1000 + k, false);
-    const Simulator simulator(series, k);
-    BaselineFit fit{.scenario = s, .train_jacobian = {}};
-    if (fitted) fit = fit_baseline(simulator, series);
-    const Ensemble ensemble(simulator.instrument(Part::train),
-                            simulator.ensemble(fit.scenario, 0, 80)[0], fit.train_jacobian);
-    p.push_back(ensemble.p_value(simulator.readings(series)[0]));
-  }
-  std::sort(p.begin(), p.end());
-  return p;
-}
-
-// Kolmogorov-Smirnov at n = 500: sqrt(n) D exceeds 1.95 with probability 0.001 where p is uniform.
-// p is on a grid of 1 / 81 above the replicas' own, which adds 0.0124 sqrt(500) = 0.28 at most. A
-// false alarm rate of 5 % has a standard error of 1 %; four of them are passed once in 30,000.
-void expect_uniform(const std::vector<double>& p) {
-  double distance = 0.0;
-  for (std::size_t i = 0; i < p.size(); ++i)
-    distance = std::max({distance, p[i] - static_cast<double>(i) / 500.0,
-                         static_cast<double>(i + 1) / 500.0 - p[i]});
-  EXPECT_LT(std::sqrt(500.0) * distance, 1.95 + 0.28);
-  const auto alarms = std::upper_bound(p.begin(), p.end(), 0.05) - p.begin();
-  EXPECT_LT(static_cast<double>(alarms) / 500.0, 0.05 + 4.0 * 0.01);
-}
-
-TEST(Gap, ThePValueOfTheKnownSimulatorsOwnRecordingsIsUniform) {
-  expect_uniform(own_p_values(false));
-}
-
-TEST(Gap, ThePValueOfTheFittedSimulatorsOwnRecordingsIsUniform) {
-  expect_uniform(own_p_values(true));
-}
 
 /// A magnet that passes within the part that is held back, 2 deg for 20 s: a clear burst, once
 /// another part is held back. Without its name it stays unknown.
@@ -325,31 +273,6 @@ TEST(Diagnosis, AKnockIsUnknownAndToldWhen) {
   }
 }
 
-/// A Xsens DOT beside which somebody knocked: a filter and errors of an angle, neither of which is
-/// there, had held each other up. With both the recording was missed at p = 3e-15.
-TEST(Diagnosis, TwoThatHoldEachOtherUpGoTogether) {
-  const auto path = std::filesystem::path(places::recordings()) / "xsens_dot_03_static.csv.gz";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the recordings are not there";
-  const auto d = diagnose(read_recording(path.string(), "y").series, {});
-  EXPECT_TRUE(d.verdict.is_unknown()) << d.verdict.text();
-  for (const auto& effect : d.effects)
-    EXPECT_THAT(effect.effect, testing::AnyOf("telegraph", "gauss_markov"));
-  EXPECT_GT(d.p_after, 1e-6);
-  ASSERT_TRUE(d.transient);
-  EXPECT_LT(d.transient->from_s, 55.2);  // the sensor beside it has it then, too
-  EXPECT_GT(d.transient->to_s, 54.8);
-}
-
-/// Without a faint telegraph a broad line beside it is none by a hair: that it then has no name had
-/// been odds of 9,800 nats for the telegraph.
-TEST(Diagnosis, AnEffectIsNoSurerForTheNameOfAnother) {
-  const auto path = std::filesystem::path(places::recordings()) / "xsens_dot_02_static.csv.gz";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the recordings are not there";
-  const auto d = diagnose(read_recording(path.string(), "z").series, {});
-  for (const auto& effect : d.effects) EXPECT_LT(effect.log_odds, 10.0) << effect.effect;
-  EXPECT_GT(d.p_before, 1e-4);
-}
-
 TEST(Diagnosis, TheJsonKeepsTheContract) {
   const Json json = to_json(diagnose(recorded(still(), 21, false), {}));
   for (const char* key : {"recording", "baseline", "where", "gap", "causes", "verdict",
@@ -358,51 +281,6 @@ TEST(Diagnosis, TheJsonKeepsTheContract) {
   for (const char* key : {"before", "after", "closed", "closed_interval", "p_before", "p_after"})
     EXPECT_TRUE(json["gap"].contains(key)) << key;
 }
-
-/// The first half of a practice recording, which tells as much in half the time; none where they
-/// are not there.
-std::optional<Series> practice(const std::string& name) {
-  const std::filesystem::path folder = places::recordings();
-  const auto path = folder / "practice" / (name + ".csv.gz");
-  if (!std::filesystem::exists(path)) return {};
-  const auto series = read_recording(path).series;
-  return series.slice(0, series.size() / 2);
-}
-
-/// They are named after their effect.
-void expect_named(const std::string& effect) {
-  const auto series = practice(effect);
-  if (!series) GTEST_SKIP() << "the practice recordings are not there";
-  EXPECT_EQ(diagnose(*series, {}).verdict.text(), effect);
-}
-
-/// Sets are named after where they were recorded and their effects, with a + between.
-class PracticeSets : public testing::TestWithParam<std::string> {};
-
-TEST_P(PracticeSets, AreNamedWholeAndClosed) {
-  const auto series = practice("sets/" + GetParam());
-  if (!series) GTEST_SKIP() << "the practice recordings are not there";
-  std::set<std::string> expected, named;
-  std::istringstream effects(GetParam().substr(GetParam().find("__") + 2));
-  for (std::string effect; std::getline(effects, effect, '+');) expected.insert(effect);
-  const auto diagnosis = diagnose(*series, {});
-  for (const auto& effect : diagnosis.effects)
-    if (effect.inclusion > 0.5) named.insert(effect.effect);
-  EXPECT_EQ(named, expected);
-  EXPECT_GT(diagnosis.closed, 0.8);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Each, PracticeSets,
-    testing::Values("chamber__noise_temperature+quantization+thermal_curvature",
-                    "table__compass_lag+soft_iron"),
-    [](const auto& name) { return std::regex_replace(name.param, std::regex("[^a-z]+"), "_"); });
-
-// One recording a test, so that cores share the work.
-TEST(PracticeRecordings, NoneIsNamed) { expect_named("none"); }
-TEST(PracticeRecordings, GaussMarkovIsNamed) { expect_named("gauss_markov"); }
-TEST(PracticeRecordings, ThermalHysteresisIsNamed) { expect_named("thermal_hysteresis"); }
-TEST(PracticeRecordings, ScaleFactorIsNamed) { expect_named("scale_factor"); }
 
 TEST(Diagnosis, ToldSharesOnlyGrowAndEndAtOne) {
   Scenario s = still();
