@@ -205,7 +205,7 @@ struct RecordingOption {
                  std::span<const std::string_view> wanted = {},
                  Bursts bursts = Bursts::refused) const {
     auto whole = read_all(log, wanted).series;
-    span.leave_out(whole);
+    span.leave_out(whole, file);
     if (!span.is_part_of(whole)) {
       if (bursts == Bursts::refused) require_dense(whole, file);
       return {std::move(whole)};

@@ -44,10 +44,10 @@ void SpanOption::add_to(CLI::App* verb) {
           ""));
 }
 
-void SpanOption::leave_out(Series& series) const {
+void SpanOption::leave_out(Series& series, const std::string& file) const {
   for (const auto& text : left_out) {
     const auto [from, to] = *span_of(text);
-    const auto out = cut(series, from, to, "--leave-out");
+    const auto out = cut(series, from, to, file + ": --leave-out");
     const auto first = std::ranges::lower_bound(series.t_s, out.t_s.front()) - series.t_s.begin();
     std::fill_n(series.gyro_dps.begin() + first, out.size(), no_value);
   }

@@ -20,8 +20,8 @@ struct SpanOption {
   bool is_part_of(const Series& series) const {
     return from_s > 0.0 || to_s <= series.duration_s();
   }
-  /// Makes the gyro missing there. Throws InputError where there are no samples.
-  void leave_out(Series& series) const;
+  /// Makes the gyro of the file missing there. Throws InputError where there are no samples.
+  void leave_out(Series& series, const std::string& file) const;
 };
 
 }  // namespace gyrostat::cli

@@ -166,7 +166,7 @@ TEST(BadInput, ASpanOutsideTheRecordingIsToldItsLength) {
     expect_refused(folder, {"fit", "rec.csv", "--leave-out", no_span},
                    {"--leave-out", no_span, "FROM:TO"});
   expect_refused(folder, {"fit", "rec.csv", "--leave-out", "20:30"},
-                 {"--leave-out", "20 s", "9.99 s"});
+                 {"rec.csv", "--leave-out", "20 s", "9.99 s"});
   expect_refused(folder, {"fit", "rec.csv", "--leave-out", "0:30"}, {"rec.csv", "no sample"});
 }
 
