@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
-#include <gyrostat/diagnosis/starts/needs.hpp>
 #include <gyrostat/diagnosis/starts/signature.hpp>
+#include <gyrostat/diagnosis/starts/turning.hpp>
 #include <gyrostat/generators/effects/misalignment.hpp>
 
 namespace gyrostat::gap {
@@ -31,10 +31,11 @@ struct Diagnosed<effects::Misalignment> {
     if (first.empty() || second.empty())
       return "there are no cross_rate_1_dps and cross_rate_2_dps columns; add them, or the columns "
              "of all three gyros and choose one with --axis";
-    const double span = std::max(extent(first), extent(second));
+    const double span = std::max(inner_extent(quarter_second_means(c.series(), first)),
+                                 inner_extent(quarter_second_means(c.series(), second)));
     if (span >= least_change_dps) return {};
     return fmt::format(
-        "the rates about the other axes change by {:.2g} dps; at least {:g} dps are needed: turn "
+        "the sensor turns about the other axes by {:.2g} dps; at least {:g} dps are needed: turn "
         "the sensor about them, too",
         span, least_change_dps);
   }

@@ -98,20 +98,37 @@ bool come_regularly(const Conditions& conditions, const std::vector<char>& flags
   return squares / count - mean * mean < alike * alike * mean * mean;
 }
 
+/// How many of all pairs are as equal that stand farther apart than a value is repeated: a grid
+/// that is there for a part of the recording alone, as where a rotation of three axes stands still,
+/// makes them so.
+double share_equal_far_apart(const Conditions& conditions, const std::vector<double>& z,
+                             const auto& is_free) {
+  constexpr std::size_t nearest = 256, farthest = 264;
+  double equal = 0.0, count = 0.0;
+  for (const auto& span : conditions.spans(Part::train))
+    for (std::size_t lag = nearest; lag < farthest; ++lag)
+      for (std::size_t i = span.first + lag; i < span.last; ++i) {
+        count += 1.0;
+        if (z[i] == z[i - lag] && is_free(z[i])) equal += 1.0;
+      }
+  return count > 0.0 ? equal / count : 0.0;
+}
+
 /// Those that are as old; none for older ones where a grid makes values equal.
 void read_repeats(const Simulator& simulator, const std::vector<double>& z, const Ends& ends,
                   std::size_t back, Marks& marks) {
-  const auto is_silent = [&](std::size_t i) {
-    return !marks.silent.samples.empty() && z[i] == 0.0;
+  // What is clipped or below a threshold is not repeated.
+  const auto is_silent = [&](double value) {
+    return !marks.silent.samples.empty() && value == 0.0;
   };
+  const auto is_free = [&](double value) { return !ends.holds(value) && !is_silent(value); };
   double equal = 0.0, twice = 0.0, count = 0.0;
   std::vector<double> differences;
   for (const auto& span : simulator.conditions().spans(Part::train))
     for (std::size_t i = span.first + back + 1; i < span.last; ++i) {
       count += 1.0;
       differences.push_back(z[i] - z[i - back]);
-      // What is clipped is not repeated.
-      if (z[i] != z[i - back] || ends.holds(z[i]) || is_silent(i)) continue;
+      if (z[i] != z[i - back] || !is_free(z[i])) continue;
       equal += 1.0;
       if (z[i - 1] == z[i - 1 - back]) twice += 1.0;
     }
@@ -128,6 +145,8 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
   if (!simulator.conditions().series().rate_ref_dps.empty() &&
       marks.lsb_dps > coarse * std::max(marks.white_under_grid_dps, marks.noise_of_steps_dps))
     by_chance = equal;
+  by_chance =
+      std::max(by_chance, count * share_equal_far_apart(simulator.conditions(), z, is_free));
   double beyond = equal - by_chance;
   // So many pairs say that there are none, too.
   constexpr double enough_pairs = 1000.0;
@@ -162,7 +181,8 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
            (reference.empty() || std::abs(reference[i]) > std::abs(z[i]) - apart.far_dps);
   };
   for (std::size_t i = back; i < z.size(); ++i)
-    marks.repeats[i] = z[i] == z[i - back] && !is_clipped(i) && !is_silent(i) && is_told(i) ? 1 : 0;
+    marks.repeats[i] =
+        z[i] == z[i - back] && !is_clipped(i) && !is_silent(z[i]) && is_told(i) ? 1 : 0;
   marks.stale_back = back;
   marks.stale_is_regular = come_regularly(simulator.conditions(), marks.repeats);
 }

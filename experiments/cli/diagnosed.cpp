@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 
 #include <gyrostat/diagnosis/handling.hpp>
+#include <gyrostat/diagnosis/own_heading.hpp>
 #include <gyrostat/diagnosis/own_reference.hpp>
+#include <gyrostat/diagnosis/unreferenced_turning.hpp>
 #include <gyrostat/diagnosis/views.hpp>
 #include <gyrostat/experiments/cli/phase_progress.hpp>
 
@@ -20,9 +22,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Without what is not the sensor's, which is told.
-Series at_rest(Series recording, const std::string& file, std::ostream& log) {
+Series of_the_sensor(Series recording, const std::string& file, std::ostream& log) {
   std::vector<std::string> told;
-  Series series = gap::without_handling(std::move(recording), told);
+  Series series =
+      gap::without_foreign_heading(gap::without_handling(std::move(recording), told), told);
+  if (const auto turning = gap::turning_without_reference(series))
+    told.push_back(gap::in_words(*turning));
   for (const auto& line : told) log << fmt::format("{}: {}\n", file, line);
   return series;
 }
@@ -143,7 +148,7 @@ LookedAt looked_at(const ToDiagnose& one, const SpanOption& span,
                    const gap::DiagnosisOptions& options, Parts allowed, Console& console) {
   const auto& file = one.recording.file;
   auto read = one.recording.read_span(console.log, span);
-  Series series = at_rest(std::move(read.series), file, console.log);
+  Series series = of_the_sensor(std::move(read.series), file, console.log);
   require_rate_of(options.claim, series, file);
   if (const auto share = gap::share_of_reference(series); gap::is_of_another_axis(share)) {
     const auto why = fmt::format(

@@ -290,5 +290,25 @@ TEST(Marks, RoundingToFarMoreThanTheNoiseClosesTheGap) {
   }
 }
 
+/// Three gyros on grids, turned into another frame by an attitude that is known but for the first
+/// twelfth, where it is held: there, and nowhere else, values are equal by chance, at any distance.
+TEST(Marks, AGridThatIsThereForAPartMakesNoRepeats) {
+  Series series = recorded(still(), 70, false);
+  const NormalStream noise(71, 0, "three axes");
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    double value = 0.0;
+    const double turned = i < series.size() / 12 ? 0.3 : 0.3 + 0.01 * static_cast<double>(i);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double read = 0.06 * std::round(0.8 * noise.normal(3 * i + axis));
+      value += read * std::sin(turned + 2.0 * static_cast<double>(axis));
+    }
+    series.gyro_dps[i] = value;
+  }
+  EXPECT_EQ(marks_in(series).stale_probability, 0.0);
+  for (std::size_t i = 100; i + 1 < series.size(); i += 100)
+    series.gyro_dps[i + 1] = series.gyro_dps[i];
+  EXPECT_GT(marks_in(series).stale_probability, 0.005);
+}
+
 }  // namespace
 }  // namespace gyrostat::gap::marks_test
