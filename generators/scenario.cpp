@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <gyrostat/generators/effects/time_offset.hpp>
 #include <gyrostat/generators/environment/temperature/recorded.hpp>
 #include <gyrostat/generators/random_error.hpp>
 
@@ -82,6 +83,8 @@ void measure_rate(const Scenario& scenario, const Noise& noise, Series& series) 
 
 void turn(const Compass& compass, const Scenario& scenario, const Noise& noise, Series& series) {
   compass.turn(series);
+  for (const auto& effect : scenario.effects)
+    if (const auto* clock = effect.as<effects::TimeOffset>()) clock->show_heading(series);
   apply_stage(Stage::compass, scenario, noise, series);
 }
 

@@ -35,6 +35,17 @@ CompassErrors::Law CompassBench::law_of(const std::vector<Effect>& effects) cons
   return errors_.law_of(effects, bursts_.hidden);
 }
 
+std::optional<CompassErrors::Law> CompassBench::took_clock(Effect& time_offset) {
+  constexpr double clearly = 3.0;  // nats, for one of two clocks
+  const auto before = law_of({});
+  auto with = errors_;
+  with.take_clock(time_offset);
+  if (with.law_of({}, bursts_.hidden).gain_on(before) < clearly) return std::nullopt;
+  errors_.take_clock(time_offset);
+  time_offset.value(field_of(time_offset, "of_compass")) = 1.0;
+  return before;
+}
+
 double CompassBench::log_gain_of_turning(const std::vector<Effect>& set) const {
   auto left = errors_.of(set);
   double seen = 0.0;

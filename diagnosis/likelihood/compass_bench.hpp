@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
@@ -20,6 +21,9 @@ class CompassBench {
   const Conditions& conditions() const { return conditions_; }
   CompassErrors::Law law_of(const std::vector<Effect>& effects) const;
   double centre_deg() const { return errors_.centre_deg(); }
+  /// Where the compass clearly has the clock of a gyro that is late by `time_offset`, it does from
+  /// then on, and `time_offset` says so; the law that it had by the reference's clock.
+  std::optional<CompassErrors::Law> took_clock(Effect& time_offset);
   /// Of what a set leaves (heading_left.hpp).
   double log_gain_of_turning(const std::vector<Effect>& set) const;
   /// What an effect has to gain to be in a set, in nats.

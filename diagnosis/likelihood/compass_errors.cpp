@@ -33,6 +33,7 @@ CompassErrors::CompassErrors(const Conditions& conditions, const Series& recordi
 std::vector<double> CompassErrors::of(const std::vector<Effect>& effects) const {
   Scenario quiet;
   quiet.effects = effects;
+  if (clock_) quiet.effects.emplace_back(*clock_);
   quiet.compass.initial_heading_deg = centre_deg_;
   Series ideal = turning_;
   turn_compass(quiet, {}, ideal);
@@ -42,12 +43,26 @@ std::vector<double> CompassErrors::of(const std::vector<Effect>& effects) const 
     const std::size_t to = shift_ > 0.0 ? i : std::min(i + 1, last);
     return shift_ * wrap_degrees(ideal.heading_deg[to] - ideal.heading_deg[from]);
   };
+  // What was turned before the first and after the last sample, nobody knows.
+  const auto& t_s = conditions_.series().t_s;
+  const auto is_known = [&](std::size_t i) {
+    if (!clock_) return true;
+    const double then_s = t_s[i] - clock_->late_s(t_s, i);
+    return then_s >= t_s.front() && then_s <= t_s.back();
+  };
   std::vector<double> error(recording_.size(), no_value);
   for (std::size_t i = 0; i < error.size(); ++i)
-    if (!is_missing(recording_.heading_deg[i]) &&
+    if (is_known(i) && !is_missing(recording_.heading_deg[i]) &&
         (recording_.mag_valid.empty() || recording_.mag_valid[i] > 0.5))
       error[i] = wrap_degrees(recording_.heading_deg[i] - ideal.heading_deg[i] + turned(i));
   return error;
+}
+
+void CompassErrors::take_clock(const Effect& time_offset) {
+  clock_ = *time_offset.as<effects::TimeOffset>();
+  clock_->of_compass = 1.0;
+  shift_ = 0.0;
+  shift_ = way_of_recorders(shift_of(of({}), {}, 0.0));
 }
 
 std::vector<double> CompassErrors::means_of(const std::vector<Effect>& effects) const {

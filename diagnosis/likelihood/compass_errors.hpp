@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <gyrostat/diagnosis/gap/conditions.hpp>
+#include <gyrostat/generators/effects/time_offset.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
 namespace gyrostat::gap {
@@ -40,6 +42,8 @@ class CompassErrors {
   }
   Law law_of_errors(const std::vector<double>& errors, const std::vector<char>& hidden) const;
   double centre_deg() const { return centre_deg_; }
+  /// The compass has the clock of a gyro that is late by a `time_offset`.
+  void take_clock(const Effect& time_offset);
   /// What the heading is late by is left to the effects.
   void unshift() { shift_ = std::min(shift_, 0.0); }
   /// Errors are taken beside the shift of time that is left beside the effects: iron turns with the
@@ -57,6 +61,7 @@ class CompassErrors {
   const Series& recording_;
   /// What a heading comes from.
   Series turning_;
+  std::optional<effects::TimeOffset> clock_;
   double centre_deg_ = 0.0, shift_ = 0.0;
 };
 

@@ -1,6 +1,7 @@
 #include <gyrostat/diagnosis/likelihood/compass_search.hpp>
 
 #include <algorithm>
+#include <optional>
 
 #include <tbb/parallel_for.h>
 
@@ -161,9 +162,12 @@ void CompassSearch::run(const SetSearchOptions& options) {
     if (cause.effect().stage() == Stage::compass && cause.id != "magnetic_bursts" &&
         !is_left_out(cause.id) && cause.why_not_assessable(bench_.conditions()).empty())
       candidates_.push_back(&cause);
+  std::optional<CompassErrors::Law> on_reference;
+  for (auto& effect : found_.scenario.effects)
+    if (effect.id() == "time_offset") on_reference = bench_.took_clock(effect);
   auto set = settled(searched());
   auto members = members_of(set);
-  const auto law = bench_.law_of(set), bare = bench_.law_of({});
+  const auto law = bench_.law_of(set), bare = on_reference.value_or(bench_.law_of({}));
   found_.scenario.compass.noise_std_deg = law.std_deg();
   found_.baseline.compass.noise_std_deg = bare.std_deg();
   found_.scenario.compass.initial_heading_deg = bench_.centre_deg();

@@ -59,6 +59,31 @@ double offset_of(const Conditions& conditions, const std::vector<double>& z, dou
   return std::abs(sum) > agreed * count && std::abs(offset) > least ? offset * lsb_dps : 0.0;
 }
 
+/// Of gaps between values that a motion spreads over the grid, in ascending order: that of which
+/// nearly all are multiples, begun from the smallest, or a half or a third of that; 0 where there
+/// is none.
+double common_step(const std::vector<double>& gaps, double resolution_dps) {
+  constexpr double fewest = 50.0, most_of_them = 0.95, aside = 0.05;
+  constexpr double farthest = 200.0;  // steps, after which its error adds up
+  for (const double parts : {1.0, 2.0, 3.0}) {
+    double step = gaps.front() / parts, products = 0.0, squares = 0.0;
+    double count = 0.0, whole = 0.0;
+    if (step < 4.0 * resolution_dps) return 0.0;
+    for (const double gap : gaps) {
+      const double steps = std::nearbyint(gap / step);
+      if (steps > farthest) break;
+      count += 1.0;
+      if (std::abs(gap / step - steps) > aside + 0.6 * resolution_dps / step) continue;
+      whole += 1.0;
+      products += gap * steps;
+      squares += steps * steps;
+      step = products / squares;
+    }
+    if (count >= fewest && whole > most_of_them * count) return step;
+  }
+  return 0.0;
+}
+
 }  // namespace
 
 double step_of_grid(const Simulator& simulator, const std::vector<double>& z, double noise_dps) {
@@ -73,11 +98,14 @@ double step_of_grid(const Simulator& simulator, const std::vector<double>& z, do
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i] - sorted[i - 1] > least) gaps.push_back(sorted[i] - sorted[i - 1]);
   if (gaps.empty()) return 0.0;
-  const double step = quantile(gaps, 0.2);
   constexpr double small_to_noise = 0.1;
-  if (gaps.size() > sorted.size() / 5 &&
-      (gaps.size() > sorted.size() / 2 || step < small_to_noise * noise_dps))
-    return 0.0;
+  if (gaps.size() > sorted.size() / 2) {
+    std::sort(gaps.begin(), gaps.end());
+    const double step = common_step(gaps, simulator.resolution_dps());
+    return step < small_to_noise * noise_dps ? 0.0 : step;
+  }
+  const double step = quantile(gaps, 0.2);
+  if (gaps.size() > sorted.size() / 5 && step < small_to_noise * noise_dps) return 0.0;
   double whole = 0.0;
   for (const double g : gaps)
     if (std::abs(g / step - std::nearbyint(g / step)) <

@@ -10,7 +10,7 @@ namespace gyrostat::gap {
 namespace {
 
 constexpr double least_duration_s = 600.0;
-constexpr double least_turn_deg = 270.0;
+constexpr double least_turn_deg = 90.0;
 
 }  // namespace
 

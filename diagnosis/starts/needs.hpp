@@ -22,7 +22,7 @@ std::string time(const Conditions& conditions);
 /// A reference rate that changes.
 std::string motion(const Conditions& conditions);
 std::string heading(const Conditions& conditions);
-/// A heading, and turns through most of a circle.
+/// A heading, and turns through a quarter of a circle, of which one harmonic is told from another.
 std::string turns(const Conditions& conditions);
 
 }  // namespace needs

@@ -9,6 +9,7 @@
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/core/series.hpp>
 #include <gyrostat/core/values.hpp>
+#include <gyrostat/generators/delayed_heading.hpp>
 #include <gyrostat/generators/sampled.hpp>
 #include <gyrostat/generators/stage.hpp>
 
@@ -65,7 +66,9 @@ struct CompassLag {
  private:
   void trail(const std::vector<double>& t_s, std::vector<double>& heading_deg) const {
     const std::size_t n = std::min(t_s.size(), heading_deg.size());
-    if (delay_s != 0.0) delay(t_s, heading_deg, n);
+    if (delay_s != 0.0)
+      delay_heading(
+          t_s, [&](std::size_t /*i*/) { return delay_s; }, heading_deg);
     if (time_constant_s == 0.0) return;
     if (of_field < 0.5) {
       pass(t_s, heading_deg, n);
@@ -82,19 +85,6 @@ struct CompassLag {
     for (std::size_t i = 0; i < n; ++i) {
       const double direction_deg = std::atan2(east[i], north[i]) / rad;
       heading_deg[i] += wrap_degrees(direction_deg - heading_deg[i]);
-    }
-  }
-
-  void delay(const std::vector<double>& t_s, std::vector<double>& heading_deg,
-             std::size_t n) const {
-    const auto before_deg = heading_deg;
-    for (std::size_t i = 0, from = 0; i < n; ++i) {
-      const double then_s = std::clamp(t_s[i] - delay_s, t_s[0], t_s[n - 1]);
-      while (from + 2 < n && t_s[from + 1] <= then_s) ++from;
-      if (from + 1 >= n) return;
-      const double share = (then_s - t_s[from]) / (t_s[from + 1] - t_s[from]);
-      heading_deg[i] =
-          before_deg[from] + share * wrap_degrees(before_deg[from + 1] - before_deg[from]);
     }
   }
 

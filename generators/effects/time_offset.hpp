@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/delayed_heading.hpp>
 #include <gyrostat/generators/sampled.hpp>
 #include <gyrostat/generators/stage.hpp>
 
@@ -15,10 +17,12 @@ namespace gyrostat::effects {
 /// `offset` earlier, or later where it is negative, and clocks of unlike pace drift apart. Between
 /// samples the rate is a cubic through both neighbours with the slopes of their neighbours (cubic
 /// convolution, Keys, IEEE Trans. ASSP 29, 1981), within 1 % of a sine of up to an eighth of the
-/// sampling rate at any delay; before the first and after the last sample it is theirs.
+/// sampling rate at any delay; before the first and after the last sample it is theirs. A compass
+/// on the gyro's board has its clock.
 struct TimeOffset {
   double offset_s = 0.05;
   double drift_ppm = 0.0;
+  double of_compass = 0.0;
 
   static constexpr std::string_view title = "the clocks of gyro and reference differ";
   static constexpr Stage stage = Stage::electronics;
@@ -31,12 +35,26 @@ struct TimeOffset {
               "how much later the gyro shows a rate than the reference"},
         Field{"drift_ppm", &P::drift_ppm, "1e-6", Range{.from = -1e5, .to = 1e5},
               "how much more of that each second since the first sample brings"},
+        Field{"of_compass", &P::of_compass, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: the compass has the gyro's clock; 0: the reference's"},
     };
   }
 
   static constexpr TimeOffset absent() { return {.offset_s = 0.0}; }
 
   bool is_response() const { return true; }
+
+  /// At sample i.
+  double late_s(const std::vector<double>& t_s, std::size_t i) const {
+    return offset_s + 1e-6 * drift_ppm * (t_s[i] - t_s[0]);
+  }
+
+  /// What the compass shows of the true heading, before anything that disturbs it.
+  void show_heading(Series& series) const {
+    if (of_compass > 0.5)
+      delay_heading(
+          series.t_s, [&](std::size_t i) { return late_s(series.t_s, i); }, series.heading_deg);
+  }
 
   void apply(Series& series, const Noise& /*noise*/) const {
     const std::size_t n = samples_with(series, needs);
@@ -49,7 +67,7 @@ struct TimeOffset {
     };
     std::size_t at = 0;  // the last sample that is not after the time asked for
     for (std::size_t i = 0; i < n; ++i) {
-      const double then_s = t_s[i] - offset_s - 1e-6 * drift_ppm * (t_s[i] - t_s[0]);
+      const double then_s = t_s[i] - late_s(t_s, i);
       while (at + 1 < n && t_s[at + 1] <= then_s) ++at;
       double seen = rate[at];
       if (then_s > t_s[at] && at + 1 < n) {

@@ -16,7 +16,8 @@ namespace gyrostat::effects {
 /// Vibration shifts the bias (IEEE Std 528, acceleration-squared-sensitive drift
 /// rate): + coefficient times the mean square of what the
 /// specific force deviates by from its own mean, of all three axes together. Both means forget with
-/// the time constant; so gravity, and turning it slowly, count for nothing. Or the mean square is
+/// the time constant, or the force's own with another; so gravity, and turning it slowly, count for
+/// nothing. Or the mean square is
 /// centred: it looks ahead as far as back, for the bias does not wait for a mean. Or it is
 /// that of the stretch between two changes of the vibration: what squares tell of its strength is
 /// noisy, and the vibration of a machine keeps to a strength until it is set to another.
@@ -25,6 +26,7 @@ struct VibrationRectification {
   double time_constant_s = 2.0;
   double between_its_changes = 0.0;
   double centred = 0.0;
+  double mean_time_constant_s = 0.0;
 
   static constexpr std::string_view title = "the bias depends on the strength of vibration";
   static constexpr Stage stage = Stage::electronics;
@@ -43,6 +45,8 @@ struct VibrationRectification {
               "1: the mean square is that of a stretch of even vibration"},
         Field{"centred", &P::centred, "1", Range{.from = 0, .to = 1, .whole = true},
               "1: the mean square looks ahead as far as back"},
+        Field{"mean_time_constant_s", &P::mean_time_constant_s, "s", ranges::non_negative,
+              "time over which the force's own mean is taken; 0: the same"},
     };
   }
 
@@ -54,13 +58,14 @@ struct VibrationRectification {
     std::vector<double> squares(samples_with(series, axes));
     std::array<double, axes.size()> mean{};
     Decay decay(time_constant_s);
+    Decay decay_of_mean(mean_time_constant_s > 0.0 ? mean_time_constant_s : time_constant_s);
     double averaged = 0.0;
     for (std::size_t i = 0; i < squares.size(); ++i) {
-      const double kept = decay(series.t_s, i);
+      const double kept = decay(series.t_s, i), kept_of_mean = decay_of_mean(series.t_s, i);
       double square = 0.0;
       for (std::size_t k = 0; k < axes.size(); ++k) {
         const double now = (series.*axes[k])[i];
-        mean[k] = now + kept * (mean[k] - now);
+        mean[k] = now + kept_of_mean * (mean[k] - now);
         square += (now - mean[k]) * (now - mean[k]);
       }
       averaged = square + kept * (averaged - square);

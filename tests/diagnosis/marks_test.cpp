@@ -290,6 +290,19 @@ TEST(Marks, RoundingToFarMoreThanTheNoiseClosesTheGap) {
   }
 }
 
+/// A hand turns a sensor by up to 30 dps for two minutes: of 1,200 values hardly any two are
+/// neighbours on a grid of an eighth of the noise, and all are on it.
+TEST(Marks, AGridShowsThoughAMotionLeavesMostOfItsValuesOut) {
+  Scenario s = moving();
+  s.sampling = {120.0, 20.0};
+  s.motion = motion::Sinusoidal{30.0, 0.11};
+  s.effects = {effects::Quantization{0.0061}};
+  EXPECT_NEAR(marks_in(recorded(s, 72, true)).lsb_dps, 0.0061, 1e-6);
+  // To four decimals, as a log writes them, is no grid.
+  s.effects = {effects::Quantization{1e-4}};
+  EXPECT_EQ(marks_in(recorded(s, 72, true)).lsb_dps, 0.0);
+}
+
 /// Three gyros on grids, turned into another frame by an attitude that is known but for the first
 /// twelfth, where it is held: there, and nowhere else, values are equal by chance, at any distance.
 TEST(Marks, AGridThatIsThereForAPartMakesNoRepeats) {

@@ -116,6 +116,37 @@ TEST(SetSearch, FaintIronBesideADelayIsFound) {
   EXPECT_EQ(found_in(recorded(s, 88, true)), (std::set<std::string>{"compass_lag", "hard_iron"}));
 }
 
+/// A board that stamps both gyro and compass: one clock is late, and no compass.
+TEST(SetSearch, ACompassOnTheGyrosBoardHasItsClock) {
+  Scenario s = moving();
+  for (const double of_compass : {0.0, 1.0}) {
+    s.effects = {effects::TimeOffset{.offset_s = 0.12, .of_compass = of_compass},
+                 effects::SoftIron{1.0, 40.0}};
+    const auto series = recorded(s, 97, true);
+    const Simulator simulator(series, 1);
+    const auto found = find_set(simulator, series, {});
+    std::set<std::string> names;
+    for (const auto& member : found.members) names.insert(member.effect);
+    EXPECT_EQ(names, (std::set<std::string>{"soft_iron", "time_offset"}));
+    for (const auto& effect : found.scenario.effects)
+      if (const auto* clock = effect.as<effects::TimeOffset>()) {
+        EXPECT_EQ(clock->of_compass, of_compass);
+      }
+    EXPECT_NEAR(found.scenario.compass.noise_std_deg, 0.3, 5.0 * 0.3 / 200.0);
+  }
+}
+
+/// Iron of a degree and a half on a vehicle that turns through a bit more than a quarter of a
+/// circle.
+TEST(SetSearch, IronShowsOnAnArc) {
+  Scenario s = moving();
+  s.motion = motion::Sinusoidal{12.0, 0.031};
+  s.effects = {effects::HardIron{1.5, 40.0}};
+  EXPECT_EQ(found_in(recorded(s, 98, true)), std::set<std::string>{"hard_iron"});
+  s.effects.clear();
+  EXPECT_EQ(found_in(recorded(s, 99, true)), std::set<std::string>{});
+}
+
 /// What a lag of one pole has beside it, and a delay without one, at turns that begin at once.
 TEST(SetSearch, ACompassThatDelaysHasALagAlone) {
   Scenario s = moving();

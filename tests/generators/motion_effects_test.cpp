@@ -372,6 +372,24 @@ TEST(GSensitivity, AddsEachAxisByItsCoefficient) {
 }
 
 /// Of a rate that is straight in time a shift is exact: 5 ms and 2 ms a second of 3 dps/s.
+/// A compass on the gyro's board shows the heading of as much earlier; one elsewhere does not.
+TEST(TimeOffset, IsTheCompassesWhereItHasTheClock) {
+  Scenario scenario;
+  scenario.sampling = {60.0, 20.0};
+  scenario.motion = motion::RateTable{30.0, 10.0};
+  scenario.compass.noise_std_deg = 0.0;
+  Series true_to_time, series;
+  synthesise(scenario, {1, 0}, true_to_time);
+  for (const double of_compass : {0.0, 1.0}) {
+    scenario.effects = {effects::TimeOffset{.offset_s = 0.2, .of_compass = of_compass}};
+    synthesise(scenario, {1, 0}, series);
+    const std::size_t late = of_compass > 0.5 ? 4 : 0;
+    for (std::size_t i = 4; i < series.size(); ++i)
+      EXPECT_NEAR(wrap_degrees(series.heading_deg[i] - true_to_time.heading_deg[i - late]), 0.0,
+                  1e-9);
+  }
+}
+
 TEST(TimeOffset, GrowsWithClocksOfUnlikePace) {
   std::vector<double> ramp;
   for (int i = 0; i < 500; ++i) ramp.push_back(0.03 * i);
@@ -500,6 +518,25 @@ TEST(VibrationRectification, OfAStepIsForgotten) {
   const double k = std::exp(-0.05);
   for (int i = 0; i < 400; ++i)
     EXPECT_NEAR(bias[i], 0.5 * 4.0 * std::pow(k, i + 1) * (1.0 - std::pow(k, i)), 1e-12) << i;
+}
+
+/// With a mean that forgets by m a sample and squares that forget by k, the deviation after a step
+/// A is A m^i and its mean square A^2 m^2 (1 - k) (m^2i - k^i) / (m^2 - k).
+TEST(VibrationRectification, OfAStepIsForgottenByBothMeans) {
+  auto series = silent(even_times(400, 10.0));
+  series.acc_x_mps2.assign(series.size(), 0.0);
+  series.acc_y_mps2.assign(series.size(), 0.0);
+  series.acc_z_mps2.assign(series.size(), 11.8);
+  series.acc_z_mps2[0] = 9.8;
+  effects::VibrationRectification{
+      .coefficient_dps_per_m2ps4 = 0.5, .time_constant_s = 0.5, .mean_time_constant_s = 8.0}
+      .apply(series, {1, 0});
+  const double k = std::exp(-0.2), m = std::exp(-0.0125);
+  for (int i = 0; i < 400; ++i)
+    EXPECT_NEAR(series.gyro_dps[i],
+                0.5 * 4.0 * m * m * (1.0 - k) * (std::pow(m, 2 * i) - std::pow(k, i)) / (m * m - k),
+                1e-12)
+        << i;
 }
 
 /// The bias of ten seconds' shake is centred in time where the mean is, and a time constant later
