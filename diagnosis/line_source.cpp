@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -137,14 +138,14 @@ std::vector<LineWitness> line_sources(const Series& recording, const std::vector
 
 std::string in_words(const std::vector<LineWitness>& lines) {
   std::vector<std::string> words, seen_nowhere;
+  std::map<std::string, std::vector<std::string>> felt;  // by channel
   for (const auto& line : lines) {
     const auto name = fmt::format("{} at {:.3g} Hz", line.effect, line.frequency_hz);
     const auto where = line.channel.starts_with("acc_") ? line.channel : "the rate of another axis";
     const auto seen = fmt::format("{}, too (coherence {:.2g})", where, line.coherence);
     const bool is_there = line.p_value < significance;
     if (line.source == LineSource::mechanical)
-      words.push_back(
-          fmt::format("The {} is in {}: mechanical, the sensor is shaken.", name, seen));
+      felt[where].push_back(fmt::format("{} (coherence {:.2g})", name, line.coherence));
     else if (line.source == LineSource::undecided)
       words.push_back(fmt::format(
           "The {} is {} in {}; a longer recording{} would tell whether the sensor is shaken.", name,
@@ -158,6 +159,9 @@ std::string in_words(const std::vector<LineWitness>& lines) {
     else
       seen_nowhere.push_back(name);
   }
+  for (const auto& [where, names] : felt)
+    words.push_back(fmt::format("In {}, too: {}; mechanical, the sensor is shaken.", where,
+                                fmt::join(names, ", ")));
   if (!seen_nowhere.empty())
     words.push_back(
         fmt::format("In no channel beside the gyro: {}; electronic, unless it is a "

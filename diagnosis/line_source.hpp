@@ -34,8 +34,8 @@ struct LineWitness {
 /// coherence, and from 0.05 on it is none.
 std::vector<LineWitness> line_sources(const Series& recording, const std::vector<Effect>& effects);
 
-/// "The vibration at 12 Hz is in acc_y_mps2, too (coherence 0.93): mechanical, the sensor is
-/// shaken."; empty where there are none.
+/// "In acc_y_mps2, too: vibration at 12 Hz (coherence 0.93); mechanical, the sensor is shaken.";
+/// empty where there are none.
 std::string in_words(const std::vector<LineWitness>& lines);
 
 }  // namespace gyrostat::gap

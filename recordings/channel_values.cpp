@@ -42,7 +42,9 @@ void require_increasing(const std::vector<double>& t_s, const ChannelSource& sou
     fail(source, blank - t_s.begin(), "'' is not a number; allowed: a time in " + unit_of(source));
   if (step != t_s.end())
     fail(source, step - t_s.begin() + 1,
-         fmt::format("'{}' does not come after '{}'; allowed: increasing times", step[1], step[0]));
+         fmt::format("'{}' does not come after '{}'; allowed: increasing times (--rate HZ does "
+                     "without them)",
+                     step[1], step[0]));
 }
 
 /// Values and bounds are in the file's unit.

@@ -14,7 +14,7 @@ namespace {
 
 /// A repeat is one where as many are beyond chance by so many standard deviations.
 constexpr double clear = 6.0;
-constexpr double least_share = 3e-4;
+constexpr double least_share = 5e-5;
 
 /// Pairs of samples between which the reference moves by more than rounding and noise could undo,
 /// how many of them do not move as far, and how many are equal, or would be by chance: outliers

@@ -121,6 +121,26 @@ std::string effects_of(const Diagnosis& d) {
   return names.empty() ? d.verdict.text() : fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// "noise_bandwidth (poles 2)": what is 0 of a form is not there.
+std::string called(const SharedEffect& shared) {
+  const auto& described = effect_types().named(shared.effect, "effects");
+  std::vector<std::string> form;
+  for (const auto& p : shared.parameters)
+    for (const auto& field : described.fields)
+      if (field.name == p.name && field.range.whole && p.mean != 0.0)
+        form.push_back(fmt::format("{} {:g}", p.name, p.mean));
+  return form.empty() ? shared.effect
+                      : fmt::format("{} ({})", shared.effect, fmt::join(form, ", "));
+}
+
+/// Whether a parameter tells more than that another form is not there.
+bool tells(const SharedEffect& shared, const SharedParameter& p) {
+  const auto& described = effect_types().named(shared.effect, "effects");
+  const auto field = std::find_if(described.fields.begin(), described.fields.end(),
+                                  [&](const auto& f) { return f.name == p.name; });
+  return !field->range.whole && (p.mean != 0.0 || p.spread != 0.0);
+}
+
 }  // namespace
 
 std::vector<SharedEffect> shared_effects(const std::vector<FleetMember>& all) {
@@ -195,7 +215,6 @@ std::vector<Table> member_tables(const std::vector<FleetMember>& members, const 
                .columns = {{"effect", ""},
                            {"in", ""},
                            {"parameter", ""},
-                           {"unit", ""},
                            {"mean", ""},
                            {"95 %", ""},
                            {"spread", ""},
@@ -207,11 +226,12 @@ std::vector<Table> member_tables(const std::vector<FleetMember>& members, const 
   const std::size_t sampled = without_means(members).size();
   for (const auto& s : shared_effects(members))
     for (const auto& p : s.parameters)
-      shared.rows.push_back({s.form.empty() ? s.effect : s.effect + " (" + s.form + ")",
-                             fmt::format("{} of {}{}", s.members.size(), sampled,
-                                         s.fitted_once ? ", fitted once" : ""),
-                             p.name, p.unit, cell(p.mean), range(p.mean_low, p.mean_high),
-                             cell(p.spread), range(p.spread_low, p.spread_high), cell(p.p_equal)});
+      if (tells(s, p))
+        shared.rows.push_back(
+            {called(s), fmt::format("{} of {}", s.members.size(), sampled), p.name, cell(p.mean),
+             range(p.mean_low, p.mean_high),
+             s.fitted_once && p.spread == 0.0 ? TableCell("fitted once") : cell(p.spread),
+             range(p.spread_low, p.spread_high), cell(p.p_equal)});
   return {each, shared};
 }
 
