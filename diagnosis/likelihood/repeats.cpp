@@ -23,6 +23,17 @@ constexpr double least_share = 5e-5;
 struct Apart {
   double pairs = 0.0, still = 0.0, equal = 0.0, by_chance = 0.0;
   double far_dps = 0.0;  ///< what neither undoes
+  double spread_dps = 0.0, grid_dps = 0.0;
+  /// From which step of the reference on equal neighbours may well be repeated, as this share of
+  /// samples is: at odds of a tenth against being rounded to the same value of a grid. What is
+  /// hidden in vain is little noise the less, what is not is an outlier the more.
+  double told_from_dps(double repeated) const {
+    constexpr double odds = 0.1;
+    const double by_rounding =
+        grid_dps / (std::sqrt(2.0 * std::numbers::pi) * std::max(spread_dps, 1e-12));
+    const double log_odds = std::log(odds * by_rounding / std::max(repeated, 1e-12));
+    return std::min(far_dps, spread_dps * std::sqrt(2.0 * std::max(0.0, log_odds)));
+  }
   /// Where the gyro only lags, they stand still without being equal.
   bool shows_repeats() const {
     constexpr double fewest = 2.0, most_of_them = 0.8;
@@ -58,6 +69,8 @@ Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<doubl
                                  std::numbers::sqrt2 * marks.white_under_grid_dps);
   const double far = apart.far_dps = marks.lsb_dps + beyond_noise * spread;
   const double grid = marks.lsb_dps > 0.0 ? marks.lsb_dps : resolution_dps;
+  apart.spread_dps = spread;
+  apart.grid_dps = grid;
   constexpr double beside = 2.0;  // steps
   double back = 0.0, forth = 0.0;
   const double widest_zone_dps = 0.5 * fastest_dps(conditions);
@@ -172,9 +185,10 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
   // without all of them the noise would be another.
   marks.repeats_are_told = beyond >= 0.5 * equal;
   const auto& reference = simulator.conditions().series().rate_ref_dps;
+  const double told_from_dps = apart.told_from_dps(repeated);
   const auto is_told = [&](std::size_t i) {
     return marks.repeats_are_told ||
-           (!reference.empty() && std::abs(reference[i] - reference[i - 1]) > apart.far_dps);
+           (!reference.empty() && std::abs(reference[i] - reference[i - 1]) > told_from_dps);
   };
   const auto is_clipped = [&](std::size_t i) {
     return ends.holds(z[i]) &&

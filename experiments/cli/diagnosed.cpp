@@ -24,10 +24,9 @@ namespace fs = std::filesystem;
 /// Without what is not the sensor's, which is told.
 Series of_the_sensor(Series recording, const std::string& file, std::ostream& log) {
   std::vector<std::string> told;
-  Series series =
-      gap::without_foreign_heading(gap::without_handling(std::move(recording), told), told);
-  if (const auto turning = gap::turning_without_reference(series))
-    told.push_back(gap::in_words(*turning));
+  Series series = gap::without_handling(std::move(recording), told);
+  series = gap::without_foreign_heading(std::move(series), told);
+  series = gap::without_turning(std::move(series), told);
   for (const auto& line : told) log << fmt::format("{}: {}\n", file, line);
   return series;
 }

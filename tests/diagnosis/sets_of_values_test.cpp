@@ -42,6 +42,18 @@ TEST(SetSearch, RepeatsBesideACoarseGridColourNoNoise) {
   EXPECT_NEAR(found.scenario.random_error.measurement_noise_std_dps, 0.05, 0.005);
 }
 
+/// On a grid of almost the noise a repeat is seen only where the motion went on, by three
+/// deviations as by ten: those between were outliers of four.
+TEST(SetSearch, RepeatsThatAMotionHardlyTellsAreNoOutliers) {
+  Scenario s = moving();
+  s.motion = motion::Sinusoidal{80.0, 0.031};
+  s.effects = {effects::StaleSamples{0.01, 1.0}, effects::Quantization{0.04}};
+  for (const std::uint64_t seed : {91, 92})
+    EXPECT_EQ(found_in(recorded(s, seed, true)),
+              (std::set<std::string>{"quantization", "stale_samples"}))
+        << seed;
+}
+
 /// Of 1,200 outliers on a grid some eighty fall on the value before, and as many on each beside it.
 TEST(SetSearch, OutliersThatFallOnTheValueBeforeAreNoRepeats) {
   Scenario s = moving();

@@ -1,5 +1,6 @@
 #include <gyrostat/diagnosis/unreferenced_turning.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -12,9 +13,9 @@
 
 namespace gyrostat::gap::unreferenced_turning_test {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 
 /// Three gyros at 50 Hz for a hundred seconds; `rate` is added about the third.
 template <class Rate>
@@ -31,21 +32,42 @@ Series recording(const Rate& rate) {
   return series;
 }
 
-TEST(UnreferencedTurning, ItsLongestRestIsTold) {
-  const auto turning = turning_without_reference(
-      recording([](double t_s) { return t_s < 40.0 || t_s > 70.0 ? 0.0 : 60.0; }));
-  ASSERT_TRUE(turning);
-  EXPECT_NEAR(turning->extent_dps, 60.0, 1.0);
-  EXPECT_NEAR(turning->rest_from_s, 1.0, 0.3);
-  EXPECT_NEAR(turning->rest_to_s, 39.0, 0.3);
-  EXPECT_THAT(in_words(*turning), HasSubstr("--from 1.0 --to 38.8"));
+std::size_t known_of(const std::vector<double>& values) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(values, [](double x) { return !std::isnan(x); }));
 }
 
-TEST(UnreferencedTurning, OneThatNeverRestsIsToldWithoutOne) {
+/// Thirty seconds of it it turns, and half a second beside is not looked at either.
+TEST(UnreferencedTurning, ItsRestsAreLookedAtAlone) {
+  auto series = recording([](double t_s) { return t_s < 40.0 || t_s > 70.0 ? 0.0 : 60.0; });
+  series.heading_deg.assign(series.size(), 0.0);
+  const auto turning = turning_without_reference(series);
+  EXPECT_NEAR(turning.extent_dps, 60.0, 1.0);
+  EXPECT_NEAR(turning.rest_s, 69.0, 1.0);  // in quarters of a second
+  std::vector<std::string> told;
+  const auto rests = without_turning(series, told);
+  EXPECT_THAT(told, ElementsAre(HasSubstr("at rest are looked at")));
+  EXPECT_NEAR(static_cast<double>(known_of(rests.gyro_dps)), 50.0 * turning.rest_s, 1.0);
+  EXPECT_EQ(known_of(rests.cross_rate_2_dps), known_of(rests.gyro_dps));
+  EXPECT_THAT(rests.heading_deg, IsEmpty());
+  for (std::size_t i = 0; i < rests.size(); ++i)
+    EXPECT_TRUE(series.t_s[i] < 39.9 || series.t_s[i] > 70.1 || std::isnan(rests.gyro_dps[i]));
+}
+
+/// A centrifuge spins evenly for most of the time, which is no rest.
+TEST(UnreferencedTurning, AnEvenTurnIsNoRest) {
   const auto turning =
-      turning_without_reference(recording([](double t_s) { return 30.0 * std::sin(t_s); }));
-  ASSERT_TRUE(turning);
-  EXPECT_THAT(in_words(*turning), Not(HasSubstr("--from")));
+      turning_without_reference(recording([](double t_s) { return t_s < 30.0 ? 0.0 : 500.0; }));
+  EXPECT_NEAR(turning.rest_s, 29.5, 0.5);
+  EXPECT_EQ(turning.at_rest.front(), 1);
+  EXPECT_EQ(turning.at_rest.back(), 0);
+}
+
+TEST(UnreferencedTurning, OneThatHardlyRestsIsLeftAsItIs) {
+  const auto series = recording([](double t_s) { return 30.0 * std::sin(t_s); });
+  std::vector<std::string> told;
+  EXPECT_EQ(known_of(without_turning(series, told).gyro_dps), series.size());
+  EXPECT_THAT(told, ElementsAre(HasSubstr("is taken for errors")));
 }
 
 TEST(UnreferencedTurning, ShakingAKnockAndADriftAreNone) {
