@@ -158,8 +158,11 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
   if (!simulator.conditions().series().rate_ref_dps.empty() &&
       marks.lsb_dps > coarse * std::max(marks.white_under_grid_dps, marks.noise_of_steps_dps))
     by_chance = equal;
-  by_chance =
-      std::max(by_chance, count * share_equal_far_apart(simulator.conditions(), z, is_free));
+  // Where no grid says so, as many of those that are not repeated are equal as of pairs far apart.
+  if (const double apart_equal =
+          grid > 0.0 ? 0.0 : share_equal_far_apart(simulator.conditions(), z, is_free);
+      apart_equal < 1.0)
+    by_chance = std::max(by_chance, (count - equal) * apart_equal / (1.0 - apart_equal));
   double beyond = equal - by_chance;
   // So many pairs say that there are none, too.
   constexpr double enough_pairs = 1000.0;
