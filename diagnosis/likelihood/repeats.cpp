@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/equal_by_chance.hpp>
-#include <gyrostat/diagnosis/starts/motion.hpp>
-#include <gyrostat/diagnosis/starts/quantile.hpp>
+#include <gyrostat/diagnosis/likelihood/kept_apart.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -15,78 +13,6 @@ namespace {
 /// A repeat is one where as many are beyond chance by so many standard deviations.
 constexpr double clear = 6.0;
 constexpr double least_share = 5e-5;
-
-/// Pairs of samples between which the reference moves by more than rounding and noise could undo,
-/// how many of them do not move as far, and how many are equal, or would be by chance: outliers
-/// fall on the value before as they do on those on either side of it, where a filter that follows
-/// the motion falls on one side alone.
-struct Apart {
-  double pairs = 0.0, still = 0.0, equal = 0.0, by_chance = 0.0;
-  double far_dps = 0.0;  ///< what neither undoes
-  double spread_dps = 0.0, grid_dps = 0.0;
-  /// From which step of the reference on equal neighbours may well be repeated, as this share of
-  /// samples is: at odds of a tenth against being rounded to the same value of a grid. What is
-  /// hidden in vain is little noise the less, what is not is an outlier the more.
-  double told_from_dps(double repeated) const {
-    constexpr double odds = 0.1;
-    const double by_rounding =
-        grid_dps / (std::sqrt(2.0 * std::numbers::pi) * std::max(spread_dps, 1e-12));
-    const double log_odds = std::log(odds * by_rounding / std::max(repeated, 1e-12));
-    return std::min(far_dps, spread_dps * std::sqrt(2.0 * std::max(0.0, log_odds)));
-  }
-  /// Where the gyro only lags, they stand still without being equal.
-  bool shows_repeats() const {
-    constexpr double fewest = 2.0, most_of_them = 0.8;
-    return equal >= fewest && equal >= most_of_them * still;
-  }
-};
-Apart kept_apart_by_motion(const Conditions& conditions, const std::vector<double>& z,
-                           const Marks& marks, double resolution_dps) {
-  const auto& reference = conditions.series().rate_ref_dps;
-  Apart apart;
-  if (reference.empty()) return apart;
-  // A filter's output has not yet begun to move where its input has.
-  constexpr std::size_t around = 4;
-  const auto follows = [&](std::size_t i) {
-    const std::size_t from = i - 1 - around, to = i + around;
-    return 2.0 * std::abs(z[to] - z[from]) >= std::abs(reference[to] - reference[from]);
-  };
-  const auto each = [&](const auto& look) {
-    for (const auto& span : conditions.spans(Part::train))
-      for (std::size_t i = span.first + 1 + around; i + around < span.last; ++i)
-        if (!is_missing(z[i]) && !is_missing(z[i - 1]) && follows(i) &&
-            (marks.limit_dps == 0.0 || std::abs(z[i]) < marks.limit_at(z[i])))
-          look(i, z[i] - z[i - 1], reference[i] - reference[i - 1]);
-  };
-  std::vector<double> errors;
-  each([&](std::size_t /*i*/, double step, double turned) {
-    errors.push_back(std::abs(step - turned));
-  });
-  if (errors.empty()) return apart;
-  constexpr double beyond_noise = 5.0;
-  // Most of a coarse grid's errors are 0, whatever the noise under it.
-  const double spread = std::max(quantile(std::move(errors), 0.5) / normal_quartile,
-                                 std::numbers::sqrt2 * marks.white_under_grid_dps);
-  const double far = apart.far_dps = marks.lsb_dps + beyond_noise * spread;
-  const double grid = marks.lsb_dps > 0.0 ? marks.lsb_dps : resolution_dps;
-  apart.spread_dps = spread;
-  apart.grid_dps = grid;
-  constexpr double beside = 2.0;  // steps
-  double back = 0.0, forth = 0.0;
-  const double widest_zone_dps = 0.5 * fastest_dps(conditions);
-  each([&](std::size_t i, double step, double turned) {
-    // About zero, a dead zone may hold them together.
-    const bool may_be_held = std::abs(z[i]) <= far && std::abs(reference[i]) <= widest_zone_dps;
-    if (std::abs(turned) <= far || may_be_held) return;
-    apart.pairs += 1.0;
-    apart.still += std::abs(step) <= far ? 1.0 : 0.0;
-    apart.equal += step == 0.0 ? 1.0 : 0.0;
-    if (step != 0.0 && std::abs(step) < (beside + 0.5) * grid)
-      (step * turned < 0.0 ? back : forth) += 1.0;
-  });
-  apart.by_chance = std::sqrt(back * forth) / beside;
-  return apart;
-}
 
 /// Whether flags begin at distances that are alike: by chance they would spread as far as their
 /// mean.
@@ -167,7 +93,7 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
   // So many pairs say that there are none, too.
   constexpr double enough_pairs = 1000.0;
   const auto apart =
-      back > 1 ? Apart{}
+      back > 1 ? KeptApart{}
                : kept_apart_by_motion(simulator.conditions(), z, marks, simulator.resolution_dps());
   if (apart.pairs >= enough_pairs || apart.shows_repeats()) {
     marks.turns_through_grid = apart.pairs > 0.5 * count;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <gyrostat/diagnosis/answer.hpp>
+#include <gyrostat/experiments/findings/member_tables.hpp>
 #include <gyrostat/experiments/findings/report/live_page.hpp>
 #include <gyrostat/results/render/html.hpp>
 

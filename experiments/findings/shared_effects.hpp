@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include <gyrostat/core/table.hpp>
 #include <gyrostat/diagnosis/diagnosis.hpp>
 
 namespace gyrostat::gap {
@@ -46,8 +45,5 @@ std::vector<SharedEffect> shared_effects(const std::vector<FleetMember>& members
 
 /// What all have, what some have, what one alone has; a sentence each. Means are left out.
 std::string shared_in_words(const std::vector<FleetMember>& members);
-
-/// A row a member, then what they share. `kind` is what a member is: "axis", "sensor".
-std::vector<Table> member_tables(const std::vector<FleetMember>& members, const std::string& kind);
 
 }  // namespace gyrostat::gap

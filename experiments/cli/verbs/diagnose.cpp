@@ -19,6 +19,7 @@
 #include <gyrostat/experiments/findings/diagnosis_page.hpp>
 #include <gyrostat/experiments/findings/diagnosis_pictures.hpp>
 #include <gyrostat/experiments/findings/fleet_page.hpp>
+#include <gyrostat/experiments/findings/member_tables.hpp>
 #include <gyrostat/experiments/run/outcome_file.hpp>
 #include <gyrostat/experiments/study/study.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include <gyrostat/diagnosis/likelihood/marks.hpp>
+
+namespace gyrostat::gap {
+
+/// Pairs of samples between which the reference moves by more than rounding and noise could undo,
+/// how many of them do not move as far, and how many are equal, or would be by chance: outliers
+/// fall on the value before as they do on those on either side of it, where a filter that follows
+/// the motion falls on one side alone.
+struct KeptApart {
+  double pairs = 0.0, still = 0.0, equal = 0.0, by_chance = 0.0;
+  double far_dps = 0.0;  ///< what neither undoes
+  double spread_dps = 0.0, grid_dps = 0.0;
+  /// From which step of the reference on equal neighbours may well be repeated, as this share of
+  /// samples is: at odds of a tenth against being rounded to the same value of a grid. What is
+  /// hidden in vain is little noise the less, what is not is an outlier the more.
+  double told_from_dps(double repeated) const;
+  /// Where the gyro only lags, they stand still without being equal.
+  bool shows_repeats() const {
+    constexpr double fewest = 2.0, most_of_them = 0.8;
+    return equal >= fewest && equal >= most_of_them * still;
+  }
+};
+
+/// Of the train part, beside the marks of grid and limits; no pairs without a reference.
+KeptApart kept_apart_by_motion(const Conditions& conditions, const std::vector<double>& gyro_dps,
+                               const Marks& marks, double resolution_dps);
+
+}  // namespace gyrostat::gap
