@@ -7,6 +7,7 @@
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/core/values.hpp>
+#include <gyrostat/diagnosis/starts/turning.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -106,7 +107,9 @@ HeadingOf heading_of(const Series& recording) {
   if (recording.heading_deg.empty() || recording.size() < 2) return HeadingOf::compass;
   const auto turned = unwrapped(recording.heading_deg);
   if (is_of_another_axis(recording, turned)) return HeadingOf::another_axis;
-  if (is_of_a_filter(recording, turned)) return HeadingOf::filter;
+  // At a slow turn a heading without noise moves as little.
+  if (inner_extent(recording.rate_ref_dps) == 0.0 && is_of_a_filter(recording, turned))
+    return HeadingOf::filter;
   return HeadingOf::compass;
 }
 

@@ -63,6 +63,15 @@ TEST(OwnHeading, AFiltersIsToldAtRestThoughItIsRounded) {
   EXPECT_EQ(heading_of(recording({.walk_deg = step_deg, .grid_deg = 0.01})), HeadingOf::filter);
 }
 
+/// A table that turns by no more than the gyro's noise, beside a heading without any.
+TEST(OwnHeading, ASlowTableIsNoFilter) {
+  auto series = recording({.turn_dps = 0.1, .heading_dps = 0.1});
+  EXPECT_EQ(heading_of(series), HeadingOf::filter);  // as far as one can see
+  for (std::size_t i = 0; i < series.size(); ++i)
+    series.rate_ref_dps.push_back(0.1 * std::sin(0.4 * series.t_s[i]));
+  EXPECT_EQ(heading_of(series), HeadingOf::compass);
+}
+
 TEST(OwnHeading, OneThatTurnsWithAnotherGyroIsThatOnes) {
   EXPECT_EQ(heading_of(recording({.cross_dps = 40.0, .heading_dps = 40.0, .white_deg = 0.3})),
             HeadingOf::another_axis);
