@@ -58,6 +58,20 @@ void flag_rests(const std::vector<char>& is_still, std::size_t quarter, std::vec
   }
 }
 
+/// Whether each quarter of the recording has two seconds of rest, and all have two fifths of it:
+/// what is looked for in one part is judged on another.
+bool is_all_over(const UnreferencedTurning& turning, double rate_hz) {
+  constexpr std::size_t parts = 4;
+  constexpr double least_s = 2.0, least_share = 0.4;
+  const std::size_t length = turning.at_rest.size() / parts;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const auto first = turning.at_rest.begin() + static_cast<std::ptrdiff_t>(part * length);
+    const auto rest = std::count(first, first + static_cast<std::ptrdiff_t>(length), 1);
+    if (static_cast<double>(rest) < least_s * rate_hz) return false;
+  }
+  return turning.rest_s * rate_hz >= least_share * static_cast<double>(turning.at_rest.size());
+}
+
 }  // namespace
 
 UnreferencedTurning turning_without_reference(const Series& recording) {
@@ -92,7 +106,7 @@ Series without_turning(Series recording, std::vector<std::string>& told) {
   if (!turning) return recording;
   const auto turns = fmt::format("the sensor turns by {:.3g} dps and no rate_ref_dps says how",
                                  turning.extent_dps);
-  if (turning.rest_s < least_rest_s) {
+  if (turning.rest_s < least_rest_s || !is_all_over(turning, recording.rate_hz())) {
     told.push_back(turns + ": what it turns is taken for errors");
     return recording;
   }

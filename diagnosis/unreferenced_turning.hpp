@@ -22,9 +22,10 @@ struct UnreferencedTurning {
 /// an even turn they are steady, too.
 UnreferencedTurning turning_without_reference(const Series& recording);
 
-/// The recording with its rests alone, where these are 20 s and more: what was turned between them,
-/// nobody knows, so that a heading goes with the turns. `told` hears of it, and where there is not
-/// as much rest, that turns are taken for errors.
+/// The recording with its rests alone, where these are 20 s and more, two fifths of it and two
+/// seconds of each quarter: what was turned between them, nobody knows, so that a heading goes with
+/// the turns. `told` hears of it, and where there is not as much rest, that turns are taken for
+/// errors.
 Series without_turning(Series recording, std::vector<std::string>& told);
 
 }  // namespace gyrostat::gap
