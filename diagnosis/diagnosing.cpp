@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include <gyrostat/core/error.hpp>
 #include <gyrostat/diagnosis/cause_type.hpp>
 #include <gyrostat/diagnosis/likelihood/nameless_mean.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
@@ -72,6 +75,12 @@ void Diagnosing::take(const std::vector<Given>& given) {
 }
 
 void Diagnosing::localise() {
+  for (const auto part : both_parts)
+    if (simulator_.instrument(part).size() == 0)
+      throw InputError("recording", fmt::format("too few samples are there in the part that {} to "
+                                                "read anything off them",
+                                                part == Part::train ? "causes are looked for in"
+                                                                    : "is held back"));
   search();
   tell("simulating the baseline", search_share);
   const auto fit = linearised(simulator_, with_drift(found_.baseline, recording_));

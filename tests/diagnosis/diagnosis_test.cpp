@@ -23,6 +23,17 @@
 namespace gyrostat::gap::diagnosis_test {
 namespace {
 
+/// Twenty seconds at the start of seven minutes and a half: nothing can be read off the rest.
+TEST(Diagnosis, APartWithoutReadingsIsRefused) {
+  Scenario s = still();
+  s.sampling.duration_s = 450.0;
+  Series series = recorded(s, 6, false);
+  series.heading_deg.clear();
+  for (std::size_t i = 0; i < series.size(); ++i)
+    if (series.t_s[i] > 19.0) series.gyro_dps[i] = no_value;
+  EXPECT_THROW(diagnose(series, {}), InputError);
+}
+
 /// A magnet that passes within the part that is held back, 2 deg for 20 s: a clear burst, once
 /// another part is held back. Without its name it stays unknown.
 TEST(Diagnosis, WhatIsInTheHeldOutPartAloneIsNamedWhereAnotherIsHeldOut) {
