@@ -35,6 +35,15 @@ std::vector<double> added(const Effect& effect, std::vector<double> t_s, std::ui
   return series.gyro_dps;
 }
 
+/// The gyro of a noiseless sensor with this effect at these rates, 0.01 s apart.
+template <class Effect>
+std::vector<double> sensed(const Effect& effect, const std::vector<double>& rates) {
+  auto series = silent(even_times(rates.size(), 100.0));
+  series.rate_ref_dps = series.gyro_dps = rates;
+  effect.apply(series, {1, 0});
+  return series.gyro_dps;
+}
+
 /// The mean of v_i v_j over trials.
 template <class Draw>
 double mean_product(const Draw& draw, std::uint32_t trials, std::size_t i, std::size_t j) {

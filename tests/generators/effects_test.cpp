@@ -51,9 +51,9 @@ TEST(ThermalCurvature, AddsACubicAboutTheSameReference) {
 }
 
 TEST(ThermalCurvature, HasAKink) {
-  const auto bias = drift(
-      ThermalCurvature{.curvature_dps_per_C2 = 0.0, .kink_dps_per_C = -0.02, .kink_C = 40.0},
-      {10.0, 40.0, 50.0});
+  const auto bias =
+      drift(ThermalCurvature{.curvature_dps_per_C2 = 0.0, .kink_dps_per_C = -0.02, .kink_C = 40.0},
+            {10.0, 40.0, 50.0});
   EXPECT_EQ(bias[0], 0.0);
   EXPECT_EQ(bias[1], 0.0);
   EXPECT_DOUBLE_EQ(bias[2], -0.2);

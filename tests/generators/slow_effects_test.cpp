@@ -47,8 +47,8 @@ TEST(GaussMarkov, HasItsVarianceAndExponentialCorrelationAtUnevenTimes) {
 TEST(GaussMarkov, OfSecondOrderIsSmoothAtUnevenTimes) {
   const effects::GaussMarkov effect{.std_dps = 0.2, .correlation_time_s = 4.0, .order = 2.0};
   const double T = effect.time_constant_s();
-  expect_stationary_normal(
-      effect, [&](double lag) { return 0.04 * (1.0 + lag / T) * std::exp(-lag / T); });
+  expect_stationary_normal(effect,
+                           [&](double lag) { return 0.04 * (1.0 + lag / T) * std::exp(-lag / T); });
 }
 
 TEST(GaussMarkov, OfSecondOrderForgetsNothingOverManyShortIntervals) {
