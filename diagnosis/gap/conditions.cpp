@@ -4,10 +4,13 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include <gyrostat/core/error.hpp>
 #include <gyrostat/core/numerics/dense.hpp>
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/gap/between_steps.hpp>
+#include <gyrostat/diagnosis/gap/local_trend.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -18,6 +21,7 @@ constexpr std::size_t shortest_cluster = 4;
 constexpr std::size_t shortest_span = 64;
 constexpr std::size_t shortest_slow_span = 2;
 constexpr double warming_interval_s = 10.0;
+constexpr double least_step_C = 1e-6;
 
 /// Maximal runs of present indices of one part.
 template <class Present, class PartOf>
@@ -61,6 +65,7 @@ Conditions::Conditions(const Series& recording, Split split) : series_(recording
   for (auto* channel : {&series_.temperature_C, &series_.rate_ref_dps, &series_.acc_x_mps2,
                         &series_.acc_y_mps2, &series_.acc_z_mps2})
     interpolate_missing(*channel);
+  series_.temperature_C = between_steps(std::move(series_.temperature_C), least_step_C);
   const std::size_t n = series_.size();
   interval_s_ = n > 1 ? series_.duration_s() / static_cast<double>(n - 1) : 1.0;
   const auto slow_samples = static_cast<std::size_t>(std::lround(slow_s / interval_s_));
@@ -141,13 +146,13 @@ void Conditions::find_drift() {
           least_C;
   drift_regressors_ =
       Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(slow_size()), regress ? 4 : 1);
+  const auto slopes =
+      regress ? slopes_in_noise(slow_time_s_, slow_temperature_C_) : std::vector<double>{};
   for (std::size_t i = 0; regress && i < slow_size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, slow_size() - 1);
     drift_regressors_(row, 1) = slow_temperature_C_[i] - slow_temperature_C_[0];
     drift_regressors_(row, 2) = slow_warming_[i];
-    drift_regressors_(row, 3) = (slow_temperature_C_[after] - slow_temperature_C_[before]) /
-                                (slow_time_s_[after] - slow_time_s_[before]);
+    drift_regressors_(row, 3) = slopes[i];
   }
   for (const auto& span : slow_spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i) train_points_.push_back(i);
