@@ -12,6 +12,7 @@
 #include <gyrostat/diagnosis/handling.hpp>
 #include <gyrostat/diagnosis/own_heading.hpp>
 #include <gyrostat/diagnosis/own_reference.hpp>
+#include <gyrostat/diagnosis/reference_noise.hpp>
 #include <gyrostat/diagnosis/unreferenced_turning.hpp>
 #include <gyrostat/diagnosis/views.hpp>
 #include <gyrostat/experiments/cli/phase_progress.hpp>
@@ -27,6 +28,7 @@ Series of_the_sensor(Series recording, const std::string& file, std::ostream& lo
   Series series = gap::without_handling(std::move(recording), told);
   series = gap::without_foreign_heading(std::move(series), told);
   series = gap::without_turning(std::move(series), told);
+  series = gap::without_reference_noise(std::move(series), told);
   for (const auto& line : told) log << fmt::format("{}: {}\n", file, line);
   return series;
 }
