@@ -112,11 +112,11 @@ TEST(WithoutReferenceNoise, WhereThereIsNoneNothingChanges) {
   EXPECT_THAT(told, IsEmpty());
 }
 
-/// Against the noisy reference, the gyro has a dead zone or a bandwidth.
+/// Against the noisy reference itself, the gyro has a limit.
 TEST(WithoutReferenceNoise, AGoodGyroHasNothing) {
   auto series = recorded(moving(), 41, true);
   const NormalStream noise(41, 0, "reference");
-  for (std::size_t i = 0; i < series.size(); ++i) series.rate_ref_dps[i] += 0.01 * noise.normal(i);
+  for (std::size_t i = 0; i < series.size(); ++i) series.rate_ref_dps[i] += 0.03 * noise.normal(i);
   std::vector<std::string> told;
   const auto without = without_reference_noise(series, told);
   EXPECT_EQ(told.size(), 1u);
