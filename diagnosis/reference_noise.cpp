@@ -149,7 +149,7 @@ std::vector<double> without_white_noise(const std::vector<double>& values, doubl
       low = std::max(low, centre - within);
       high = std::min(high, centre + within);
       if (!(low <= high)) break;
-      smooth[i] = centre;
+      smooth[i] = (centre - p.weights[0] * values[i]) / (1.0 - p.weights[0]);
     }
   }
   return smooth;

@@ -15,7 +15,8 @@ double reference_noise_dps(const Series& recording);
 /// A signal in white noise of this standard deviation, by parabolas over the longest span about
 /// each sample at which all shorter ones agree with it: the adaptive order-two local polynomial of
 /// Katkovnik ("A new method for varying adaptive bandwidth selection", IEEE Trans. Signal Process.
-/// 47, 1999). Jumps stay where they are.
+/// 47, 1999), without the sample itself, so that where the smooth signal is high its noise is not.
+/// Jumps stay where they are.
 std::vector<double> without_white_noise(const std::vector<double>& values, double std);
 
 /// The recording with a reference without that noise: against a noisy one, a gyro at rest does not

@@ -112,15 +112,21 @@ TEST(WithoutReferenceNoise, WhereThereIsNoneNothingChanges) {
   EXPECT_THAT(told, IsEmpty());
 }
 
-/// Against the noisy reference itself, the gyro has a limit.
-TEST(WithoutReferenceNoise, AGoodGyroHasNothing) {
-  auto series = recorded(moving(), 41, true);
-  const NormalStream noise(41, 0, "reference");
-  for (std::size_t i = 0; i < series.size(); ++i) series.rate_ref_dps[i] += 0.03 * noise.normal(i);
-  std::vector<std::string> told;
-  const auto without = without_reference_noise(series, told);
-  EXPECT_EQ(told.size(), 1u);
-  EXPECT_THAT(found_in(without), IsEmpty());
+/// Against the noisy reference itself three of these four gyros have a limit, steps or a bandwidth.
+/// Names by chance stand in 4 % of recordings, two of four in one set of a hundred.
+TEST(WithoutReferenceNoise, GoodGyrosHaveNothing) {
+  int named = 0;
+  for (const std::uint32_t seed : {41u, 42u, 43u, 44u}) {
+    auto series = recorded(moving(), seed, true);
+    series.heading_deg.clear();
+    const NormalStream noise(seed, 0, "reference");
+    for (std::size_t i = 0; i < series.size(); ++i)
+      series.rate_ref_dps[i] += 0.03 * noise.normal(i);
+    std::vector<std::string> told;
+    named += found_in(without_reference_noise(series, told)).empty() ? 0 : 1;
+    EXPECT_EQ(told.size(), 1u);
+  }
+  EXPECT_LE(named, 1);
 }
 
 }  // namespace
