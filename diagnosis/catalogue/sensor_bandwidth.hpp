@@ -150,9 +150,10 @@ struct Diagnosed<effects::SensorBandwidth> {
 
  private:
   /// Samples have no more than half their rate; what is sampled may have passed more, down to
-  /// a lag of a three hundredth of a sample.
+  /// a lag of a three hundredth of a sample. Of a straight rate one of less than a twentieth is a
+  /// shift.
   static constexpr double highest_hz(const effects::SensorBandwidth& form, double rate_hz) {
-    return (form.continuous > 0.5 ? 50.0 : 0.49) * rate_hz;
+    return (form.continuous > 1.5 ? 3.2 : form.continuous > 0.5 ? 50.0 : 0.49) * rate_hz;
   }
 };
 

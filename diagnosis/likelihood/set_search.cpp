@@ -100,7 +100,9 @@ Standing SetSearcher::concluded(Standing standing, FoundSet& found) {
     standing = exchanged(std::move(other), found);
   };
   // An exchange may have left the one way of being late of two.
-  if (auto other = responding_anew(standing); other.score > standing.score)
+  const bool has_nameless = bench_.response().has_value();
+  if (auto other = responding_anew(standing);
+      other.score > standing.score || (has_nameless && !bench_.response()))
     exchanged_anew(std::move(other));
   // Any effect is stranger than what the baseline has itself.
   constexpr double surely = 2.2;

@@ -105,8 +105,11 @@ class SetSearcher {
   /// Where a band that is too wide for a line stands among them, what is there found anew beside an
   /// angle's errors: with the slow noise that is left beside these it stands in for both.
   Standing without_wide_lines(const Standing& standing);
+  /// Whether what the set leaves still follows the rate.
+  bool leaves_of_the_motion(const Standing& standing) const;
   /// Where the motion is sensed late, its effects found anew from the other way of being late: what
-  /// stands in for one of them has moved all others.
+  /// stands in for one of them has moved all others; and where what is left still follows it, from
+  /// both ways.
   Standing responding_anew(const Standing& standing);
   /// Where several effects bend the motion, these, or in place of all of its effects one response
   /// without a name: what that explains as well, which is linear in the rate, is not bent.

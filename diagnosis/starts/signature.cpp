@@ -53,17 +53,23 @@ void take_undisturbed(Evidence& evidence, Trace trace) {
 
 Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
                            const std::vector<Effect>& effects) {
+  std::vector<std::vector<Effect>> sets;
+  for (const auto& effect : effects) sets.push_back({effect});
+  return signatures_of_sets(evidence, trace, sets);
+}
+
+Eigen::MatrixXd signatures_of_sets(const Evidence& evidence, Trace trace,
+                                   const std::vector<std::vector<Effect>>& sets) {
   const bool of_rate = trace == Trace::rate;
   const auto made_by = [&](const std::vector<Effect>& all) {
     return of_rate ? evidence.simulator.response().of(all) : heading_of(evidence, all);
   };
-  auto beside = of_rate ? evidence.baseline.effects : std::vector<Effect>{};
   const auto& nothing = of_rate ? evidence.rate_dps : evidence.heading_deg;
   Eigen::MatrixXd columns;
-  for (std::size_t k = 0; k < effects.size(); ++k) {
-    beside.push_back(effects[k]);
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    auto beside = of_rate ? evidence.baseline.effects : std::vector<Effect>{};
+    beside.insert(beside.end(), sets[k].begin(), sets[k].end());
     auto added = made_by(beside);
-    beside.pop_back();
     for (std::size_t i = 0; i < added.size(); ++i)
       added[i] = of_rate ? added[i] - nothing[i] : wrap_degrees(added[i] - nothing[i]);
     const Eigen::VectorXd column = reduce(evidence, trace, added);

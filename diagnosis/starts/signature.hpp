@@ -17,6 +17,9 @@ void take_undisturbed(Evidence& evidence, Trace trace);
 /// what is slow would be taken for a motion that is slow, too.
 Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
                            const std::vector<Effect>& effects);
+/// The same of sets of effects, a column each.
+Eigen::MatrixXd signatures_of_sets(const Evidence& evidence, Trace trace,
+                                   const std::vector<std::vector<Effect>>& sets);
 /// The recording's own trace, treated alike.
 Eigen::VectorXd trace_of(const Evidence& evidence, Trace trace);
 

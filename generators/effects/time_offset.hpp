@@ -17,12 +17,13 @@ namespace gyrostat::effects {
 /// `offset` earlier, or later where it is negative, and clocks of unlike pace drift apart. Between
 /// samples the rate is a cubic through both neighbours with the slopes of their neighbours (cubic
 /// convolution, Keys, IEEE Trans. ASSP 29, 1981), within 1 % of a sine of up to an eighth of the
-/// sampling rate at any delay; before the first and after the last sample it is theirs. A compass
-/// on the gyro's board has its clock.
+/// sampling rate at any delay, or straight, as tables are looked up; before the first and after the
+/// last sample it is theirs. A compass on the gyro's board has its clock.
 struct TimeOffset {
   double offset_s = 0.05;
   double drift_ppm = 0.0;
   double of_compass = 0.0;
+  double straight = 0.0;
 
   static constexpr std::string_view title = "the clocks of gyro and reference differ";
   static constexpr Stage stage = Stage::electronics;
@@ -37,6 +38,8 @@ struct TimeOffset {
               "how much more of that each second since the first sample brings"},
         Field{"of_compass", &P::of_compass, "1", Range{.from = 0, .to = 1, .whole = true},
               "1: the compass has the gyro's clock; 0: the reference's"},
+        Field{"straight", &P::straight, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: the rate is straight between its samples; 0: a cubic"},
     };
   }
 
@@ -73,8 +76,11 @@ struct TimeOffset {
       if (then_s > t_s[at] && at + 1 < n) {
         const double interval_s = t_s[at + 1] - t_s[at], x = (then_s - t_s[at]) / interval_s;
         const double rise = rate[at + 1] - rate[at];
-        const double from = slope(at) * interval_s - rise, to = slope(at + 1) * interval_s - rise;
-        seen += x * rise + x * (1.0 - x) * ((1.0 - x) * from - x * to);
+        seen += x * rise;
+        if (straight < 0.5) {
+          const double from = slope(at) * interval_s - rise, to = slope(at + 1) * interval_s - rise;
+          seen += x * (1.0 - x) * ((1.0 - x) * from - x * to);
+        }
       }
       series.gyro_dps[i] += seen - rate[i];
     }

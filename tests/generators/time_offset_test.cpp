@@ -50,6 +50,16 @@ TEST(TimeOffset, OfWholeSamplesShiftsTheRateAndHoldsItsEnds) {
   }
 }
 
+TEST(TimeOffset, OfAStraightRateIsAMeanOfNeighbours) {
+  const std::vector<double> rates = {1.0, 5.0, -2.0, 7.0, 7.5, 3.0};
+  const auto late = sensed(effects::TimeOffset{.offset_s = 0.0137, .straight = 1.0}, rates);
+  const auto early = sensed(effects::TimeOffset{.offset_s = -0.0025, .straight = 1.0}, rates);
+  for (std::size_t i = 2; i < rates.size(); ++i)
+    EXPECT_NEAR(late[i], 0.63 * rates[i - 1] + 0.37 * rates[i - 2], 1e-11) << i;
+  for (std::size_t i = 0; i + 1 < rates.size(); ++i)
+    EXPECT_NEAR(early[i], 0.75 * rates[i] + 0.25 * rates[i + 1], 1e-11) << i;
+}
+
 TEST(TimeOffset, OfAParabolaIsExactBetweenSamples) {
   std::vector<double> parabola;
   for (int i = 0; i < 100; ++i) parabola.push_back(0.01 * i * i);
