@@ -46,20 +46,21 @@ struct Diagnosed<effects::SensorBandwidth> {
     return all;
   }
 
+  /// By which a slow motion is late.
+  static double delay_s_of(const effects::SensorBandwidth& effect) {
+    return (effect.damping_ratio > 0.0    ? 2.0 * of_pole * effect.damping_ratio
+            : effect.averages > 0.5       ? of_mean
+            : effect.maximally_flat > 0.5 ? of_butterworth
+                                          : of_pole * effect.poles) /
+           effect.cutoff_hz;
+  }
+
   /// The other forms that delay a slow motion by as much.
   static std::vector<effects::SensorBandwidth> told_otherwise(
       const effects::SensorBandwidth& effect, const Conditions& c) {
-    // Of a cutoff of 1 Hz, in seconds.
-    constexpr double of_pole = 0.5 / std::numbers::pi,
-                     of_butterworth = of_pole * std::numbers::sqrt2,
-                     of_mean = 0.5 * effects::SensorBandwidth::half_power_of_mean;
+    const double delay_s = delay_s_of(effect);
     const bool is_damped = effect.damping_ratio > 0.0, is_mean = effect.averages > 0.5,
                is_flat = !is_mean && !is_damped && effect.maximally_flat > 0.5;
-    const double delay_s = (is_damped ? 2.0 * of_pole * effect.damping_ratio
-                            : is_mean ? of_mean
-                            : is_flat ? of_butterworth
-                                      : of_pole * effect.poles) /
-                           effect.cutoff_hz;
     std::vector<effects::SensorBandwidth> all;
     if (!is_mean)
       all.push_back(
@@ -149,6 +150,11 @@ struct Diagnosed<effects::SensorBandwidth> {
   }
 
  private:
+  // Delays of a cutoff of 1 Hz, in seconds.
+  static constexpr double of_pole = 0.5 / std::numbers::pi,
+                          of_butterworth = of_pole * std::numbers::sqrt2,
+                          of_mean = 0.5 * effects::SensorBandwidth::half_power_of_mean;
+
   /// Samples have no more than half their rate; what is sampled may have passed more, down to
   /// a lag of a three hundredth of a sample. Of a straight rate one of less than a twentieth is a
   /// shift.

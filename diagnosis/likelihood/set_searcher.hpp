@@ -23,7 +23,8 @@ void add_mark(std::string_view effect, FoundSet& found);
 double white_with_rounding(const Scenario& scenario);
 
 /// find_set() and what may be asked of it afterwards: its moves are in set_moves.cpp and
-/// set_exchange.cpp, beginnings from elsewhere in set_beginnings.cpp, what stands for others of the
+/// set_exchange.cpp, beginnings from elsewhere in set_beginnings.cpp and
+/// set_responding.cpp, what stands for others of the
 /// set in set_needless.cpp, what other axes give in set_given.cpp, what is read off values in
 /// set_marks.cpp, what only sizes of innovations say in set_tails.cpp, where a dead zone ends in
 /// set_threshold.cpp, what is asked afterwards in set_afterwards.cpp.
@@ -107,6 +108,8 @@ class SetSearcher {
   Standing without_wide_lines(const Standing& standing);
   /// Whether what the set leaves still follows the rate.
   bool leaves_of_the_motion(const Standing& standing) const;
+  /// A shift and a filter, found together on what is `left`, beside what is marked alone.
+  std::vector<Standing> late_beginnings(const Evidence& left, Scenario still) const;
   /// Where the motion is sensed late, its effects found anew from the other way of being late: what
   /// stands in for one of them has moved all others; and where what is left still follows it, from
   /// both ways.

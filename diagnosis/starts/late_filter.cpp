@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <gyrostat/diagnosis/catalogue/sensor_bandwidth.hpp>
 #include <gyrostat/diagnosis/catalogue/time_offset.hpp>
 #include <gyrostat/diagnosis/starts/signature.hpp>
-#include <gyrostat/generators/effects/sensor_bandwidth.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -16,10 +15,6 @@ struct LateFilter {
   effects::SensorBandwidth filter;
 
   std::vector<Effect> effects() const { return {shift, filter}; }
-  double delay_s() const {
-    const double of_pole_s = 0.5 / (std::numbers::pi * filter.cutoff_hz);
-    return of_pole_s * (filter.maximally_flat > 0.5 ? std::numbers::sqrt2 : filter.poles);
-  }
 };
 
 enum class Of { shift, both };
@@ -80,7 +75,7 @@ std::vector<std::vector<Effect>> late_filters(const Evidence& evidence) {
       const auto at = [&](double cutoff_hz) {
         LateFilter both{{.offset_s = late_s, .straight = straight}, form};
         both.filter.cutoff_hz = cutoff_hz;
-        both.shift.offset_s -= both.delay_s();
+        both.shift.offset_s -= Diagnosed<effects::SensorBandwidth>::delay_s_of(both.filter);
         return both;
       };
       auto both = at(best_of(0.01 * rate_hz, 0.45 * rate_hz, [&](double cutoff_hz) {

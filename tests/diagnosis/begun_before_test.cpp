@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <set>
 #include <string>
@@ -22,14 +21,10 @@ Series from_the_middle(const std::vector<Effect>& effects, std::uint64_t seed) {
   Scenario s = moving();
   s.sampling = {640.0, 25.0};
   s.effects = effects;
-  const auto turning = std::make_shared<Series>();
-  for (int i = 0; i < 16000; ++i) {
-    const double t_s = 0.04 * i;
+  s.motion = turned_at_25_hz(16000, [](double t_s) {
     const auto turn = [&](double hz) { return std::sin(2.0 * std::numbers::pi * hz * t_s); };
-    turning->t_s.push_back(t_s);
-    turning->rate_ref_dps.push_back(40.0 * turn(0.11) + 25.0 * turn(0.37) + 15.0 * turn(0.83));
-  }
-  s.motion = motion::Recorded{turning};
+    return 40.0 * turn(0.11) + 25.0 * turn(0.37) + 15.0 * turn(0.83);
+  });
   const Series whole = recorded(s, seed, true);
   constexpr std::size_t before = 1000;
   Series series = whole.slice(before, whole.size() - before);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include <gyrostat/generators/environment/motion/list.hpp>
 #include <gyrostat/generators/environment/temperature/list.hpp>
 #include <gyrostat/generators/scenario.hpp>
@@ -22,6 +24,17 @@ inline Scenario moving() {
   s.temperature = temperature::QuietRoom{.start_C = 38.0, .end_C = 40.0};
   s.motion = motion::Sinusoidal{80.0, 0.031};
   return s;
+}
+
+/// So many samples of a motion at 25 Hz, of a rate that is a function of time.
+template <class Rate>
+motion::Recorded turned_at_25_hz(int samples, const Rate& rate_dps) {
+  const auto turns = std::make_shared<Series>();
+  for (int i = 0; i < samples; ++i) {
+    turns->t_s.push_back(0.04 * i);
+    turns->rate_ref_dps.push_back(rate_dps(0.04 * i));
+  }
+  return motion::Recorded{turns};
 }
 
 /// What a recorder would keep of a simulated signal.

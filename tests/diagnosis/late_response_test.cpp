@@ -1,7 +1,6 @@
 // Clocks that differ, looked up straight in a table, and beside a filter.
 
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <set>
 #include <stdexcept>
@@ -22,15 +21,12 @@ Series turning(const std::vector<Effect>& effects, std::uint64_t seed) {
   Scenario s = moving();
   s.sampling = {600.0, 25.0};
   s.effects = effects;
-  const auto turns = std::make_shared<Series>();
-  for (int i = 0; i < 15000; ++i) {
-    const double t_s = 0.04 * i, of_turn = std::fmod(t_s, 20.0), turn = std::floor(t_s / 20.0);
+  s.motion = turned_at_25_hz(15000, [](double t_s) {
+    const double of_turn = std::fmod(t_s, 20.0), turn = std::floor(t_s / 20.0);
     const double hz = 0.1 + 0.9 * std::fmod(0.618 * turn, 1.0);
-    turns->t_s.push_back(t_s);
-    turns->rate_ref_dps.push_back(50.0 * std::sin(2.0 * std::numbers::pi * hz * of_turn) *
-                                  std::sin(std::numbers::pi * of_turn / 20.0));
-  }
-  s.motion = motion::Recorded{turns};
+    return 50.0 * std::sin(2.0 * std::numbers::pi * hz * of_turn) *
+           std::sin(std::numbers::pi * of_turn / 20.0);
+  });
   return recorded(s, seed, true);
 }
 
