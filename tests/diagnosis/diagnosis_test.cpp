@@ -186,12 +186,14 @@ TEST(Diagnosis, NamesNothingElseWhenTheCauseIsNotInTheCatalogue) {
 /// next.
 TEST(Diagnosis, ANameThatMissesTheRecordingIsNotAlone) {
   Scenario s = still();
+  s.sampling.duration_s = 1000.0;
   s.effects = {effects::NoiseAveraging{.length = 4.0}};
   DiagnosisOptions options;
   options.without = {"noise_averaging"};
   const auto d = diagnose(recorded(s, 12, false), options);
   const bool has_unknown = std::find(d.verdict_set.begin(), d.verdict_set.end(),
                                      Verdict::unknown()) != d.verdict_set.end();
+  EXPECT_FALSE(d.effects.empty());
   EXPECT_LT(d.p_after, 0.01);
   EXPECT_TRUE(has_unknown);
   EXPECT_FALSE(d.next.what.empty());

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include <gyrostat/core/packed/exponential.hpp>
 #include <gyrostat/core/packed/pack.hpp>
 #include <gyrostat/diagnosis/likelihood/histories/jump_trail.hpp>
 #include <gyrostat/diagnosis/likelihood/histories/kernels.hpp>
@@ -67,21 +68,16 @@ class JumpHistories {
       state_[i] += gain * innovation;
       for (int j = 0; j <= i; ++j) at(i, j) -= gain * row_[j];
     }
-    alignas(64) double misfit[lanes], density[lanes], weight[lanes];
-    Lanes(Lanes(0.5) * innovation * innovation * information).store(misfit);
-    sqrt(information).store(density);
-    weight_.store(weight);
-    double least = 1e300;
-    for (int h = 0; h < size_; ++h)
-      if (weight[h] > 0.0 && misfit[h] < least) least = misfit[h];
-    double total = 0.0;
-    for (int h = 0; h < lanes; ++h) {
-      const double before = weight[h] < least_weight ? least_weight : weight[h];
-      weight[h] =
-          h < size_ && weight[h] > 0.0 ? before * (density[h] * std::exp(least - misfit[h])) : 0.0;
-      total += weight[h];
-    }
-    weight_ = Lanes::load(weight) * Lanes(1.0 / total);
+    const auto is_there = index_ < Lanes(size_) && weight_ > Lanes(0.0);
+    const Lanes misfit =
+        select(is_there, Lanes(Lanes(0.5) * innovation * innovation * information), Lanes(1e300));
+    const double least = least_of(misfit);
+    const Lanes before = select(weight_ < Lanes(least_weight), Lanes(least_weight), weight_);
+    weight_ = select(is_there,
+                     Lanes(before * (sqrt(information) * exp_of_negative(Lanes(least) - misfit))),
+                     Lanes(0.0));
+    const double total = sum(weight_);
+    weight_ *= Lanes(1.0 / total);
     return std::log(total) - least - 0.91893853320467274178;  // log(2 pi) / 2
   }
 
@@ -119,6 +115,12 @@ class JumpHistories {
   }
   static double sum(const Lanes& of) {
     return ((of[0] + of[4]) + (of[2] + of[6])) + ((of[1] + of[5]) + (of[3] + of[7]));
+  }
+
+  static double least_of(const Lanes& of) {
+    const auto less = [](double a, double b) { return a < b ? a : b; };
+    return less(less(less(of[0], of[4]), less(of[2], of[6])),
+                less(less(of[1], of[5]), less(of[3], of[7])));
   }
 
   void prepare(std::size_t steps) {
@@ -189,18 +191,20 @@ class JumpHistories {
     if (!(total >= least_weight)) return;
     const Lanes share = weights * Lanes(1.0 / total);
     const int child = size_++;
+    // About the first of them, so that no sum waits for another.
     Lanes apart[N];
+    double mean[N];
     for (int i = 0; i < states(); ++i) {
-      const double mean = sum(share * state_[i]);
-      apart[i] = state_[i] - Lanes(mean);
-      set(state_[i], child, mean);
+      apart[i] = state_[i] - Lanes(state_[i][0]);
+      mean[i] = sum(share * apart[i]);
     }
     for (int i = 0; i < states(); ++i)
       for (int j = 0; j <= i; ++j) {
-        double both = sum(share * (at(i, j) + apart[i] * apart[j]));
+        double both = sum(share * (at(i, j) + apart[i] * apart[j])) - mean[i] * mean[j];
         if (i == 0 && !law_.is_of_two) both += law_.jump_dps * law_.jump_dps;
         set(at(i, j), child, both);
       }
+    for (int i = 0; i < states(); ++i) set(state_[i], child, state_[i][0] + mean[i]);
     if (trail_ != nullptr) {
       alignas(64) double shares[lanes];
       share.store(shares);
