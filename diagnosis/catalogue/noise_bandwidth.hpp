@@ -25,7 +25,8 @@ struct Diagnosed<effects::NoiseBandwidth> {
   /// Its poles are, and of what time it is; one that is neither Butterworth's nor of equal poles is
   /// seldom built, and what it may take the form of is much.
   static std::size_t chosen_parameters(const effects::NoiseBandwidth& effect) {
-    return 1 + (effect.continuous > 0.5 ? 1 : 0) + (effect.damping_ratio > 0.0 ? 4 : 0);
+    return 1 + (effect.continuous > 0.5 ? 1 : 0) + (effect.zero_phase > 0.5 ? 1 : 0) +
+           (effect.damping_ratio > 0.0 ? 4 : 0);
   }
   static std::vector<effects::NoiseBandwidth> guesses(const Beside& beside) {
     std::vector<effects::NoiseBandwidth> all;
@@ -39,6 +40,12 @@ struct Diagnosed<effects::NoiseBandwidth> {
       for (const double share : {0.2, 0.6})
         all.push_back({share * beside.conditions.rate_hz() * (flat > 0.5 ? 1.0 : std::sqrt(2.0)),
                        2.0, flat, 1.0});
+    for (const double poles : {1.0, 2.0, 4.0})
+      for (const double share : {0.1, 0.25})
+        all.push_back({.cutoff_hz = share * beside.conditions.rate_hz(),
+                       .poles = poles,
+                       .maximally_flat = 1.0,
+                       .zero_phase = 1.0});
     // What rings and has no noise after it is less than a line beside an average.
     const auto& c = beside.conditions;
     const double after_dps = 0.3 * noise_of_steps(c, c.series().gyro_dps);
@@ -89,10 +96,13 @@ struct Diagnosed<effects::NoiseBandwidth> {
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
-  /// No output filter rings for long: with white noise after it, it were a line.
-  static bool is_what_it_is_called(const effects::NoiseBandwidth& effect, const Conditions& /*c*/) {
-    constexpr double least_damping = 0.25;
-    return effect.damping_ratio == 0.0 || effect.damping_ratio >= least_damping;
+  /// No output filter rings for long: with white noise after it, it were a line. One of
+  /// Butterworth's poles at a quarter of the rate is the mean of two samples.
+  static bool is_what_it_is_called(const effects::NoiseBandwidth& effect, const Conditions& c) {
+    constexpr double least_damping = 0.25, near_a_quarter = 0.01;
+    const bool is_mean = effect.maximally_flat > 0.5 && effect.poles < 1.5 &&
+                         std::abs(effect.cutoff_hz / c.rate_hz() - 0.25) < near_a_quarter;
+    return !is_mean && (effect.damping_ratio == 0.0 || effect.damping_ratio >= least_damping);
   }
 };
 

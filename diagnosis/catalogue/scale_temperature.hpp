@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
@@ -12,7 +13,8 @@
 namespace gyrostat::gap {
 
 /// A share of the rate that changes with temperature, evenly or not, and is right at some
-/// temperature that was met: one that is right at none is another scale factor besides.
+/// temperature that was met, or at that of a room, where sensors are calibrated: one that is right
+/// at none is another scale factor besides.
 template <>
 struct Diagnosed<effects::ScaleTemperature> {
   static constexpr auto signature = Signature::repeated;
@@ -24,6 +26,7 @@ struct Diagnosed<effects::ScaleTemperature> {
     const auto& T = e.conditions().slow_temperature_C();
     const auto [low, high] = std::ranges::minmax(T);
     const double middle = 0.5 * (low + high);
+    const auto [coldest, warmest] = may_be_right(e.conditions());
     const auto sizes = [&](const std::vector<Effect>& parts) {
       return match(signatures(e, Trace::rate, parts), trace_of(e, Trace::rate)).amplitudes;
     };
@@ -32,7 +35,7 @@ struct Diagnosed<effects::ScaleTemperature> {
     const double right_C = middle - shifted[1] / shifted[0];
     return {{sizes({even})[0], middle},
             {both[0], middle, both[1]},
-            {shifted[0], std::isfinite(right_C) ? std::clamp(right_C, low, high) : middle}};
+            {shifted[0], std::isfinite(right_C) ? std::clamp(right_C, coldest, warmest) : middle}};
   }
 
   static std::string why_not_assessable(const Conditions& c) {
@@ -42,10 +45,15 @@ struct Diagnosed<effects::ScaleTemperature> {
   }
 
   static bool is_what_it_is_called(const effects::ScaleTemperature& effect, const Conditions& c) {
-    constexpr double of_data_sheets_C = 25.0;
+    const auto [coldest, warmest] = may_be_right(c);
+    return coldest <= effect.reference_C && effect.reference_C <= warmest;
+  }
+
+ private:
+  static std::pair<double, double> may_be_right(const Conditions& c) {
+    constexpr double coldest_room_C = 20.0, warmest_room_C = 25.0;
     const auto [low, high] = std::ranges::minmax(c.slow_temperature_C());
-    return (low <= effect.reference_C && effect.reference_C <= high) ||
-           effect.reference_C == of_data_sheets_C;
+    return {std::min(low, coldest_room_C), std::max(high, warmest_room_C)};
   }
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
@@ -23,6 +25,7 @@ struct Diagnosed<effects::SensorBandwidth> {
 
   /// One pole is what else would be expected: another form is chosen.
   static std::size_t chosen_parameters(const effects::SensorBandwidth& effect) {
+    if (effect.zero_phase > 0.5 || effect.averages > 1.5 || effect.poles > 2.5) return 2;
     const bool is_other =
         effect.averages > 0.5 || effect.maximally_flat > 0.5 || effect.poles > 1.5;
     return is_other && effect.damping_ratio == 0.0 ? 1 : 0;
@@ -42,22 +45,26 @@ struct Diagnosed<effects::SensorBandwidth> {
       }));
     all.push_back(of_better_course(e, all.back(),
                                    [&](const auto& there) { return of_any_damping(e, there); }));
+    if (const auto rarer = rarer_form(e, all)) all.push_back(*rarer);
     for (auto& form : all) form = begun_before(e, form);
     return all;
   }
 
   /// By which a slow motion is late.
   static double delay_s_of(const effects::SensorBandwidth& effect) {
-    return (effect.damping_ratio > 0.0    ? 2.0 * of_pole * effect.damping_ratio
-            : effect.averages > 0.5       ? of_mean
-            : effect.maximally_flat > 0.5 ? of_butterworth
-                                          : of_pole * effect.poles) /
+    if (effect.zero_phase > 0.5) return 0.0;
+    return (effect.damping_ratio > 0.0 ? 2.0 * of_pole * effect.damping_ratio
+            : effect.averages > 0.5    ? of_mean
+            : effect.maximally_flat > 0.5
+                ? of_pole / std::sin(0.5 * std::numbers::pi / effect.poles)
+                : of_pole * effect.poles) /
            effect.cutoff_hz;
   }
 
   /// The other forms that delay a slow motion by as much.
   static std::vector<effects::SensorBandwidth> told_otherwise(
       const effects::SensorBandwidth& effect, const Conditions& c) {
+    if (effect.zero_phase > 0.5) return {};
     const double delay_s = delay_s_of(effect);
     const bool is_damped = effect.damping_ratio > 0.0, is_mean = effect.averages > 0.5,
                is_flat = !is_mean && !is_damped && effect.maximally_flat > 0.5;
@@ -78,6 +85,36 @@ struct Diagnosed<effects::SensorBandwidth> {
         add({.cutoff_hz = of_butterworth / delay_s, .poles = 2.0, .maximally_flat = 1.0});
     }
     return all;
+  }
+
+  /// Of forms that are built less often the one that leaves least, if that is clearly less than
+  /// what each of `others` leaves.
+  static std::optional<effects::SensorBandwidth> rarer_form(
+      const Evidence& e, const std::vector<effects::SensorBandwidth>& others) {
+    constexpr double clear = 10.0;
+    const double rate_hz = e.conditions().rate_hz();
+    auto forms = others;
+    const auto try_too = [&](const effects::SensorBandwidth& form) {
+      forms.push_back(shaped(e, Trace::rate, form, &effects::SensorBandwidth::cutoff_hz,
+                             0.002 * rate_hz, highest_hz(form, rate_hz)));
+    };
+    for (const double zero_phase : {0.0, 1.0}) {
+      try_too({.averages = 2.0, .zero_phase = zero_phase});
+      for (const double poles : {1.0, 2.0, 3.0, 4.0})
+        if (zero_phase > 0.5 || poles != 2.0)
+          try_too({.poles = poles, .maximally_flat = 1.0, .zero_phase = zero_phase});
+    }
+    const std::vector<Effect> as_effects(forms.begin(), forms.end());
+    const auto seen = trace_of(e, Trace::rate);
+    const Eigen::RowVectorXd left =
+        (signatures(e, Trace::rate, as_effects).colwise() - seen).colwise().squaredNorm();
+    const auto known = static_cast<Eigen::Index>(others.size());
+    Eigen::Index least = 0;
+    const double of_rarer = left.tail(left.size() - known).minCoeff(&least);
+    const double gain =
+        0.5 * static_cast<double>(seen.size()) * std::log(left.head(known).minCoeff() / of_rarer);
+    if (!(gain > clear)) return std::nullopt;
+    return forms[static_cast<std::size_t>(known + least)];
   }
 
   /// What `fitted` makes of the form, the rate between samples curved or straight: what leaves

@@ -21,7 +21,8 @@ struct Diagnosed<effects::ThermalHysteresis> {
   static constexpr std::size_t amplitudes = 4;
 
   static std::size_t chosen_parameters(const effects::ThermalHysteresis& effect) {
-    return std::size_t{effect.gradual != 0.0} + std::size_t{effect.first_branch != 0.0};
+    return std::size_t{effect.gradual != 0.0} + std::size_t{effect.sudden != 0.0} +
+           std::size_t{effect.first_branch != 0.0};
   }
 
   static std::vector<effects::ThermalHysteresis> guesses(const Beside& beside) {
@@ -34,6 +35,8 @@ struct Diagnosed<effects::ThermalHysteresis> {
     for (const double first : {0.0, 1.0, -1.0})
       for (const double share : {0.1, 0.2, 0.4})
         all.push_back({1.0, share * span_C, 0.0, first, 1.0, 1.0, 1.0});
+    for (const double share : {0.02, 0.1})
+      all.push_back({.amplitude_dps = 1.0, .width_C = share * span_C, .sudden = 1.0});
     return all;
   }
 

@@ -29,9 +29,11 @@ struct Diagnosed<effects::VibrationRectification> {
     for (const double averaged_s : {0.1, 2.0})
       all.push_back({1.0, std::max(averaged_s, least_s), 1.0});
     // What manoeuvres do to the force lasts longer than the sensor averages.
-    for (const double averaged_s : {0.2, 0.5, 1.0})
+    for (const double averaged_s : {0.0, 0.2, 0.5, 1.0, 2.0, 4.0})
       for (const double mean_s : {8.0, 100.0})
         all.push_back({1.0, std::max(averaged_s, least_s), 0.0, 0.0, mean_s});
+    for (const double averaged_s : {0.2, 0.5, 1.0})
+      all.push_back({1.0, std::max(averaged_s, least_s), 0.0, 1.0, 100.0});
     return all;
   }
 

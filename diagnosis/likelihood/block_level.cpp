@@ -1,10 +1,46 @@
 #include <gyrostat/diagnosis/likelihood/block_level.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
 
 #include <gyrostat/core/step.hpp>
+#include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
+namespace {
+
+/// The mean, of a few that lie beyond `gross` of their median without them: of a block one reading
+/// at the end of a sensor's range would be all of its level.
+double level_of(std::vector<double> values, double gross) {
+  const auto mean = [&] {
+    double sum = 0.0;
+    for (const double v : values) sum += v;
+    return values.empty() ? no_value : sum / static_cast<double>(values.size());
+  };
+  if (values.empty()) return no_value;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if (*high - *low <= gross) return mean();
+  const double median = quantile(values, 0.5);
+  const auto is_gross = [&](double v) { return std::abs(v - median) > gross; };
+  constexpr std::size_t one_in = 8;
+  const auto count = std::count_if(values.begin(), values.end(), is_gross);
+  if (one_in * static_cast<std::size_t>(count) <= values.size()) std::erase_if(values, is_gross);
+  return mean();
+}
+
+/// Standard deviation of what changes from one value to the next, robustly.
+double deviation_of_steps(const std::vector<Span>& blocks, const std::vector<double>& values) {
+  std::vector<double> steps;
+  for (const auto& [first, last] : blocks)
+    for (std::size_t i = first + 1; i < last; ++i)
+      if (const double step = values[i] - values[i - 1]; !is_missing(step))
+        steps.push_back(std::abs(step));
+  return quantile(std::move(steps), 0.5) / (std::numbers::sqrt2 * normal_quartile);
+}
+
+}  // namespace
 
 std::vector<Span> level_blocks(const Conditions& conditions) {
   // Long enough not to follow single samples.
@@ -19,12 +55,14 @@ std::vector<Span> level_blocks(const Conditions& conditions) {
 
 void take_out_level(const Conditions& conditions, std::vector<double>& values) {
   const auto blocks = level_blocks(conditions);
+  constexpr double deviations = 50.0;
+  const double gross = deviations * deviation_of_steps(blocks, values);
   std::vector<double> means;
   for (const auto& [first, last] : blocks) {
-    double sum = 0.0, count = 0.0;
+    std::vector<double> present;
     for (std::size_t i = first; i < last; ++i)
-      if (!is_missing(values[i])) sum += values[i], count += 1.0;
-    means.push_back(count > 0.0 ? sum / count : no_value);
+      if (!is_missing(values[i])) present.push_back(values[i]);
+    means.push_back(level_of(std::move(present), gross));
   }
   const auto middle = [&](std::size_t block) {
     return 0.5 * static_cast<double>(blocks[block].first + blocks[block].last - 1);

@@ -13,20 +13,33 @@
 namespace gyrostat::gap {
 namespace {
 
-/// Where far more samples than beside it have the largest value, or the smallest.
-double clipped_at(const Conditions& conditions, const std::vector<double>& z, double end) {
+/// Where far more samples than beside it have the largest value, or the smallest, and most of them
+/// are reached by a step as there are elsewhere: readings that fail are at the end of a range too.
+double clipped_at(const Conditions& conditions, const std::vector<double>& z, double end,
+                  double other_end) {
   constexpr double fewest = 8.0, beside = 4.0;
-  double at_end = 0.0, next = 0.0, nearest = -1e300;
+  double at_end = 0.0, next = 0.0, nearest = -1e300, largest_step = 0.0, reached = 0.0;
   const double sign = end > 0.0 ? 1.0 : -1.0;
   for (const auto& span : conditions.spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i)
-      if (z[i] != end && !is_missing(z[i])) nearest = std::max(nearest, sign * z[i]);
+      if (z[i] != end && !is_missing(z[i])) {
+        nearest = std::max(nearest, sign * z[i]);
+        const auto is_between = [&](double v) { return v != end && v != other_end; };
+        if (i > span.first && is_between(z[i]) && is_between(z[i - 1]) && !is_missing(z[i - 1]))
+          largest_step = std::max(largest_step, std::abs(z[i] - z[i - 1]));
+      }
+  const auto is_near = [&](double value) { return std::abs(end - value) <= largest_step; };
   for (const auto& span : conditions.spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i) {
-      at_end += z[i] == end ? 1.0 : 0.0;
+      if (z[i] == end) {
+        at_end += 1.0;
+        reached += (i > span.first && is_near(z[i - 1])) || (i + 1 < span.last && is_near(z[i + 1]))
+                       ? 1.0
+                       : 0.0;
+      }
       next += sign * z[i] == nearest ? 1.0 : 0.0;
     }
-  return at_end >= fewest && at_end > beside * next ? std::abs(end) : 0.0;
+  return at_end >= fewest && at_end > beside * next && 2.0 * reached > at_end ? std::abs(end) : 0.0;
 }
 
 /// Standard deviation of white noise of which a sample equals the one before with this probability
@@ -141,8 +154,8 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
   for (const auto& span : simulator.conditions().spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i)
       if (!is_missing(z[i])) low = std::min(low, z[i]), high = std::max(high, z[i]);
-  const double above = clipped_at(simulator.conditions(), z, high);
-  const double below = clipped_at(simulator.conditions(), z, low);
+  const double above = clipped_at(simulator.conditions(), z, high, low);
+  const double below = clipped_at(simulator.conditions(), z, low, high);
   marks.limit_dps = std::max(above, below);
   if (marks.limit_dps > 0.0) {
     // On a side that is not clipped, what was reached is no limit.

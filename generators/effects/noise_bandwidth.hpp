@@ -29,6 +29,7 @@ struct NoiseBandwidth {
   double continuous = 0.0;
   double after_dps = 0.0;
   double damping_ratio = 0.0;
+  double zero_phase = 0.0;
 
   static constexpr std::string_view title = "an output filter colours the white noise";
   static constexpr Stage stage = Stage::noise;
@@ -51,6 +52,8 @@ struct NoiseBandwidth {
         Field{"damping_ratio", &P::damping_ratio, "1", ranges::non_negative,
               "of a system of second order whose natural frequency is the cutoff; 0: of the poles "
               "that are said"},
+        Field{"zero_phase", &P::zero_phase, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: a recursion goes forward and back, so that its gain counts twice"},
     };
   }
 
@@ -62,6 +65,8 @@ struct NoiseBandwidth {
     const std::size_t samples = samples_with(series, needs);
     if (samples < 2) return;
     pass(series, samples);
+    // Noise has no past that would tell forward from back.
+    if (zero_phase > 0.5 && !is_folded()) pass(series, samples);
     if (after_dps == 0.0) return;
     const auto after = noise.stream("noise_bandwidth/after");
     for (std::size_t i = 0; i < samples; ++i) series.gyro_dps[i] += after_dps * after.normal(i);
@@ -79,14 +84,15 @@ struct NoiseBandwidth {
         gain[k] *= folded(0.5 * angles[k] / std::numbers::pi);
       return;
     }
+    const auto there_and_back = [&](double once) { return zero_phase > 0.5 ? once * once : once; };
     if (damping_ratio > 0.0 || maximally_flat > 0.5) {
       if (cutoff_hz * interval_s >= 0.5) return;
       const double edge = std::tan(std::numbers::pi * cutoff_hz * interval_s);
       for (std::size_t k = 0; k < gain.size(); ++k) {
         // The square of the tangent of half the angle; beyond 1e12 nothing passes.
         const double bent = (1.0 - cosines[k]) / (std::max(1.0 + cosines[k], 1e-12) * edge * edge);
-        gain[k] *= damping_ratio > 0.0 ? second_order_gain(bent, damping_ratio)
-                                       : 1.0 / (1.0 + to_the_poles(bent));
+        gain[k] *= there_and_back(damping_ratio > 0.0 ? second_order_gain(bent, damping_ratio)
+                                                      : 1.0 / (1.0 + to_the_poles(bent)));
       }
       return;
     }
@@ -94,7 +100,7 @@ struct NoiseBandwidth {
     for (std::size_t k = 0; k < gain.size(); ++k) {
       const double of_one =
           (1.0 - pole) * (1.0 - pole) / (1.0 - 2.0 * pole * cosines[k] + pole * pole);
-      gain[k] *= to_the_poles(of_one);
+      gain[k] *= there_and_back(to_the_poles(of_one));
     }
   }
 

@@ -20,9 +20,12 @@ namespace gyrostat::effects {
 /// bandwidth): equal poles, a rate being held over the interval before its sample, or
 /// Butterworth's, by recursion as simulators do; either as a sensor does, to which the rate goes on
 /// between its samples, or two poles of any damping; or the mean over the time before a sample, the
-/// rate being straight between samples, which takes 3 dB where the product of time and frequency is
-/// 0.443 (Oppenheim and Schafer, "Discrete-Time Signal Processing", 3rd ed., 2.6). Before the first
-/// sample it has come to rest, at that sample's rate or, where it went on turning, at another.
+/// rate being straight between samples, or of whole samples, which takes 3 dB where the product of
+/// time and frequency is 0.443 (Oppenheim and Schafer, "Discrete-Time Signal Processing", 3rd
+/// ed., 2.6). Before the first sample it has come to rest, at that sample's rate or, where it went
+/// on turning, at another. Poles of a recursion may be gone through forward and back, as whoever
+/// filters a recording afterwards does: the rate is not late then (Gustafsson, IEEE Trans. Signal
+/// Processing 44, 1996).
 struct SensorBandwidth {
   double cutoff_hz = 5.0;
   double poles = 1.0;
@@ -31,6 +34,7 @@ struct SensorBandwidth {
   double continuous = 0.0;
   double damping_ratio = 0.0;
   double before_dps = 0.0;
+  double zero_phase = 0.0;
 
   static constexpr int most_poles = 8;
   /// Cutoff times averaging time: sin(pi x) / (pi x) = 1 / sqrt(2).
@@ -49,8 +53,8 @@ struct SensorBandwidth {
               "how many poles"},
         Field{"maximally_flat", &P::maximally_flat, "1", Range{.from = 0, .to = 1, .whole = true},
               "1: Butterworth's poles; 0: equal ones"},
-        Field{"averages", &P::averages, "1", Range{.from = 0, .to = 1, .whole = true},
-              "1: a moving average instead of poles"},
+        Field{"averages", &P::averages, "1", Range{.from = 0, .to = 2, .whole = true},
+              "a moving average instead of poles, 1: over time; 2: of whole samples"},
         Field{"continuous", &P::continuous, "1", Range{.from = 0, .to = 2, .whole = true},
               "1: rate and filter go on between samples; 2: the rate straight; 0: a recursion over "
               "samples"},
@@ -59,6 +63,8 @@ struct SensorBandwidth {
               "the cutoff; 0: of the poles that are said"},
         Field{"before_dps", &P::before_dps, "dps", ranges::any,
               "rate before the first sample, less that at it"},
+        Field{"zero_phase", &P::zero_phase, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: poles of a recursion forward and back, or a mean of samples about its own"},
     };
   }
 
@@ -80,18 +86,20 @@ struct SensorBandwidth {
  private:
   void follow(Series& series, std::size_t first, std::size_t last) const {
     const double begun_dps = series.rate_ref_dps[first] + (first == 0 ? before_dps : 0.0);
-    if (averages > 0.5) return average(series, first, last, begun_dps);
     const auto count =
         static_cast<std::size_t>(std::clamp(std::lround(poles), 1L, long{most_poles}));
     const auto& rate = series.rate_ref_dps;
     const double cycles = cutoff_hz * (series.t_s[last - 1] - series.t_s[first]) /
                           static_cast<double>(last - 1 - first);
+    if (averages > 1.5) return average_samples(series, first, last, begun_dps, cycles);
+    if (averages > 0.5) return average(series, first, last, begun_dps);
     if (damping_ratio > 0.0)
       return run_on(series, first, last, begun_dps,
                     LowPassSystem::of_second_order(cycles, damping_ratio));
     if (continuous > 0.5)
       return run_on(series, first, last, begun_dps,
                     LowPassSystem(cycles, count, maximally_flat > 0.5));
+    if (zero_phase > 0.5) return follow_both_ways(series, first, last, cycles, count);
     if (maximally_flat > 0.5) {
       Butterworth sensed(cycles, count);
       for (std::size_t i = first; i < last; ++i)
@@ -110,6 +118,41 @@ struct SensorBandwidth {
     }
   }
 
+  /// Beyond either end the rate is turned about that end, from rest three times the filter's length
+  /// away.
+  void follow_both_ways(Series& series, std::size_t first, std::size_t last, double cycles,
+                        std::size_t count) const {
+    const auto& rate = series.rate_ref_dps;
+    const std::size_t beyond = std::min(3 * (count + 1), last - 1 - first);
+    std::vector<double> sensed;
+    for (std::size_t k = beyond; k > 0; --k) sensed.push_back(2.0 * rate[first] - rate[first + k]);
+    for (std::size_t i = first; i < last; ++i) sensed.push_back(rate[i]);
+    for (std::size_t k = 1; k <= beyond; ++k)
+      sensed.push_back(2.0 * rate[last - 1] - rate[last - 1 - k]);
+    for (int way = 0; way < 2; ++way) {
+      pass(sensed, cycles, count);
+      std::reverse(sensed.begin(), sensed.end());
+    }
+    for (std::size_t i = first; i < last; ++i)
+      series.gyro_dps[i] += sensed[beyond + i - first] - rate[i];
+  }
+
+  /// From rest at the first value.
+  void pass(std::vector<double>& values, double cycles, std::size_t count) const {
+    const double begun = values.front();
+    if (maximally_flat > 0.5) {
+      Butterworth sensed(cycles, count);
+      for (double& value : values) value = begun + sensed(value - begun);
+      return;
+    }
+    const double left = std::exp(-2.0 * std::numbers::pi * cycles);
+    std::array<double, most_poles> sensed;
+    sensed.fill(begun);
+    for (double& value : values)
+      for (std::size_t k = 0; k < count; ++k)
+        value = sensed[k] = value + left * (sensed[k] - value);
+  }
+
   /// Between samples straight, or a cubic with the slopes of their neighbours, as in TimeOffset.
   void run_on(Series& series, std::size_t first, std::size_t last, double begun_dps,
               const LowPassSystem& filter) const {
@@ -125,6 +168,28 @@ struct SensorBandwidth {
       series.gyro_dps[i] +=
           begun_dps - rate[i] +
           sensed(rate[i - 1] - begun_dps, rate[i] - begun_dps, slope(i - 1, rise), slope(i, rise));
+    }
+  }
+
+  /// Of each with those before it, or with as many before and after it; beyond the last there is
+  /// its rate.
+  void average_samples(Series& series, std::size_t first, std::size_t last, double begun_dps,
+                       double cycles) const {
+    const auto& rate = series.rate_ref_dps;
+    const auto longest = static_cast<double>(last - first);
+    const double wanted = std::clamp(half_power_of_mean / cycles, 1.0, longest);
+    const long ahead = zero_phase > 0.5 ? std::lround(0.5 * (wanted - 1.0)) : 0;
+    const long length = zero_phase > 0.5 ? 2 * ahead + 1 : std::lround(wanted);
+    const auto from = static_cast<long>(first), to = static_cast<long>(last);
+    const auto at = [&](long i) {
+      return i < from ? begun_dps : rate[static_cast<std::size_t>(std::min(i, to - 1))];
+    };
+    double sum = 0.0;
+    for (long i = from + ahead - length; i < from + ahead; ++i) sum += at(i);
+    for (long i = from; i < to; ++i) {
+      sum += at(i + ahead) - at(i + ahead - length);
+      const auto k = static_cast<std::size_t>(i);
+      series.gyro_dps[k] += sum / static_cast<double>(length) - rate[k];
     }
   }
 

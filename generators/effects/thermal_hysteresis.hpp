@@ -20,13 +20,15 @@ namespace gyrostat::effects {
 /// narrower widths may be added, which makes a loop of any convex course. Or the branch is
 /// approached the slower, the nearer it is: B += amplitude z, dz = (dT - |dT| z) / width (Dahl,
 /// AIAA Journal 14, 1976), T behind a play of a twentieth of the width: what a thermometer's noise
-/// goes to and fro by would wear z away.
+/// goes to and fro by would wear z away. Or the branch is the sign of dT/dt alone, between turns by
+/// more than the width.
 struct ThermalHysteresis {
   double amplitude_dps = 0.01;
   double width_C = 3.0;
   double gradual = 0.0;
   double first_branch = 0.0;
   double of_three_quarters_dps = 0.0, of_half_dps = 0.0, of_quarter_dps = 0.0;
+  double sudden = 0.0;
 
   static constexpr std::string_view title = "bias depends on the direction of temperature";
   static constexpr Stage stage = Stage::sensing;
@@ -48,6 +50,10 @@ struct ThermalHysteresis {
               "amplitude of a play of three quarters of the width besides"},
         Field{"of_half_dps", &P::of_half_dps, "dps", ranges::any, "of half the width"},
         Field{"of_quarter_dps", &P::of_quarter_dps, "dps", ranges::any, "of a quarter"},
+        Field{
+            "sudden", &P::sudden, "1", Range{.from = 0, .to = 1, .whole = true},
+            "1: the branch is the sign of what the temperature does, whose turns by less than the "
+            "width are none"},
     };
   }
 
@@ -55,6 +61,7 @@ struct ThermalHysteresis {
 
   void apply(Series& series, const Noise& /*noise*/) const {
     if (series.temperature_C.empty()) return;
+    if (sudden > 0.5) return change_at_turns(series);
     if (gradual > 0.5) return approach(series);
     play(series, width_C, amplitude_dps);
     for (const auto& [share, narrower_dps] :
@@ -70,6 +77,46 @@ struct ThermalHysteresis {
       play_C = std::clamp(play_C, T - half_C, T + half_C);
       series.thermal_bias_dps[i] += branch_dps * (T - play_C) / half_C;
     }
+  }
+
+  /// An extreme that lasts, as that of a rounded temperature, is turned at in its middle.
+  void change_at_turns(Series& series) const {
+    const auto& T = series.temperature_C;
+    const std::size_t n = samples_with(series, needs);
+    struct Extreme {
+      double value_C;
+      std::size_t first, last;
+      /// Whether that is further, or as far, on the way that `sign` says.
+      void reach(double now_C, std::size_t at, double sign) {
+        if (sign * now_C > sign * value_C) *this = {now_C, at, at};
+        if (now_C == value_C) last = at;
+      }
+      bool is_left_by(double now_C, double sign, double width_C) const {
+        return sign * (value_C - now_C) > width_C;
+      }
+      std::size_t middle() const { return (first + last + 1) / 2; }
+    };
+    Extreme high{T.front(), 0, 0}, low = high;
+    double sign = 0.0;  // of the branch, once it shows
+    std::size_t begun = 0;
+    const auto turn = [&](const Extreme& at) {
+      const double branch = sign == 0.0 ? first_branch : sign;
+      for (; begun < at.middle(); ++begun) series.thermal_bias_dps[begun] += amplitude_dps * branch;
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      high.reach(T[i], i, 1.0);
+      low.reach(T[i], i, -1.0);
+      if (sign >= 0.0 && high.is_left_by(T[i], 1.0, width_C)) {
+        if (sign > 0.0) turn(high);
+        sign = -1.0;
+        low = {T[i], i, i};
+      } else if (sign <= 0.0 && low.is_left_by(T[i], -1.0, width_C)) {
+        if (sign < 0.0) turn(low);
+        sign = 1.0;
+        high = {T[i], i, i};
+      }
+    }
+    turn({0.0, n, n});
   }
 
   /// From one temperature to the next, monotonically, in closed form.

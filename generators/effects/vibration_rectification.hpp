@@ -50,13 +50,15 @@ struct VibrationRectification {
     };
   }
 
+  static constexpr std::array axes = {&Series::acc_x_mps2, &Series::acc_y_mps2,
+                                      &Series::acc_z_mps2};
+
   static constexpr VibrationRectification absent() { return {.coefficient_dps_per_m2ps4 = 0.0}; }
 
   /// Mean square of the vibration at each sample, (m/s²)².
   std::vector<double> mean_square(const Series& series) const {
-    constexpr std::array axes = {&Series::acc_x_mps2, &Series::acc_y_mps2, &Series::acc_z_mps2};
     std::vector<double> squares(samples_with(series, axes));
-    std::array<double, axes.size()> mean{};
+    auto mean = begun_mean(series);
     Decay decay(time_constant_s);
     Decay decay_of_mean(mean_time_constant_s > 0.0 ? mean_time_constant_s : time_constant_s);
     double averaged = 0.0;
@@ -65,7 +67,7 @@ struct VibrationRectification {
       double square = 0.0;
       for (std::size_t k = 0; k < axes.size(); ++k) {
         const double now = (series.*axes[k])[i];
-        mean[k] = now + kept_of_mean * (mean[k] - now);
+        if (i > 0 || mean_time_constant_s == 0.0) mean[k] = now + kept_of_mean * (mean[k] - now);
         square += (now - mean[k]) * (now - mean[k]);
       }
       averaged = square + kept * (averaged - square);
@@ -87,6 +89,22 @@ struct VibrationRectification {
     const auto squares = mean_square(series);
     for (std::size_t i = 0, n = std::min(samples_with(series, needs), squares.size()); i < n; ++i)
       series.gyro_dps[i] += coefficient_dps_per_m2ps4 * squares[i];
+  }
+
+ private:
+  /// Of a time of its own, over the first of it: from the first value alone it would be wrong for
+  /// long.
+  std::array<double, axes.size()> begun_mean(const Series& series) const {
+    std::array<double, axes.size()> mean{};
+    const std::size_t n = samples_with(series, axes);
+    if (mean_time_constant_s == 0.0 || n == 0) return mean;
+    double count = 0.0;
+    for (std::size_t i = 0; i < n && series.t_s[i] - series.t_s[0] < mean_time_constant_s; ++i) {
+      count += 1.0;
+      for (std::size_t k = 0; k < axes.size(); ++k)
+        mean[k] += ((series.*axes[k])[i] - mean[k]) / count;
+    }
+    return mean;
   }
 };
 

@@ -174,12 +174,12 @@ TEST(SetSearch, ALimitJustBelowTheFastestRateIsFound) {
             (std::set<std::string>{"saturation", "scale_asymmetry"}));
 }
 
-/// A scale that changes with temperature is right at some temperature that was met, at 25 °C or
-/// another, and still no scale factor besides.
+/// A scale that changes with temperature is right at some temperature that was met, or in a room,
+/// and still no scale factor besides.
 TEST(SetSearch, AScaleThatIsRightAtATemperatureMetIsOneEffect) {
   Scenario s = moving();
-  s.temperature = temperature::Cycle{23.0, 57.0, 800.0};
   for (const double right_C : {25.0, 32.0}) {
+    s.temperature = temperature::Cycle{right_C == 25.0 ? 28.0 : 23.0, 57.0, 800.0};
     s.effects = {effects::ScaleTemperature{5e-4, right_C}};
     EXPECT_EQ(found_in(recorded(s, 22, true)), std::set<std::string>{"scale_temperature"})
         << right_C;

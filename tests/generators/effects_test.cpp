@@ -86,6 +86,25 @@ TEST(ThermalHysteresis, LeadsFromBranchToBranchOverTwiceItsWidth) {
   EXPECT_DOUBLE_EQ(drift(hysteresis, moves({20.0, 40.0, 34.0})).back(), -0.01);
 }
 
+/// A triangle of 300 samples up, then down, rounded to five of its steps, to and fro by less than
+/// the width in between.
+TEST(ThermalHysteresis, ThatIsSuddenIsTheSignOfWhatTheTemperatureDoes) {
+  std::vector<double> T;
+  for (int i = 0; i < 1200; ++i) {
+    const int turn = i % 600;
+    const double exact = 0.01 * (turn < 300 ? turn : 600 - turn) + (i % 97 < 10 ? 0.1 : 0.0);
+    T.push_back(0.05 * std::round(exact / 0.05));
+  }
+  const auto B = drift(ThermalHysteresis{.amplitude_dps = 0.02, .width_C = 0.5, .sudden = 1.0}, T);
+  for (int i = 0; i < 1200; ++i) {
+    constexpr int near_a_turn = 12;
+    if ((i + near_a_turn) % 300 < 2 * near_a_turn) continue;
+    EXPECT_EQ(B[i], i / 300 % 2 == 0 ? 0.02 : -0.02) << i;
+  }
+  const std::vector<double> still(50, 25.0);
+  EXPECT_EQ(drift(ThermalHysteresis{.amplitude_dps = 0.02, .sudden = 1.0}, still)[20], 0.0);
+}
+
 TEST(ThermalHysteresis, AddsPlaysOfNarrowerWidths) {
   const std::vector<double> T = moves({20.0, 40.0, 33.0, 38.0, 25.0});
   ThermalHysteresis all{.amplitude_dps = 0.01, .width_C = 4.0, .first_branch = 1.0};

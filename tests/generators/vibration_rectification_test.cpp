@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -41,20 +42,22 @@ TEST(VibrationRectification, OfAStepIsForgotten) {
     EXPECT_NEAR(bias[i], 0.5 * 4.0 * std::pow(k, i + 1) * (1.0 - std::pow(k, i)), 1e-12) << i;
 }
 
-/// With a mean that forgets by m a sample and squares that forget by k, the deviation after a step
-/// A is A m^i and its mean square A^2 m^2 (1 - k) (m^2i - k^i) / (m^2 - k).
+/// With a mean that forgets by m a sample, which has begun as that of its first time constant, and
+/// squares that forget by k, the deviation at the i-th sample of a step A is A m^i and its mean
+/// square A^2 m^2 (1 - k) (m^2i - k^i) / (m^2 - k).
 TEST(VibrationRectification, OfAStepIsForgottenByBothMeans) {
   auto series = silent(even_times(400, 10.0));
   series.acc_x_mps2.assign(series.size(), 0.0);
   series.acc_y_mps2.assign(series.size(), 0.0);
   series.acc_z_mps2.assign(series.size(), 11.8);
-  series.acc_z_mps2[0] = 9.8;
+  constexpr int before = 100;
+  std::fill_n(series.acc_z_mps2.begin(), before, 9.8);
   effects::VibrationRectification{
       .coefficient_dps_per_m2ps4 = 0.5, .time_constant_s = 0.5, .mean_time_constant_s = 8.0}
       .apply(series, {1, 0});
   const double k = std::exp(-0.2), m = std::exp(-0.0125);
-  for (int i = 0; i < 400; ++i)
-    EXPECT_NEAR(series.gyro_dps[i],
+  for (int i = 0; i < 400 - before; ++i)
+    EXPECT_NEAR(series.gyro_dps[before - 1 + i],
                 0.5 * 4.0 * m * m * (1.0 - k) * (std::pow(m, 2 * i) - std::pow(k, i)) / (m * m - k),
                 1e-12)
         << i;
