@@ -20,9 +20,10 @@ struct Diagnosed<effects::ThermalHysteresis> {
       &effects::ThermalHysteresis::of_quarter_dps, &effects::ThermalHysteresis::width_C};
   static constexpr std::size_t amplitudes = 4;
 
+  /// No sensor knows at once that its temperature has turned.
   static std::size_t chosen_parameters(const effects::ThermalHysteresis& effect) {
-    return std::size_t{effect.gradual != 0.0} + std::size_t{effect.sudden != 0.0} +
-           std::size_t{effect.first_branch != 0.0};
+    return (effect.gradual != 0.0 ? 1 : 0) + (effect.sudden != 0.0 ? 3 : 0) +
+           (effect.first_branch != 0.0 ? 1 : 0);
   }
 
   static std::vector<effects::ThermalHysteresis> guesses(const Beside& beside) {
