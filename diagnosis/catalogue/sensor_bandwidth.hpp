@@ -104,17 +104,13 @@ struct Diagnosed<effects::SensorBandwidth> {
         if (zero_phase > 0.5 || poles != 2.0)
           try_too({.poles = poles, .maximally_flat = 1.0, .zero_phase = zero_phase});
     }
-    const std::vector<Effect> as_effects(forms.begin(), forms.end());
-    const auto seen = trace_of(e, Trace::rate);
-    const Eigen::RowVectorXd left =
-        (signatures(e, Trace::rate, as_effects).colwise() - seen).colwise().squaredNorm();
-    const auto known = static_cast<Eigen::Index>(others.size());
-    Eigen::Index least = 0;
-    const double of_rarer = left.tail(left.size() - known).minCoeff(&least);
-    const double gain =
-        0.5 * static_cast<double>(seen.size()) * std::log(left.head(known).minCoeff() / of_rarer);
+    const auto left = left_by_each(e, Trace::rate, std::vector<Effect>(forms.begin(), forms.end()));
+    const auto rarer = left.begin() + static_cast<std::ptrdiff_t>(others.size());
+    const auto least = std::min_element(rarer, left.end());
+    const double gain = 0.5 * static_cast<double>(trace_of(e, Trace::rate).size()) *
+                        std::log(*std::min_element(left.begin(), rarer) / *least);
     if (!(gain > clear)) return std::nullopt;
-    return forms[static_cast<std::size_t>(known + least)];
+    return forms[static_cast<std::size_t>(least - left.begin())];
   }
 
   /// What `fitted` makes of the form, the rate between samples curved or straight: what leaves
@@ -127,10 +123,8 @@ struct Diagnosed<effects::SensorBandwidth> {
     const auto curved = fitted(form);
     form.continuous = 2.0;
     const auto straight = fitted(form);
-    const auto both = signatures(e, Trace::rate, {curved, straight});
-    const auto seen = trace_of(e, Trace::rate);
-    return (seen - both.col(1)).squaredNorm() < (seen - both.col(0)).squaredNorm() ? straight
-                                                                                   : curved;
+    const auto left = left_by_each(e, Trace::rate, {curved, straight});
+    return left[1] < left[0] ? straight : curved;
   }
 
   /// From Butterworth's two poles, by Gauss and Newton.

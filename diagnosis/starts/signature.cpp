@@ -79,6 +79,15 @@ Eigen::MatrixXd signatures_of_sets(const Evidence& evidence, Trace trace,
   return columns;
 }
 
+std::vector<double> left_by_each(const Evidence& evidence, Trace trace,
+                                 const std::vector<Effect>& effects) {
+  const auto seen = trace_of(evidence, trace);
+  std::vector<double> left;
+  for (const auto& effect : effects)
+    left.push_back((seen - signatures(evidence, trace, {effect}).col(0)).squaredNorm());
+  return left;
+}
+
 Eigen::VectorXd trace_of(const Evidence& e, Trace trace) {
   return reduce(e, trace,
                 trace == Trace::rate ? e.scene.rate_error_dps : e.scene.heading_error_deg);

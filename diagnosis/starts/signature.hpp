@@ -20,6 +20,9 @@ Eigen::MatrixXd signatures(const Evidence& evidence, Trace trace,
 /// The same of sets of effects, a column each.
 Eigen::MatrixXd signatures_of_sets(const Evidence& evidence, Trace trace,
                                    const std::vector<std::vector<Effect>>& sets);
+/// What each of `effects` by itself leaves of the trace, squared.
+std::vector<double> left_by_each(const Evidence& evidence, Trace trace,
+                                 const std::vector<Effect>& effects);
 /// The recording's own trace, treated alike.
 Eigen::VectorXd trace_of(const Evidence& evidence, Trace trace);
 
@@ -33,8 +36,8 @@ struct Match {
 };
 Match match(const Eigen::MatrixXd& columns, const Eigen::VectorXd& trace);
 
-/// The value in [low, high] (logarithmic) with the least `cost`, by a grid and a golden section, to a
-/// 40th of two of the grid's steps. Costs are asked for in several threads at once.
+/// The value in [low, high] (logarithmic) with the least `cost`, by a grid and a golden section, to
+/// a 40th of two of the grid's steps. Costs are asked for in several threads at once.
 double best_of(double low, double high, const std::function<double(double)>& cost);
 
 }  // namespace gyrostat::gap

@@ -11,6 +11,7 @@
 #include <gyrostat/core/series.hpp>
 #include <gyrostat/generators/butterworth.hpp>
 #include <gyrostat/generators/continuous_low_pass.hpp>
+#include <gyrostat/generators/forward_and_back.hpp>
 #include <gyrostat/generators/sampled.hpp>
 #include <gyrostat/generators/stage.hpp>
 
@@ -118,23 +119,13 @@ struct SensorBandwidth {
     }
   }
 
-  /// Beyond either end the rate is turned about that end, from rest three times the filter's length
-  /// away.
   void follow_both_ways(Series& series, std::size_t first, std::size_t last, double cycles,
                         std::size_t count) const {
     const auto& rate = series.rate_ref_dps;
-    const std::size_t beyond = std::min(3 * (count + 1), last - 1 - first);
-    std::vector<double> sensed;
-    for (std::size_t k = beyond; k > 0; --k) sensed.push_back(2.0 * rate[first] - rate[first + k]);
-    for (std::size_t i = first; i < last; ++i) sensed.push_back(rate[i]);
-    for (std::size_t k = 1; k <= beyond; ++k)
-      sensed.push_back(2.0 * rate[last - 1] - rate[last - 1 - k]);
-    for (int way = 0; way < 2; ++way) {
-      pass(sensed, cycles, count);
-      std::reverse(sensed.begin(), sensed.end());
-    }
-    for (std::size_t i = first; i < last; ++i)
-      series.gyro_dps[i] += sensed[beyond + i - first] - rate[i];
+    const auto sensed =
+        forward_and_back({rate.data() + first, last - first}, 3 * (count + 1),
+                         [&](std::vector<double>& values) { pass(values, cycles, count); });
+    for (std::size_t i = first; i < last; ++i) series.gyro_dps[i] += sensed[i - first] - rate[i];
   }
 
   /// From rest at the first value.
