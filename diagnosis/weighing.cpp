@@ -37,7 +37,7 @@ bool Diagnosing::is_missed_by(const Rung& rung) const {
 
 /// An effect that the readings of its own channel bear out stays, whatever the others miss, and so
 /// does one that no misfit would feign. Of two wrong ones either may be needed beside the other, as
-/// a filter and what makes up for it: then both go.
+/// a filter and what makes up for it: then both go, where a third is left.
 std::vector<std::size_t> Diagnosing::needless_among(const std::vector<Member>& members,
                                                     std::vector<Rung> without, Rung& whole) {
   std::vector<std::size_t> doubtful;
@@ -55,7 +55,7 @@ std::vector<std::size_t> Diagnosing::needless_among(const std::vector<Member>& m
     whole = std::move(rest);
   };
   for (const std::size_t k : doubtful) may_go(without[k], {k});
-  if (!needless.empty()) return needless;
+  if (!needless.empty() || members.size() == 2) return needless;
   for (auto k = doubtful.begin(); k != doubtful.end(); ++k)
     for (auto l = std::next(k); l != doubtful.end(); ++l) {
       auto others = names_of(members);
@@ -131,7 +131,8 @@ bool Diagnosing::is_found_without_a_doubtful(const std::vector<std::string>& nam
   auto with = std::exchange(found_, find_set(simulator_, recording_, {.without = without}));
   if (!given_.empty() && found_.beside) found_ = found_.beside(given_);
   const auto other = rung({}, with_drift(found_.scenario, recording_), lacking_replicas);
-  if (is_missed_by(other)) {
+  // Nor are names given up for none.
+  if (found_.members.empty() || is_missed_by(other)) {
     found_ = std::move(with);
     return false;
   }

@@ -53,7 +53,10 @@ struct Diagnosed<effects::ScaleTemperature> {
   static std::pair<double, double> may_be_right(const Conditions& c) {
     constexpr double coldest_room_C = 20.0, warmest_room_C = 25.0;
     const auto [low, high] = std::ranges::minmax(c.slow_temperature_C());
-    return {std::min(low, coldest_room_C), std::max(high, warmest_room_C)};
+    // Far from what was met it would be the same as a scale factor.
+    const double furthest_C = 0.5 * (high - low);
+    return {std::min(low, std::max(coldest_room_C, low - furthest_C)),
+            std::max(high, std::min(warmest_room_C, high + furthest_C))};
   }
 };
 

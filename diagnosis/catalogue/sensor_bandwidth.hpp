@@ -93,6 +93,15 @@ struct Diagnosed<effects::SensorBandwidth> {
       const Evidence& e, const std::vector<effects::SensorBandwidth>& others) {
     constexpr double clear = 10.0;
     const double rate_hz = e.conditions().rate_hz();
+    const auto seen = trace_of(e, Trace::rate);
+    const auto gain_of = [&](double left) {
+      return -0.5 * static_cast<double>(seen.size()) * std::log(left);
+    };
+    // Of what is neither late nor smoothed none is sought.
+    effects::SensorBandwidth late{.cutoff_hz = 0.1 * rate_hz}, smooth = late;
+    smooth.zero_phase = 1.0;
+    if (gain_of(match(signatures(e, Trace::rate, {late, smooth}), seen).unexplained) < clear)
+      return std::nullopt;
     auto forms = others;
     const auto try_too = [&](const effects::SensorBandwidth& form) {
       forms.push_back(shaped(e, Trace::rate, form, &effects::SensorBandwidth::cutoff_hz,
@@ -107,9 +116,7 @@ struct Diagnosed<effects::SensorBandwidth> {
     const auto left = left_by_each(e, Trace::rate, std::vector<Effect>(forms.begin(), forms.end()));
     const auto rarer = left.begin() + static_cast<std::ptrdiff_t>(others.size());
     const auto least = std::min_element(rarer, left.end());
-    const double gain = 0.5 * static_cast<double>(trace_of(e, Trace::rate).size()) *
-                        std::log(*std::min_element(left.begin(), rarer) / *least);
-    if (!(gain > clear)) return std::nullopt;
+    if (!(gain_of(*least / *std::min_element(left.begin(), rarer)) > clear)) return std::nullopt;
     return forms[static_cast<std::size_t>(least - left.begin())];
   }
 
