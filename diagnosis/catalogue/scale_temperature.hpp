@@ -55,8 +55,10 @@ struct Diagnosed<effects::ScaleTemperature> {
     const auto [low, high] = std::ranges::minmax(c.slow_temperature_C());
     // Far from what was met it would be the same as a scale factor.
     const double furthest_C = 0.5 * (high - low);
-    return {std::min(low, std::max(coldest_room_C, low - furthest_C)),
-            std::max(high, std::min(warmest_room_C, high + furthest_C))};
+    const double coldest = std::max(coldest_room_C, low - furthest_C),
+                 warmest = std::min(warmest_room_C, high + furthest_C);
+    return {coldest <= warmest_room_C ? std::min(low, coldest) : low,
+            warmest >= coldest_room_C ? std::max(high, warmest) : high};
   }
 };
 

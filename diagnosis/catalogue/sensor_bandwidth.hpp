@@ -93,6 +93,7 @@ struct Diagnosed<effects::SensorBandwidth> {
       const Evidence& e, const std::vector<effects::SensorBandwidth>& others) {
     constexpr double clear = 10.0;
     const double rate_hz = e.conditions().rate_hz();
+    if (turns_by_steps(e.conditions())) return std::nullopt;
     const auto seen = trace_of(e, Trace::rate);
     const auto gain_of = [&](double left) {
       return -0.5 * static_cast<double>(seen.size()) * std::log(left);

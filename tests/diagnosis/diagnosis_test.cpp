@@ -186,10 +186,9 @@ TEST(Diagnosis, NamesNothingElseWhenTheCauseIsNotInTheCatalogue) {
 /// next.
 TEST(Diagnosis, ANameThatMissesTheRecordingIsNotAlone) {
   Scenario s = still();
-  s.sampling.duration_s = 1000.0;
-  s.effects = {effects::NoiseAveraging{.length = 4.0}};
+  s.effects = {effects::Sinusoidal{.amplitude_dps = 0.02, .frequency_hz = 0.3}};
   DiagnosisOptions options;
-  options.without = {"noise_averaging"};
+  options.without = {"sinusoidal"};
   const auto d = diagnose(recorded(s, 12, false), options);
   const bool has_unknown = std::find(d.verdict_set.begin(), d.verdict_set.end(),
                                      Verdict::unknown()) != d.verdict_set.end();
