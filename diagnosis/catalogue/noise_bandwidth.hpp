@@ -10,8 +10,8 @@
 
 namespace gyrostat::gap {
 
-/// Noise through a low-pass filter of one to four poles, of two that ring, or of two before it
-/// was sampled, each a start of its own.
+/// Noise through a low-pass filter of one to four poles, forward and back, of two that ring, or of
+/// two before it was sampled, each a start of its own.
 template <>
 struct Diagnosed<effects::NoiseBandwidth> {
   static constexpr auto signature = Signature::none;

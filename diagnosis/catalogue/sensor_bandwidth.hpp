@@ -15,7 +15,8 @@
 namespace gyrostat::gap {
 
 /// The rate through a low-pass filter of one or two poles, of continuous time or over samples, or a
-/// mean, each a start of its own; two poles of any damping from Butterworth's.
+/// mean, each a start of its own; two poles of any damping from Butterworth's; and of rarer forms
+/// the likeliest.
 template <>
 struct Diagnosed<effects::SensorBandwidth> {
   static constexpr auto signature = Signature::repeated;
@@ -93,7 +94,6 @@ struct Diagnosed<effects::SensorBandwidth> {
       const Evidence& e, const std::vector<effects::SensorBandwidth>& others) {
     constexpr double clear = 10.0;
     const double rate_hz = e.conditions().rate_hz();
-    if (turns_by_steps(e.conditions())) return std::nullopt;
     const auto seen = trace_of(e, Trace::rate);
     const auto gain_of = [&](double left) {
       return -0.5 * static_cast<double>(seen.size()) * std::log(left);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <gyrostat/core/step.hpp>
-#include <gyrostat/diagnosis/starts/motion.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
@@ -57,8 +56,7 @@ std::vector<Span> level_blocks(const Conditions& conditions) {
 void take_out_level(const Conditions& conditions, std::vector<double>& values) {
   const auto blocks = level_blocks(conditions);
   constexpr double deviations = 50.0;
-  const double gross =
-      turns_by_steps(conditions) ? 1e300 : deviations * deviation_of_steps(blocks, values);
+  const double gross = deviations * deviation_of_steps(blocks, values);
   std::vector<double> means;
   for (const auto& [first, last] : blocks) {
     std::vector<double> present;

@@ -162,7 +162,7 @@ struct SensorBandwidth {
     }
   }
 
-  /// Of each with those before it, or with as many before and after it; beyond the last there is
+  /// The mean of each sample and those before it, or as many on either side; past the last there is
   /// its rate.
   void average_samples(Series& series, std::size_t first, std::size_t last, double begun_dps,
                        double cycles) const {
