@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include <gyrostat/diagnosis/simulator.hpp>
 
 namespace gyrostat::gap {
@@ -20,6 +22,9 @@ struct Evidence {
   /// Samples of the gyro that do not count, a flag each, or nothing: what is clipped or repeated
   /// says another thing of the motion.
   std::vector<char> hidden = {};
+  /// Half the rate of the samples that count, where they come evenly: what is above it is below it,
+  /// too.
+  double nyquist_hz = std::numeric_limits<double>::infinity();
 
   const Conditions& conditions() const { return simulator.conditions(); }
 };

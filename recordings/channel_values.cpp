@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/core/values.hpp>
 #include <gyrostat/recordings/text.hpp>
 
 namespace gyrostat {
@@ -20,7 +21,7 @@ struct ChannelRange {
 };
 constexpr std::array channel_ranges = {
     ChannelRange{"gyro_dps", -1e5, 1e5},         ChannelRange{"rate_ref_dps", -1e5, 1e5},
-    ChannelRange{"temperature_C", -273.15, 1e3}, ChannelRange{"heading_deg", -180, 180},
+    ChannelRange{"temperature_C", -273.15, 1e3}, ChannelRange{"heading_deg", -180, 360},
     ChannelRange{"mag_valid", 0, 1, true},       ChannelRange{"cross_rate_1_dps", -1e5, 1e5},
     ChannelRange{"cross_rate_2_dps", -1e5, 1e5},
 };
@@ -54,8 +55,10 @@ void require_range(const std::vector<double>& values, const ChannelSource& sourc
   const auto* unit = source.column.unit;
   const double lowest = unit ? unit->from_own(range->lowest) : range->lowest;
   const double highest = unit ? unit->from_own(range->highest) : range->highest;
+  constexpr double written = 1e-4;  // radians of four decimals are written up to 3.1416
   const auto wrong = std::ranges::find_if(values, [&](double value) {
-    return value < lowest || value > highest ||
+    return value < lowest - written * std::abs(lowest) ||
+           value > highest + written * std::abs(highest) ||
            (range->whole && value != std::round(value) && !std::isnan(value));
   });
   if (wrong == values.end()) return;
@@ -74,6 +77,8 @@ void take_channel(std::vector<double>& values, const ChannelSource& source) {
   if (const auto* unit = source.column.unit; unit && !unit->is_own())
     std::ranges::transform(values, values.begin(),
                            [&](double value) { return unit->to_own(value); });
+  if (source.channel.name == "heading_deg")
+    std::ranges::transform(values, values.begin(), wrap_degrees<double>);
 }
 
 }  // namespace gyrostat

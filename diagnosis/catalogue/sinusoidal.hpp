@@ -31,7 +31,7 @@ struct Diagnosed<effects::Sinusoidal> {
   static std::vector<effects::Sinusoidal> starts(const Evidence& e) {
     const auto& conditions = e.conditions();
     std::vector<effects::Sinusoidal> found;
-    const auto& fast = e.scene.spectra[0];
+    const auto fast = below(e.scene.spectra[0], e.nyquist_hz);
     const auto& means = e.scene.slow_spectra[0];
     struct Near {
       double frequency_hz, reach_hz;
@@ -53,7 +53,7 @@ struct Diagnosed<effects::Sinusoidal> {
     if (const double faint =
             clearest_line_hz(of_train(conditions, e.scene.rate_error_dps), conditions.interval_s(),
                              around, 0.25 / conditions.slow_interval_s());
-        is_new(faint))
+        faint <= e.nyquist_hz && is_new(faint))
       peaks.push_back({faint, 1.0 / duration_s_of(conditions), false});
     for (const auto& [frequency_hz, reach, slow] : peaks) {
       if (frequency_hz <= 0.0) continue;
@@ -88,6 +88,12 @@ struct Diagnosed<effects::Sinusoidal> {
  private:
   static double duration_s_of(const Conditions& conditions) {
     return conditions.interval_s() * static_cast<double>(conditions.size());
+  }
+  static Spectrum below(Spectrum spectrum, double highest_hz) {
+    const auto bins = static_cast<std::size_t>(std::min(
+        highest_hz / spectrum.resolution_hz + 1.0, static_cast<double>(spectrum.density.size())));
+    spectrum.density.resize(bins);
+    return spectrum;
   }
   /// Without the mean of each span; 0 elsewhere.
   static std::vector<double> of_train(const Conditions& conditions,

@@ -34,10 +34,11 @@ std::vector<Resonance> Beside::lines() const {
       density_of(law_of(fit.scenario, conditions.interval_s()), reduced.grid().angles()));
   std::vector<Resonance> found;
   const std::size_t first = reduced.grid().first_fast_bin();
-  for (std::size_t width = 1; first + 4 * width < seen.size(); width *= 3) {
+  const auto last = std::min(seen.size(), reduced.grid().bins_of_its_own());
+  for (std::size_t width = 1; first + 4 * width < last; width *= 3) {
     double best = 0.0, variance = 0.0;
     std::size_t at = 0;
-    for (std::size_t k = first; k + width < seen.size(); ++k) {
+    for (std::size_t k = first; k + width < last; ++k) {
       double excess = 0.0, expected = 0.0, power = 0.0;
       for (std::size_t i = k; i < k + width; ++i) {
         excess += seen[i] / density[i] - 1.0;

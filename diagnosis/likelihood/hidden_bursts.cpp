@@ -74,8 +74,8 @@ std::optional<HiddenLine> hidden_bursts(const SetBench& bench, const Scenario& s
   for (const double seconds : block_s) {
     const auto length = static_cast<std::size_t>(std::lround(seconds * conditions.rate_hz()));
     if (length < fewest_samples) continue;
-    const double quarter_hz = 0.25 * conditions.rate_hz();
-    const auto powers = block_powers(conditions, left_dps, noise, length, quarter_hz, quarter_hz);
+    const double half_hz = 0.5 * bench.grid().nyquist_hz();
+    const auto powers = block_powers(conditions, left_dps, noise, length, half_hz, half_hz);
     if (powers.told() < fewest_blocks || powers.bins() < lowest + 2 * furthest) continue;
     std::vector<Mixture> mixtures(powers.bins());
     tbb::parallel_for(std::size_t{0}, mixtures.size(),

@@ -37,7 +37,8 @@ std::optional<HiddenLine> hidden_line(const SetBench& bench, const Scenario& set
   const double price = bench.price_of(with) - bench.price_of(set);
   // What is left of a motion is there for as long as the motion is.
   clear = std::max(clear, log_gain_of_motion(conditions, left_dps));
-  const auto band = band_of_hidden_line(conditions, left_dps, noise, price + clear);
+  const auto band =
+      band_of_hidden_line(conditions, left_dps, noise, price + clear, bench.grid().nyquist_hz());
   const auto is_beside = [&](const Effect& effect) {
     return is_line(effect.id()) && are_neighbours(band_of_line(effect), *band);
   };

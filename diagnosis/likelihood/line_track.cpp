@@ -101,7 +101,8 @@ LineTrack track_in_band(const Conditions& conditions, const std::vector<double>&
 
 std::optional<Resonance> band_of_hidden_line(const Conditions& conditions,
                                              const std::vector<double>& left_dps,
-                                             const NoiseLaw& noise, double least) {
+                                             const NoiseLaw& noise, double least,
+                                             double highest_hz) {
   constexpr std::array<double, 2> steps_in_bins = {0.3, 1.2};
   constexpr std::array<double, 5> powers = {0.5, 1.0, 2.0, 4.0, 8.0};
   struct Found {
@@ -112,7 +113,7 @@ std::optional<Resonance> band_of_hidden_line(const Conditions& conditions,
   std::vector<Found> each(lengths.size());
   tbb::parallel_for(std::size_t{0}, lengths.size(), [&](std::size_t l) {
     // Below, what is left of a level that was taken out is no noise of the law.
-    const double lowest_hz = conditions.rate_hz() / 32.0, highest_hz = 0.5 * conditions.rate_hz();
+    const double lowest_hz = std::min(conditions.rate_hz() / 32.0, 0.5 * highest_hz);
     const auto blocks =
         block_powers(conditions, left_dps, noise, lengths[l], 0.5 * (lowest_hz + highest_hz),
                      0.5 * (highest_hz - lowest_hz));

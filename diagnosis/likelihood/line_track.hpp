@@ -22,10 +22,11 @@ struct LineTrack {
 LineTrack track_in_band(const Conditions& conditions, const std::vector<double>& left_dps,
                         const NoiseLaw& noise, const Resonance& band);
 
-/// The clearest line anywhere, as the band that it wanders through; none where none is likelier
-/// than the noise by `least`.
+/// The clearest line below `highest_hz`, as the band that it wanders through; none where none is
+/// likelier than the noise by `least`.
 std::optional<Resonance> band_of_hidden_line(const Conditions& conditions,
                                              const std::vector<double>& left_dps,
-                                             const NoiseLaw& noise, double least);
+                                             const NoiseLaw& noise, double least,
+                                             double highest_hz);
 
 }  // namespace gyrostat::gap

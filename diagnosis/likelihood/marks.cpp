@@ -127,7 +127,7 @@ double step_of_grid(const Simulator& simulator, const std::vector<double>& z, do
   return whole > 0.95 * static_cast<double>(gaps.size()) ? step : 0.0;
 }
 
-double noise_of_steps(const Conditions& conditions, const std::vector<double>& z) {
+double noise_of_steps(const Conditions& conditions, const std::vector<double>& z, double repeated) {
   const auto& reference = conditions.series().rate_ref_dps;
   const auto known = [&](std::size_t i) { return reference.empty() ? 0.0 : reference[i]; };
   std::vector<double> steps;
@@ -136,13 +136,16 @@ double noise_of_steps(const Conditions& conditions, const std::vector<double>& z
       if (const double step = z[i] - known(i) - z[i - 1] + known(i - 1); !is_missing(step))
         steps.push_back(std::abs(step));
   return steps.empty() ? 0.0
-                       : quantile(std::move(steps), 0.5) / (std::numbers::sqrt2 * normal_quartile);
+                       : quantile(std::move(steps), 0.5 * (1.0 + repeated)) /
+                             (std::numbers::sqrt2 * normal_quartile);
 }
 
 Marks marks_of(const Simulator& simulator, const Series& recording) {
   Marks marks;
   const auto& z = recording.gyro_dps;
-  marks.noise_of_steps_dps = noise_of_steps(simulator.conditions(), z);
+  const auto clock = slower_clock(simulator.conditions(), z);
+  const double repeated = clock ? 1.0 - 1.0 / clock->samples : 0.0;
+  marks.noise_of_steps_dps = noise_of_steps(simulator.conditions(), z, repeated);
   marks.lsb_dps = step_of_grid(simulator, z, marks.noise_of_steps_dps);
   if (marks.lsb_dps > 0.0)
     marks.grid_offset_dps = offset_of(simulator.conditions(), z, marks.lsb_dps);
@@ -176,13 +179,14 @@ Marks marks_of(const Simulator& simulator, const Series& recording) {
     }
   // Of a motion, neighbours are not equal whatever the noise.
   if (marks.lsb_dps > 0.0 && at_rest > 0.0)
-    marks.white_under_grid_dps = white_under_grid(marks.lsb_dps, equal_at_rest / at_rest);
+    marks.white_under_grid_dps =
+        white_under_grid(marks.lsb_dps, (equal_at_rest / at_rest - repeated) / (1.0 - repeated));
   if (const auto resting = resting_noise(simulator.conditions(), z, marks.lsb_dps)) {
     marks.level_on_grid_dps = resting->level_dps;
     marks.white_under_grid_dps = resting->std_dps;
     marks.grid_offset_dps = resting->offset_dps;
   }
-  read_repeats(simulator, z, {low, high}, marks);
+  read_repeats(simulator, z, {low, high}, clock, marks);
   return marks;
 }
 

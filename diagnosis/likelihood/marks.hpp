@@ -19,7 +19,7 @@ struct Marks {
   double grid_offset_dps = 0.0;    ///< a value of the grid
   double stale_probability = 0.0;  ///< chance that a repeat begins at a sample; 0: no repeats
   double stale_run = 1.0;          ///< mean length of a repeat
-  bool stale_is_regular = false;   ///< whether repeats begin at even distances
+  bool stale_is_regular = false;   ///< whether repeats come at even distances
   std::size_t stale_back = 1;      ///< how many samples old what is repeated is
   bool repeats_are_told = true;    ///< from neighbours that are equal by chance
   double limit_dps = 0.0;          ///< beyond which the output is clipped; 0: none is
@@ -34,8 +34,10 @@ struct Marks {
   }
 };
 
-/// Standard deviation of what changes from sample to sample beside the reference rate, robustly.
-double noise_of_steps(const Conditions& conditions, const std::vector<double>& gyro_dps);
+/// Standard deviation of what changes from sample to sample beside the reference rate, robustly,
+/// where a share of the samples are repeated.
+double noise_of_steps(const Conditions& conditions, const std::vector<double>& gyro_dps,
+                      double repeated = 0.0);
 
 /// The step of the grid that the values of the train part lie on, where so few are used that they
 /// repeat, or where a motion spreads values over many steps that are not small to the noise; 0

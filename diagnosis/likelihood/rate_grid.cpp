@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include <gyrostat/analysis/spectra/cosine_sums.hpp>
 
@@ -22,6 +23,42 @@ std::size_t segment_length(const Conditions& conditions) {
   const std::size_t wanted =
       std::clamp(samples / segments_wanted, shortest_segment, longest_segment);
   return std::bit_floor(std::max(shortest_segment, std::min(wanted, longest / 2)));
+}
+
+/// Of a mean over so many samples.
+double mean_gain(double angle, double samples) {
+  return angle == 0.0 ? 1.0 : std::sin(0.5 * samples * angle) / (samples * std::sin(0.5 * angle));
+}
+
+/// Share of a density that subtracting a level leaves: straight lines from the middle of each
+/// cluster to the next's, of means over several.
+std::vector<double> left_beside_level(const Angles& angles, std::size_t cluster) {
+  const auto m = static_cast<double>(cluster);
+  std::vector<double> left;
+  for (const double angle : angles.values) {
+    const double straight = mean_gain(angle, m);
+    const double amplitude =
+        1.0 - mean_gain(angle, static_cast<double>(clusters_of_level) * m) * straight * straight;
+    left.push_back(amplitude * amplitude);
+  }
+  return left;
+}
+
+/// As the window of a periodogram shows it.
+std::vector<double> smeared(const std::vector<double>& density) {
+  auto seen = density;
+  const std::size_t last = density.size() - 1;
+  for (std::size_t k = 0; k <= last; ++k)
+    seen[k] =
+        (4.0 * density[k] + density[k == 0 ? 1 : k - 1] + density[k == last ? k - 1 : k + 1]) / 6.0;
+  return seen;
+}
+
+/// Whether pairs of samples that count are as likely far apart as evenly hidden ones make them.
+bool come_evenly(const std::vector<double>& pairs) {
+  const double chance = pairs.front() * pairs.front();
+  const auto half = pairs.begin() + static_cast<std::ptrdiff_t>(pairs.size() / 2);
+  return *std::max_element(half, pairs.end()) > 0.5 * (chance + pairs.front());
 }
 
 }  // namespace
@@ -44,7 +81,7 @@ RateGrid::RateGrid(const Conditions& conditions, std::vector<char> masked)
   const auto m = static_cast<double>(conditions.cluster());
   for (std::size_t k = 0; k < bins; ++k) {
     const double angle = angles_.values[k];
-    const double mean = k == 0 ? 1.0 : std::sin(0.5 * m * angle) / (m * std::sin(0.5 * angle));
+    const double mean = mean_gain(angle, m);
     const double weight = k == 0 || k == bins - 1 ? 0.5 : 1.0;
     of_a_mean_.push_back(weight * mean * mean * resolution_hz_);
   }
@@ -70,17 +107,50 @@ RateGrid::RateGrid(const Conditions& conditions, std::vector<char> masked)
         pairs_[lag] += masked_[i] == 0 && masked_[i + lag] == 0 ? 1.0 : 0.0;
       }
   for (std::size_t lag = 0; lag < bins; ++lag) pairs_[lag] /= std::max(pairs_of_all[lag], 1.0);
+  comes_evenly_ = come_evenly(pairs_);
+  if (comes_evenly_) left_of_level_ = left_beside_level(angles_, conditions.cluster());
+}
+
+std::vector<double> RateGrid::masked_density(std::vector<double> density) const {
+  // The covariance of a product of independent series is the product of their covariances.
+  auto covariance = cosine_sums(density);
+  const auto period = static_cast<double>(segment());
+  for (std::size_t lag = 0; lag < covariance.size(); ++lag) covariance[lag] *= pairs_[lag] / period;
+  return cosine_sums(covariance);
+}
+
+double RateGrid::variance_of_a_mean(const std::vector<double>& density) const {
+  const auto sum = [&](const std::vector<double>& of) {
+    return std::inner_product(of.begin(), of.end(), of_a_mean_.begin(), 0.0);
+  };
+  return comes_evenly_ ? sum(masked_density(density)) / (kept_ * kept_) : sum(density);
 }
 
 std::vector<double> RateGrid::shown(const std::vector<double>& density) const {
   if (pairs_.empty()) return density;
-  // The covariance of a product of independent series is the product of their covariances.
-  auto covariance = density;
-  std::fill_n(covariance.begin(), first_fast_bin_ / 2, 0.0);
-  covariance = cosine_sums(covariance);
-  const auto period = static_cast<double>(segment());
-  for (std::size_t lag = 0; lag < covariance.size(); ++lag) covariance[lag] *= pairs_[lag] / period;
-  auto seen = cosine_sums(covariance);
+  const std::size_t slow_bins = first_fast_bin_ / 2;
+  auto fast = density;
+  std::vector<double> seen;
+  if (!comes_evenly_) {
+    // What is slow goes with the level.
+    std::fill_n(fast.begin(), slow_bins, 0.0);
+    seen = masked_density(std::move(fast));
+  } else {
+    // The level is that of the samples that count, and is taken out of these alone: with it goes
+    // what their gaps fold down.
+    std::fill_n(fast.begin(), slow_bins, density[slow_bins]);
+    const auto folded = masked_density(fast);
+    auto taken = smeared(left_of_level_);
+    for (std::size_t k = 0; k < taken.size(); ++k)
+      taken[k] = (1.0 - taken[k]) * folded[k] / (kept_ * kept_);
+    // Of what is stronger the slower it is, the window shows what the level leaves.
+    std::vector<double> slow(density.size(), 0.0);
+    for (std::size_t k = 1; k < slow_bins; ++k)
+      slow[k] = left_of_level_[k] * std::max(0.0, density[k] - density[slow_bins]);
+    slow = smeared(slow);
+    for (std::size_t k = 0; k < fast.size(); ++k) fast[k] += slow[k] - taken[k];
+    seen = masked_density(std::move(fast));
+  }
   for (std::size_t k = 0; k < seen.size(); ++k) seen[k] = std::max(seen[k], 1e-6 * density[k]);
   return seen;
 }

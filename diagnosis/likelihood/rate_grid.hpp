@@ -14,6 +14,9 @@ struct Angles {
   std::vector<double> values, cosines, sines;
 };
 
+/// The level beside samples that do not count is the mean of so many clusters.
+inline constexpr std::size_t clusters_of_level = 9;
+
 /// At which frequencies a recording's rate error is looked at, and which of its samples count: what
 /// all sets of effects that are held against one recording share.
 class RateGrid {
@@ -29,11 +32,22 @@ class RateGrid {
   std::size_t segment() const { return 2 * (angles_.values.size() - 1); }
   const Angles& angles() const { return angles_; }
   double resolution_hz() const { return resolution_hz_; }
+  /// Bins up to half the rate of the samples that count where the others come evenly, else all:
+  /// above them is what is below, once more.
+  std::size_t bins_of_its_own() const {
+    const std::size_t bins = angles_.values.size();
+    return comes_evenly_ ? 1 + static_cast<std::size_t>(kept_ * static_cast<double>(bins - 1))
+                         : bins;
+  }
+  double nyquist_hz() const { return resolution_hz_ * static_cast<double>(bins_of_its_own() - 1); }
   /// Below it cluster means show more.
   std::size_t first_fast_bin() const { return first_fast_bin_; }
-  /// Share of a density at each bin, times the resolution, that the variance of a cluster mean is.
-  const std::vector<double>& of_a_mean() const { return of_a_mean_; }
-  /// What periodograms show of a density: samples that do not count are zeros.
+  /// Variance of the mean of a cluster's samples that count, under a density of all; where these do
+  /// not come evenly, over what noise that is white has the more of it for being fewer.
+  double variance_of_a_mean(const std::vector<double>& density) const;
+  bool comes_evenly() const { return comes_evenly_; }
+  /// What periodograms show of a density: samples that do not count are zeros, others have the
+  /// level taken out.
   std::vector<double> shown(const std::vector<double>& density) const;
 
  private:
@@ -42,9 +56,16 @@ class RateGrid {
   bool hides_any_;
   double kept_ = 1.0, resolution_hz_;
   std::size_t first_fast_bin_;
+  /// Share of a density at each bin, times the resolution, that the variance of a mean is.
   std::vector<double> of_a_mean_;
+  /// The covariance whose density is given, of the samples that count.
+  std::vector<double> masked_density(std::vector<double> density) const;
+
   std::vector<double>
       pairs_;  ///< share of pairs of samples at each lag that both count; empty: all
+  /// Where hidden samples come evenly, what is slow shows elsewhere, too.
+  bool comes_evenly_ = false;
+  std::vector<double> left_of_level_;  ///< share of a density that subtracting the level leaves
 };
 
 }  // namespace gyrostat::gap

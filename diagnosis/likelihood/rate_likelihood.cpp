@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace gyrostat::gap {
@@ -49,9 +48,7 @@ SlowLaw slow_law_of(const ReducedRate& reduced, const NoiseLaw& remembered,
                .parts = {},
                .jumps = remembered.jumps,
                .interval_s = interval_s};
-  const auto& weights = reduced.grid().of_a_mean();
-  slow.white = std::inner_product(fast_density.begin(), fast_density.end(), weights.begin(), 0.0) *
-               reduced.noise_of_means();
+  slow.white = reduced.grid().variance_of_a_mean(fast_density) * reduced.noise_of_means();
   // The mean of a walk over its cluster has a sixth of a step's variance less than its end.
   slow.white -= slow.walk / 6.0;
   double at_the_fastest = 0.25 * slow.walk, size = at_the_fastest;

@@ -10,13 +10,11 @@
 namespace gyrostat::gap {
 namespace {
 
-constexpr std::size_t clusters_smoothed = 8;
-
 /// A straight line from the middle of each run of clusters of one part to the next's.
 std::vector<double> smoothed(const Conditions& conditions, const std::vector<double>& means) {
   const std::size_t cluster = conditions.cluster(), size = conditions.size();
   const auto count = static_cast<std::ptrdiff_t>(means.size());
-  const auto reach = static_cast<std::ptrdiff_t>(clusters_smoothed / 2);
+  const auto reach = static_cast<std::ptrdiff_t>(clusters_of_level / 2);
   std::vector<double> local(means.size(), 0.0);
   const auto part = [&](std::size_t k) { return conditions.part_of(k * cluster); };
   for (std::ptrdiff_t k = 0; k < count; ++k) {
@@ -59,7 +57,7 @@ ReducedRate::ReducedRate(const Conditions& conditions, std::vector<double> error
   for (std::size_t i = 0; i < values.size(); ++i)
     if (masked[i] != 0) values[i] = no_value;
   const auto means = conditions.slow_means(values);
-  // Of a cluster, half the samples at least must count.
+  // Of a cluster, half of what counts elsewhere must count, and a sample.
   const auto share_of = [&](std::size_t mean) {
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(mean * conditions.cluster());
     const auto there =
@@ -72,7 +70,7 @@ ReducedRate::ReducedRate(const Conditions& conditions, std::vector<double> error
     auto& slow = slow_[index_of(part)];
     for (const auto& span : conditions.slow_spans(part))
       for (std::size_t i = span.first; i < span.last; ++i)
-        if (const double share = share_of(i); share >= 0.5) {
+        if (const double share = share_of(i); share > 0.0 && share >= 0.5 * grid_->kept()) {
           slow.points.push_back(i);
           inverse_shares += 1.0 / share;
           points += 1.0;
@@ -82,7 +80,8 @@ ReducedRate::ReducedRate(const Conditions& conditions, std::vector<double> error
       slow.means[static_cast<Eigen::Index>(k)] =
           means[slow.points[k]] + (of_means_dps.empty() ? 0.0 : of_means_dps[slow.points[k]]);
   }
-  if (points > 0.0) noise_of_means_ = inverse_shares / points;
+  if (points > 0.0)
+    noise_of_means_ = inverse_shares / points * (grid_->comes_evenly() ? grid_->kept() : 1.0);
   if (grid_->hides_any()) {
     const auto level = smoothed(conditions, means);
     for (std::size_t i = 0; i < values.size(); ++i)

@@ -29,7 +29,7 @@ class ReducedRate {
   /// Of white noise that is as strong as all that is fast, or, without periodograms, as the means'
   /// differences.
   double white_std_dps() const;
-  /// Variance of white noise in a mean over that in a mean of all samples of its cluster.
+  /// Variance of white noise in a mean over what the grid makes of a cluster's.
   double noise_of_means() const { return noise_of_means_; }
   const RateGrid& grid() const { return *grid_; }
   double cluster_s() const { return cluster_s_; }

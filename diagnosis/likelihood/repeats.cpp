@@ -130,10 +130,22 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
   marks.stale_is_regular = come_regularly(simulator.conditions(), marks.repeats);
 }
 
+/// One repeat follows each new value, or so many do as there is time for.
+void read_repeats(const SlowerClock& clock, const std::vector<double>& z, Marks& marks) {
+  const double of_each = clock.samples - 1.0;
+  marks.stale_run = std::max(1.0, of_each);
+  marks.stale_probability = of_each / marks.stale_run;
+  marks.stale_is_regular = true;
+  marks.repeats.assign(z.size(), 0);
+  for (std::size_t i = 1; i < z.size(); ++i)
+    marks.repeats[i] = z[i] == z[i - 1] && !clock.is_new_at(i) ? 1 : 0;
+}
+
 }  // namespace
 
 void read_repeats(const Simulator& simulator, const std::vector<double>& values, const Ends& ends,
-                  Marks& marks) {
+                  const std::optional<SlowerClock>& clock, Marks& marks) {
+  if (clock) return read_repeats(*clock, values, marks);
   constexpr std::size_t oldest = 4;
   for (std::size_t back = 1; back <= oldest && marks.repeats.empty(); ++back)
     read_repeats(simulator, values, ends, back, marks);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <gyrostat/diagnosis/likelihood/marks.hpp>
+#include <gyrostat/diagnosis/likelihood/slower_clock.hpp>
 
 namespace gyrostat::gap {
 
@@ -12,9 +13,10 @@ struct Ends {
   bool holds(double value) const { return value == low || value == high; }
 };
 
-/// Which of the values repeat the one before, or one that is a few samples older, beyond what chance
-/// and the grid do: beside the marks of grid, limits and silence. Without such values nothing is changed.
+/// Which of the values repeat the one before, or one that is a few samples older, beyond what
+/// chance and the grid do: beside the marks of grid, limits and silence. Without such values
+/// nothing is changed. Where there is a slower clock, it says which.
 void read_repeats(const Simulator& simulator, const std::vector<double>& values, const Ends& ends,
-                  Marks& marks);
+                  const std::optional<SlowerClock>& clock, Marks& marks);
 
 }  // namespace gyrostat::gap

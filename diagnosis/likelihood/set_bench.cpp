@@ -165,6 +165,7 @@ Evidence SetBench::evidence_of(const Standing& standing) const {
   left.gyro_dps = gyro_beside(standing.scenario);
   Evidence evidence{simulator_, recording_, Scene(conditions_, left), standing.scenario};
   evidence.hidden = masked();
+  evidence.nyquist_hz = grid().nyquist_hz();
   auto counted = evidence.scene.rate_error_dps;
   for (std::size_t i = 0; i < counted.size(); ++i)
     if (evidence.hidden[i] != 0) counted[i] = no_value;

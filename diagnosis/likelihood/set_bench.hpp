@@ -48,6 +48,7 @@ class SetBench {
   void mark_saturation() { marked_saturation_ = true; }
   void mark_dead_zone() { marked_dead_zone_ = true; }
 
+  const RateGrid& grid() const { return *grid_; }
   const std::vector<char>& masked() const { return grid_->masked(); }
   void mask_only(std::vector<char> samples);
   void mask_too(const std::vector<char>& samples);

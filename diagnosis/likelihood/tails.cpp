@@ -56,8 +56,12 @@ std::vector<double> covariances(const Conditions& conditions, const std::vector<
           counts[lag] += 1.0;
         }
     }
+  // Of samples that are missing evenly, hardly any are at some lags.
+  constexpr double fewest = 100.0;
   for (std::size_t lag = 0; lag <= order; ++lag)
-    sums[lag] /= std::max(1.0, counts[lag]) * (1.0 + 1e-3 * (lag > 0 ? 1.0 : 0.0));
+    sums[lag] = counts[lag] < fewest
+                    ? 0.0
+                    : sums[lag] / (counts[lag] * (1.0 + 1e-3 * (lag > 0 ? 1.0 : 0.0)));
   return sums;
 }
 

@@ -13,9 +13,10 @@ namespace gyrostat::effects {
 
 /// The recorder repeats its last value where a new one came too late. Repeats last a geometric
 /// number of samples and a fresh one follows each, so that the share of repeated samples is p m /
-/// (1 + p m) with p = probability and m = mean run. Or they come at even distances, as where the
-/// sensor's clock is slower than the recorder's: each 1 / p + m samples one begins. A buffer of
-/// several places may hold an older value than the last.
+/// (1 + p m) with p = probability and m = mean run. Or they come at even distances and are equally
+/// long, as where the sensor's clock is slower than the recorder's: each 1 / p + m samples one ends.
+/// Of a recorder that is R times as fast as its sensor all is repeated but each R-th sample: p = 1
+/// and m = R - 1. A buffer of several places may hold an older value than the last.
 struct StaleSamples {
   double probability = 0.01;
   double mean_run = 1.0;
@@ -34,7 +35,7 @@ struct StaleSamples {
         Field{"mean_run", &P::mean_run, "samples", Range{.from = 1, .to = 1e6},
               "mean length of a repeat"},
         Field{"regular", &P::regular, "1", Range{.from = 0, .to = 1, .whole = true},
-              "1: repeats begin at even distances; 0: by chance"},
+              "1: repeats come at even distances and are equally long; 0: by chance"},
         Field{"back", &P::back, "samples", Range{.from = 1, .to = 64, .whole = true},
               "how old the repeated value is"},
     };
@@ -48,16 +49,17 @@ struct StaleSamples {
     const auto goes_on = noise.stream("stale_samples/goes_on");
     const double turn = noise.stream("stale_samples/first").uniform(0);
     const double distance = 1.0 / probability + mean_run;
-    const auto round_of = [&](std::size_t i) {
-      return std::floor(turn + static_cast<double>(i) / distance);
-    };
-    const auto is_begun = [&](std::size_t i) {
-      return regular > 0.5 ? round_of(i) > round_of(i - 1) : begins.uniform(i) < probability;
+    const auto is_in_repeat = [&](std::size_t i) {
+      const double rounds = turn + static_cast<double>(i) / distance;
+      return (rounds - std::floor(rounds)) * distance * probability >= 1.0;
     };
     bool stale = false;
     const auto age = static_cast<std::size_t>(back);
     for (std::size_t i = 1, n = samples_with(series, needs); i < n; ++i) {
-      stale = stale ? goes_on.uniform(i) < 1.0 - 1.0 / mean_run : is_begun(i);
+      if (regular > 0.5)
+        stale = is_in_repeat(i);
+      else
+        stale = stale ? goes_on.uniform(i) < 1.0 - 1.0 / mean_run : begins.uniform(i) < probability;
       if (stale && i >= age) series.gyro_dps[i] = series.gyro_dps[i - age];
     }
   }

@@ -84,6 +84,8 @@ TEST(Layout, EveryUnitIsWhatItsDefinitionSays) {
   EXPECT_DOUBLE_EQ(value_in("temp", "mC", "25000"), 25);
   EXPECT_DOUBLE_EQ(value_in("acc_x", "g", "1"), 9.80665);
   EXPECT_DOUBLE_EQ(value_in("heading", "rad", "-1"), -180 / std::numbers::pi);
+  EXPECT_EQ(value_in("heading", "deg", "270"), -90);
+  EXPECT_NEAR(value_in("heading", "rad", "6.2832"), 0, 1e-3);  // four decimals of 2 pi
 }
 
 TEST(Layout, TheUnitThatIsGivenComesBeforeBracketsBeforeTheRowOfUnitsBeforeTheEnding) {
