@@ -6,7 +6,7 @@
 #include <gyrostat/diagnosis/diagnosis_json.hpp>
 #include <gyrostat/diagnosis/diagnosis_tables.hpp>
 #include <gyrostat/diagnosis/gap/conditions.hpp>
-#include <gyrostat/diagnosis/handling.hpp>
+#include <gyrostat/diagnosis/of_the_sensor.hpp>
 #include <gyrostat/diagnosis/views.hpp>
 #include <gyrostat/experiments/findings/allan_table.hpp>
 #include <gyrostat/experiments/findings/application.hpp>
@@ -150,7 +150,7 @@ std::shared_ptr<Diagnosed> diagnose(const RecordingHandle& recording, std::uint6
         auto diagnosed = std::make_shared<Diagnosed>();
         diagnosed->name = recording->name;
         require_dense(recording->series, recording->name);
-        const auto series = gap::without_handling(recording->series, diagnosed->notes);
+        const auto series = gap::of_the_sensor(recording->series, diagnosed->notes);
         if (series.size() > gap::most_samples_at_once)
           throw InputError(
               recording->name,

@@ -8,6 +8,8 @@
 
 #include <unsupported/Eigen/FFT>
 
+#include <gyrostat/diagnosis/starts/quantile.hpp>
+
 namespace gyrostat::gap {
 namespace {
 
@@ -97,12 +99,20 @@ double top_of(const Changes& changes, double frequency, double bin) {
   return 0.5 * (low + high);
 }
 
+/// Where the youngest of the new values are, after their middle.
+double youngest_of(const SlowerClock& clock, const Changes& changes) {
+  constexpr double first = 0.005;
+  std::vector<double> off;
+  for (const std::size_t i : changes.at) off.push_back(clock.off(i));
+  return quantile(std::move(off), first);
+}
+
 /// There are no more changes than new values, nearly none stands elsewhere, and many would by
 /// chance.
 bool has_all(const SlowerClock& clock, const Changes& changes) {
-  constexpr double few = 0.01, fewest_by_chance = 50.0, uncertain_turns = 0.01;
+  constexpr double few = 0.01, fewest_by_chance = 50.0;
   const auto elsewhere = std::ranges::count_if(changes.at, [&](std::size_t i) {
-    return clock.off(i) > 0.5 / clock.samples + uncertain_turns;
+    return std::abs(clock.off(i)) > 0.5 / clock.samples + SlowerClock::uncertain;
   });
   const auto count = static_cast<double>(changes.at.size());
   return count * clock.samples < (1.0 + few) * changes.of &&
@@ -113,7 +123,7 @@ bool has_all(const SlowerClock& clock, const Changes& changes) {
 }  // namespace
 
 double SlowerClock::off(std::size_t sample) const {
-  return std::abs(std::remainder(turns_at(sample, 1.0 / samples) - middle, 1.0));
+  return std::remainder(turns_at(sample, 1.0 / samples) - middle, 1.0);
 }
 
 std::optional<SlowerClock> slower_clock(const Conditions& conditions,
@@ -138,7 +148,9 @@ std::optional<SlowerClock> slower_clock(const Conditions& conditions,
           clock.samples > slowest)
         continue;
       clock.middle = std::arg(direction(changes, 1.0 / clock.samples)) / (2.0 * std::numbers::pi);
-      if (has_all(clock, changes)) found = clock;
+      if (!has_all(clock, changes)) continue;
+      clock.youngest = youngest_of(clock, changes);
+      found = clock;
     }
   }
   return found;

@@ -9,11 +9,8 @@
 
 #include <fmt/format.h>
 
-#include <gyrostat/diagnosis/handling.hpp>
-#include <gyrostat/diagnosis/own_heading.hpp>
+#include <gyrostat/diagnosis/of_the_sensor.hpp>
 #include <gyrostat/diagnosis/own_reference.hpp>
-#include <gyrostat/diagnosis/reference_noise.hpp>
-#include <gyrostat/diagnosis/unreferenced_turning.hpp>
 #include <gyrostat/diagnosis/views.hpp>
 #include <gyrostat/experiments/cli/phase_progress.hpp>
 
@@ -25,10 +22,7 @@ namespace fs = std::filesystem;
 /// Without what is not the sensor's, which is told.
 Series of_the_sensor(Series recording, const std::string& file, std::ostream& log) {
   std::vector<std::string> told;
-  Series series = gap::without_handling(std::move(recording), told);
-  series = gap::without_foreign_heading(std::move(series), told);
-  series = gap::without_turning(std::move(series), told);
-  series = gap::without_reference_noise(std::move(series), told);
+  Series series = gap::of_the_sensor(std::move(recording), told);
   for (const auto& line : told) log << fmt::format("{}: {}\n", file, line);
   return series;
 }
