@@ -8,8 +8,8 @@
 namespace gyrostat::gap {
 
 /// The recording without what is not the sensor's: its handling, a heading that is no compass,
-/// turns that nobody knows, noise of the reference, and the times of another clock. `told` hears of
-/// each.
+/// turns that nobody knows, noise of the reference, the times of another clock, and what the gyro
+/// shows of a motion before the reference begins. `told` hears of each.
 Series of_the_sensor(Series recording, std::vector<std::string>& told);
 
 }  // namespace gyrostat::gap

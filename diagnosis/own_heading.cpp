@@ -5,61 +5,22 @@
 #include <initializer_list>
 #include <utility>
 
+#include <gyrostat/core/heading_turns.hpp>
 #include <gyrostat/core/step.hpp>
-#include <gyrostat/core/values.hpp>
 #include <gyrostat/diagnosis/starts/turning.hpp>
 
 namespace gyrostat::gap {
 namespace {
 
-/// The heading without wraps; missing where it is.
-std::vector<double> unwrapped(const std::vector<double>& heading_deg) {
-  std::vector<double> turned(heading_deg.size(), no_value);
-  double last = no_value, sum = 0.0;
-  for (std::size_t i = 0; i < heading_deg.size(); ++i) {
-    if (is_missing(heading_deg[i])) continue;
-    if (!is_missing(last)) sum += wrap_degrees(heading_deg[i] - last);
-    last = heading_deg[i];
-    turned[i] = sum;
-  }
-  return turned;
-}
-
-/// Products of two changes over the same second, summed.
-struct Shared {
-  double squares = 0.0, other_squares = 0.0, products = 0.0;
-  void add(double x, double y) {
-    squares += x * x;
-    other_squares += y * y;
-    products += x * y;
-  }
-  double slope() const { return products / squares; }
-  double correlation() const { return products / std::sqrt(squares * other_squares); }
-};
-
-/// How a rate goes with the heading's turning, in steps of a second.
-Shared shared(const Series& recording, const std::vector<double>& turned,
-              const std::vector<double>& rate_dps) {
-  Shared sums;
-  const auto block = static_cast<std::size_t>(std::max(1.0, std::round(recording.rate_hz())));
-  for (std::size_t first = 0; first + block < turned.size(); first += block) {
-    double sum_deg = 0.0;
-    for (std::size_t i = first; i < first + block; ++i)
-      sum_deg += rate_dps[i] * (recording.t_s[i + 1] - recording.t_s[i]);
-    const double change_deg = turned[first + block] - turned[first];
-    if (!is_missing(change_deg) && !is_missing(sum_deg)) sums.add(change_deg, sum_deg);
-  }
-  return sums;
-}
-
 bool is_of_another_axis(const Series& recording, const std::vector<double>& turned) {
   constexpr double alike = 0.9, most_misaligned = 0.1;
-  const auto own = shared(recording, turned, recording.gyro_dps);
-  if (!(own.squares > 0.0) || std::abs(own.slope()) >= most_misaligned) return false;
+  const auto own = turns_together(recording, turned, recording.gyro_dps);
+  if (!(own.heading_squares > 0.0) || std::abs(own.slope()) >= most_misaligned) return false;
   return std::ranges::any_of(
       std::initializer_list{&recording.cross_rate_1_dps, &recording.cross_rate_2_dps},
       [&](const auto* cross) {
-        return !cross->empty() && std::abs(shared(recording, turned, *cross).correlation()) > alike;
+        return !cross->empty() &&
+               std::abs(turns_together(recording, turned, *cross).correlation()) > alike;
       });
 }
 

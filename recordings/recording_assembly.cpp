@@ -8,6 +8,8 @@
 #include <fmt/ranges.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/core/heading_turns.hpp>
+#include <gyrostat/core/values.hpp>
 #include <gyrostat/recordings/channel_values.hpp>
 #include <gyrostat/recordings/text.hpp>
 
@@ -91,6 +93,14 @@ std::string column_of(const Channel& channel, const std::string& axis, const Nam
   const auto of_axis = cycle.substr(cycle.find(about) + steps, 1);
   if (const auto reference = reference_name(of_axis); contains(names, reference)) return reference;
   return is_reference ? std::string(channel.name) : gyro_name(of_axis);
+}
+
+/// Beyond any doubt, second by second.
+bool turns_against_gyro(const Series& series) {
+  constexpr double fewest = 20.0, alike = 0.9;
+  if (series.heading_deg.empty()) return false;
+  const auto together = turns_together(series, unwrapped(series.heading_deg), series.gyro_dps);
+  return together.count >= fewest && together.correlation() < -alike;
 }
 
 /// Times since 1970 become those since the first sample, which a double holds to the nanosecond.
@@ -177,6 +187,12 @@ Recording RecordingAssembly::finished(bool calendar_times) && {
   if (const auto repeats = leave_out_repeats(series.heading_deg, field_); repeats > 0)
     recording_.notes.push_back(fmt::format(
         "heading_deg: {} values repeat the compass' last reading and are left out", repeats));
+  if (turns_against_gyro(series)) {
+    for (double& heading : series.heading_deg) heading = wrap_degrees(-heading);
+    recording_.notes.emplace_back(
+        "heading_deg turns against the gyro, as a clockwise one does beside an axis that points "
+        "up: its sign is changed");
+  }
   return std::move(recording_);
 }
 

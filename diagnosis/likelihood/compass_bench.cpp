@@ -104,16 +104,20 @@ std::vector<Effect> CompassBench::starts(const CauseType& cause,
 std::vector<Effect> CompassBench::polished(std::vector<Effect> set) const {
   auto left = errors_.of(set);
   auto law = errors_.law_of_errors(left, bursts_.hidden);
-  for (int pass = 0; pass < 4; ++pass) {
-    simulator_.interrupt().check();
-    auto better =
-        compass_step(errors_, conditions_, bursts_.hidden, set, left, WalkingLevel(law.level_gain));
+  const auto improve = [&](AtEnds at_ends) {
+    auto better = compass_step(errors_, conditions_, bursts_.hidden, set, left,
+                               WalkingLevel(law.level_gain), at_ends);
     auto its_left = errors_.of(better);
     const auto its_law = errors_.law_of_errors(its_left, bursts_.hidden);
-    if (its_law.gain_on(law) <= 0.0) break;
+    if (its_law.gain_on(law) <= 0.0) return false;
     set = std::move(better);
     left = std::move(its_left);
     law = its_law;
+    return true;
+  };
+  for (int pass = 0; pass < 4; ++pass) {
+    simulator_.interrupt().check();
+    if (!improve(AtEnds::move) && !improve(AtEnds::stay)) break;
   }
   return set;
 }

@@ -20,20 +20,30 @@ constexpr double fixed = 1e30;
 
 std::vector<Effect> compass_step(const CompassErrors& errors, const Conditions& conditions,
                                  const std::vector<char>& hidden, const std::vector<Effect>& set,
-                                 const std::vector<double>& here, const WalkingLevel& level) {
+                                 const std::vector<double>& here, const WalkingLevel& level,
+                                 AtEnds at_ends) {
   struct Place {
     std::size_t effect, field;
     double step;
   };
   std::vector<Place> places;
+  bool some_stay = false;
   for (std::size_t k = 0; k < set.size(); ++k) {
     const auto& free = cause_types().named(set[k].id(), "effects").free_parameters;
-    for (std::size_t f = 0; f < set[k].fields().size(); ++f)
-      if (std::find(free.begin(), free.end(), set[k].fields()[f].name) != free.end())
-        places.push_back(
-            {k, f,
-             set[k].fields()[f].unit == "deg" ? 0.01 : 1e-3 * std::abs(set[k].value(f)) + 1e-6});
+    for (std::size_t f = 0; f < set[k].fields().size(); ++f) {
+      const auto& field = set[k].fields()[f];
+      if (std::find(free.begin(), free.end(), field.name) == free.end()) continue;
+      const double value = set[k].value(f);
+      const bool stays =
+          at_ends == AtEnds::stay && (value == field.range.from || value == field.range.to);
+      some_stay |= stays;
+      if (!stays)
+        places.push_back({k, f, field.unit == "deg" ? 0.01 : 1e-3 * std::abs(value) + 1e-6});
+    }
   }
+  // Else it was tried.
+  if (at_ends == AtEnds::stay && !some_stay) return set;
+  if (places.empty()) return set;
   std::vector<std::vector<double>> moved(places.size());
   tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t c) {
     auto other = set;

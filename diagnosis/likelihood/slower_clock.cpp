@@ -101,23 +101,27 @@ double top_of(const Changes& changes, double frequency, double bin) {
 
 /// Where the youngest of the new values are, after their middle.
 double youngest_of(const SlowerClock& clock, const Changes& changes) {
-  constexpr double first = 0.005;
+  constexpr double first = 5e-4;
   std::vector<double> off;
   for (const std::size_t i : changes.at) off.push_back(clock.off(i));
   return quantile(std::move(off), first);
 }
 
-/// There are no more changes than new values, nearly none stands elsewhere, and many would by
-/// chance.
+/// There are no more changes than new values; nearly none stands elsewhere, where many would by
+/// chance; and not most where new values end, as those of a faster clock may.
 bool has_all(const SlowerClock& clock, const Changes& changes) {
-  constexpr double few = 0.01, fewest_by_chance = 50.0;
-  const auto elsewhere = std::ranges::count_if(changes.at, [&](std::size_t i) {
-    return std::abs(clock.off(i)) > 0.5 / clock.samples + SlowerClock::uncertain;
-  });
+  constexpr double few = 0.01, of_chance = 0.05, most_at_ends = 0.25, fewest_by_chance = 50.0;
+  const auto beyond = [&](double turns) {
+    return static_cast<double>(std::ranges::count_if(changes.at, [&](std::size_t i) {
+      return std::abs(clock.off(i)) > 0.5 / clock.samples + turns;
+    }));
+  };
   const auto count = static_cast<double>(changes.at.size());
-  return count * clock.samples < (1.0 + few) * changes.of &&
-         static_cast<double>(elsewhere) < few * count &&
-         count * (1.0 - 1.0 / clock.samples) > fewest_by_chance;
+  const double elsewhere = beyond(SlowerClock::uncertain);
+  const double by_chance = count * (1.0 - 1.0 / clock.samples);
+  return count * clock.samples < (1.0 + few) * changes.of && by_chance > fewest_by_chance &&
+         elsewhere < few * count && elsewhere < of_chance * by_chance &&
+         beyond(-SlowerClock::uncertain) < most_at_ends * count;
 }
 
 }  // namespace

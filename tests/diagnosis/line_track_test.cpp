@@ -152,7 +152,7 @@ TEST(LineTrack, ALineIsFoundAnywhere) {
     }
     effects::WanderingLine{amplitude, 6.0, 0.3, 30.0}.apply(series, {7, 0});
     const NoiseLaw white{.interval_s = 0.05, .duration_s = 1200.0, .white = noise_dps * noise_dps};
-    const auto band = band_of_hidden_line(Conditions(series), series.gyro_dps, white, least);
+    const auto band = band_of_hidden_line(Conditions(series), series.gyro_dps, white, least, 10.0);
     ASSERT_EQ(band.has_value(), amplitude > 0.0);
     if (!band) continue;
     EXPECT_NEAR(band->centre_hz, 6.0, 0.3);

@@ -124,5 +124,24 @@ TEST(StaleSamples, OfASlowerClockComeAtEvenDistances) {
   for (std::size_t k = 1; k < at.size(); ++k) EXPECT_LE(at[k] - at[k - 1], 13U);
 }
 
+/// A recorder of R times the sensor's rate has a fresh value each R samples: of whole numbers all
+/// runs are alike, of others they are of the two next to them.
+TEST(StaleSamples, OfARecorderThatIsFasterFreshValuesComeEvenly) {
+  for (const double ratio : {2.0, 3.0, 2.5, 5.3}) {
+    auto series = noisy(20000, 100.0);
+    effects::StaleSamples{.probability = 1.0, .mean_run = ratio - 1.0, .regular = 1.0}.apply(
+        series, {1, 0});
+    std::vector<std::size_t> at;
+    for (std::size_t i = 1; i < series.size(); ++i)
+      if (series.gyro_dps[i] != series.gyro_dps[i - 1]) at.push_back(i);
+    EXPECT_NEAR(static_cast<double>(at.size()), 20000.0 / ratio, 1.0);
+    for (std::size_t k = 1; k < at.size(); ++k) {
+      const auto apart = static_cast<double>(at[k] - at[k - 1]);
+      EXPECT_GE(apart, std::floor(ratio));
+      EXPECT_LE(apart, std::ceil(ratio));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gyrostat::noise_effects_test

@@ -13,12 +13,14 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <gyrostat/core/error.hpp>
+#include <gyrostat/core/values.hpp>
 #include <gyrostat/recordings/atomic_file.hpp>
 #include <gyrostat/recordings/write_columns.hpp>
 #include <gyrostat/tests/places.hpp>
@@ -28,6 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -284,6 +287,35 @@ INSTANTIATE_TEST_SUITE_P(
                 head + "0," + std::string(10'000, 'x') + ",,,\n",
                 {":2:", "'" + std::string(40, 'x') + "...'"}}),
     [](const auto& instance) { return instance.param.name; });
+
+/// A compass counts clockwise, and a gyro that points up does not.
+TEST(Recording, AHeadingThatTurnsAgainstTheGyroIsTurnedRound) {
+  std::string clockwise = "t_s,gyro_dps,heading_deg\n", alike = clockwise, still = clockwise;
+  for (int i = 0; i < 1200; ++i) {
+    const double t_s = 0.05 * i, rate = 30.0 * std::sin(0.2 * t_s);
+    const double turned = 150.0 * (1.0 - std::cos(0.2 * t_s)), noise = i % 3 - 1;
+    const auto row = [&](double gyro, double heading) {
+      return fmt::format("{},{},{}\n", t_s, gyro, std::fmod(720.0 + heading, 360.0));
+    };
+    clockwise += row(rate, -turned + noise);
+    alike += row(rate, turned + noise);
+    still += row(0.1 * noise, 50.0 - noise);
+  }
+  const Folder folder;
+  const auto read = [&](const std::string& text) {
+    return read_recording(folder.file("a.csv", text).string());
+  };
+  const auto turned_round = read(clockwise), as_it_was = read(alike), at_rest = read(still);
+  EXPECT_THAT(turned_round.notes, Contains(HasSubstr("turns against the gyro")));
+  EXPECT_THAT(as_it_was.notes, IsEmpty());
+  EXPECT_THAT(at_rest.notes, IsEmpty());
+  for (std::size_t i = 0; i < 1200; ++i) {
+    const double noise = static_cast<double>(i % 3) - 1.0;
+    EXPECT_NEAR(wrap_degrees(turned_round.series.heading_deg[i] - as_it_was.series.heading_deg[i] +
+                             2.0 * noise),
+                0.0, 1e-9);
+  }
+}
 
 TEST(Recording, AMissingFileIsNamed) {
   EXPECT_THAT(error_of([] { read_recording("/nowhere/a.csv"); }),

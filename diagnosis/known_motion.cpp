@@ -1,0 +1,194 @@
+#include <gyrostat/diagnosis/known_motion.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <complex>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+#include <unsupported/Eigen/FFT>
+
+#include <gyrostat/core/heading_turns.hpp>
+#include <gyrostat/core/step.hpp>
+
+namespace gyrostat::gap {
+namespace {
+
+using Values = std::vector<double>;
+
+/// About its mean, 0 where missing and beyond the end.
+Values centred(const Values& values, std::size_t size) {
+  double sum = 0.0, count = 0.0;
+  for (const double v : values)
+    if (!is_missing(v)) sum += v, count += 1.0;
+  Values about(size, 0.0);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!is_missing(values[i])) about[i] = values[i] - sum / std::max(count, 1.0);
+  return about;
+}
+
+/// The lag of the largest correlation.
+std::ptrdiff_t whole_lag(const Series& recording, std::ptrdiff_t most) {
+  const std::size_t size = std::bit_ceil(recording.size() + static_cast<std::size_t>(most) + 1);
+  Eigen::FFT<double> fft;
+  std::vector<std::complex<double>> gyro, rate;
+  fft.fwd(gyro, centred(recording.gyro_dps, size));
+  fft.fwd(rate, centred(recording.rate_ref_dps, size));
+  for (std::size_t k = 0; k < gyro.size(); ++k) gyro[k] *= std::conj(rate[k]);
+  Values products;
+  fft.inv(products, gyro);
+  std::ptrdiff_t best = 0;
+  const auto at = [&](std::ptrdiff_t lag) {
+    return products[static_cast<std::size_t>(lag < 0 ? lag + static_cast<std::ptrdiff_t>(size)
+                                                     : lag)];
+  };
+  for (std::ptrdiff_t lag = -most; lag <= most; ++lag)
+    if (at(lag) > at(best)) best = lag;
+  return best;
+}
+
+/// The gyro as a level and a scale of the rate `lag` samples ago, and of its slope.
+struct Shifted {
+  double later = 0.0;  ///< samples beyond the lag
+  double left_dps = 0.0;
+  double scale = 0.0;
+};
+std::optional<Shifted> shifted(const Series& recording, std::ptrdiff_t lag) {
+  const auto n = static_cast<std::ptrdiff_t>(recording.size());
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d with = Eigen::Vector3d::Zero();
+  double squares = 0.0, count = 0.0;
+  for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, lag + 1); i < std::min(n, n + lag - 1); ++i) {
+    const auto rate = [&](std::ptrdiff_t k) {
+      return recording.rate_ref_dps[static_cast<std::size_t>(i - lag + k)];
+    };
+    const double seen = recording.gyro_dps[static_cast<std::size_t>(i)];
+    const Eigen::Vector3d row(1.0, rate(0), 0.5 * (rate(1) - rate(-1)));
+    if (is_missing(seen) || !row.allFinite()) continue;
+    normal += row * row.transpose();
+    with += row * seen;
+    squares += seen * seen;
+    count += 1.0;
+  }
+  constexpr double fewest = 100.0;
+  if (count < fewest) return std::nullopt;
+  const Eigen::LDLT<Eigen::Matrix3d> solved(normal);
+  const Eigen::Vector3d sizes = solved.solve(with);
+  if (!sizes.allFinite() || sizes[1] == 0.0) return std::nullopt;
+  return Shifted{-sizes[2] / sizes[1],
+                 std::sqrt(std::max(0.0, (squares - sizes.dot(with)) / count)), sizes[1]};
+}
+
+struct Lateness {
+  double samples = 0.0, left_dps = 0.0;
+};
+Lateness lateness_of(const Series& recording) {
+  constexpr std::size_t shortest = 500, share = 20;
+  constexpr double least_scale = 0.5, most_scale = 2.0;
+  constexpr int rounds = 5;
+  if (recording.rate_ref_dps.size() < shortest) return {};
+  const auto most = static_cast<std::ptrdiff_t>(recording.size() / share);
+  auto lag = whole_lag(recording, most);
+  std::optional<Shifted> best;
+  for (int round = 0; round < rounds; ++round) {
+    best = shifted(recording, lag);
+    if (!best || best->scale < least_scale || best->scale > most_scale) return {};
+    const auto next = lag + static_cast<std::ptrdiff_t>(std::lround(best->later));
+    if (next == lag || std::abs(next) > most) break;
+    lag = next;
+  }
+  return {static_cast<double>(lag) + std::clamp(best->later, -1.0, 1.0), best->left_dps};
+}
+
+/// How long after the reference turned the heading does, by least squares with a level and a drift.
+double heading_lateness_s(const Series& recording, const Values& turned_deg) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d with = Eigen::Vector3d::Zero();
+  double reference_deg = 0.0;
+  for (std::size_t i = 1; i < turned_deg.size(); ++i) {
+    const double rate = recording.rate_ref_dps[i], step_s = recording.t_s[i] - recording.t_s[i - 1];
+    reference_deg += 0.5 * (rate + recording.rate_ref_dps[i - 1]) * step_s;
+    if (is_missing(turned_deg[i])) continue;
+    const Eigen::Vector3d row(1.0, recording.t_s[i] - recording.t_s[0], rate);
+    normal += row * row.transpose();
+    with += row * (reference_deg - turned_deg[i]);
+  }
+  return Eigen::LDLT<Eigen::Matrix3d>(normal).solve(with)[2];
+}
+
+/// By what changes from sample to sample.
+double heading_noise_deg(const Series& recording, const Values& turned_deg) {
+  double squares = 0.0, count = 0.0;
+  for (std::size_t i = 1; i < turned_deg.size(); ++i) {
+    const double step = turned_deg[i] - turned_deg[i - 1] -
+                        recording.rate_ref_dps[i] * (recording.t_s[i] - recording.t_s[i - 1]);
+    if (is_missing(step)) continue;
+    squares += step * step;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(0.5 * squares / count) : 0.0;
+}
+
+/// A lag of so long has forgotten what was before.
+Series with_known_heading(Series recording, std::vector<std::string>& told) {
+  constexpr double forgotten = 8.0, most_share = 0.05, clear = 3.0;
+  auto& heading = recording.heading_deg;
+  if (heading.empty() || recording.rate_ref_dps.empty()) return recording;
+  const auto turned = unwrapped(heading);
+  const double late_s = heading_lateness_s(recording, turned);
+  const double noise_deg = heading_noise_deg(recording, turned);
+  const double until_s = recording.t_s.front() + forgotten * late_s;
+  if (!(late_s > 0.0) || !(forgotten * late_s < most_share * recording.duration_s()) ||
+      !(noise_deg > 0.0) ||
+      !(std::abs(recording.rate_ref_dps.front()) * late_s > clear * noise_deg))
+    return recording;
+  for (std::size_t i = 0; i < heading.size() && recording.t_s[i] < until_s; ++i)
+    heading[i] = no_value;
+  told.push_back(fmt::format(
+      "the heading is {:.2g} s late, and the reference begins in motion: the first {:.2g} s of it "
+      "are left out",
+      late_s, forgotten * late_s));
+  return recording;
+}
+
+/// Likewise of what the gyro shows, at either end.
+Series with_known_rate(Series recording, std::vector<std::string>& told) {
+  const auto [late, noise_dps] = lateness_of(recording);
+  // A sample more, for filters besides.
+  const auto count = static_cast<std::ptrdiff_t>(std::ceil(std::abs(late))) + 1;
+  const auto n = static_cast<std::ptrdiff_t>(recording.size());
+  const auto& rate = recording.rate_ref_dps;
+  if (late == 0.0 || count >= n) return recording;
+  const auto moved = [&](auto first) {
+    double most = 0.0;
+    for (std::ptrdiff_t i = 0; i <= count; ++i) most = std::max(most, std::abs(first[i] - *first));
+    return most * std::min(1.0, std::abs(late)) > 3.0 * noise_dps;
+  };
+  const bool is_at_the_end = late < 0.0;
+  if (!(is_at_the_end ? moved(rate.rbegin()) : moved(rate.begin()))) return recording;
+  auto& gyro = recording.gyro_dps;
+  if (is_at_the_end)
+    std::fill(gyro.end() - count, gyro.end(), no_value);
+  else
+    std::fill(gyro.begin(), gyro.begin() + count, no_value);
+  told.push_back(fmt::format(
+      "the gyro is {:.3g} samples {} than the reference, which {} in motion: {} {} samples are "
+      "left "
+      "out",
+      std::abs(late), is_at_the_end ? "earlier" : "later", is_at_the_end ? "ends" : "begins",
+      is_at_the_end ? "the last" : "the first", count));
+  return recording;
+}
+
+}  // namespace
+
+double lateness_samples(const Series& recording) { return lateness_of(recording).samples; }
+
+Series with_known_motion(Series recording, std::vector<std::string>& told) {
+  return with_known_heading(with_known_rate(std::move(recording), told), told);
+}
+
+}  // namespace gyrostat::gap
