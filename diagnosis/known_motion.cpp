@@ -55,12 +55,13 @@ struct Shifted {
   double later = 0.0;  ///< samples beyond the lag
   double left_dps = 0.0;
   double scale = 0.0;
+  double share_left = 1.0;  ///< of the gyro's variance
 };
 std::optional<Shifted> shifted(const Series& recording, std::ptrdiff_t lag) {
   const auto n = static_cast<std::ptrdiff_t>(recording.size());
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d with = Eigen::Vector3d::Zero();
-  double squares = 0.0, count = 0.0;
+  double squares = 0.0, count = 0.0;  // of the gyro
   for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, lag + 1); i < std::min(n, n + lag - 1); ++i) {
     const auto rate = [&](std::ptrdiff_t k) {
       return recording.rate_ref_dps[static_cast<std::size_t>(i - lag + k)];
@@ -78,8 +79,9 @@ std::optional<Shifted> shifted(const Series& recording, std::ptrdiff_t lag) {
   const Eigen::LDLT<Eigen::Matrix3d> solved(normal);
   const Eigen::Vector3d sizes = solved.solve(with);
   if (!sizes.allFinite() || sizes[1] == 0.0) return std::nullopt;
-  return Shifted{-sizes[2] / sizes[1],
-                 std::sqrt(std::max(0.0, (squares - sizes.dot(with)) / count)), sizes[1]};
+  const double left = std::max(0.0, (squares - sizes.dot(with)) / count);
+  const double variance = squares / count - with[0] * with[0] / (count * count);
+  return Shifted{-sizes[2] / sizes[1], std::sqrt(left), sizes[1], left / variance};
 }
 
 struct Lateness {
@@ -87,7 +89,7 @@ struct Lateness {
 };
 Lateness lateness_of(const Series& recording) {
   constexpr std::size_t shortest = 500, share = 20;
-  constexpr double least_scale = 0.5, most_scale = 2.0;
+  constexpr double least_scale = 0.5, most_scale = 2.0, most_left = 0.1;
   constexpr int rounds = 5;
   if (recording.rate_ref_dps.size() < shortest) return {};
   const auto most = static_cast<std::ptrdiff_t>(recording.size() / share);
@@ -95,7 +97,9 @@ Lateness lateness_of(const Series& recording) {
   std::optional<Shifted> best;
   for (int round = 0; round < rounds; ++round) {
     best = shifted(recording, lag);
-    if (!best || best->scale < least_scale || best->scale > most_scale) return {};
+    if (!best || best->scale < least_scale || best->scale > most_scale ||
+        best->share_left > most_left)
+      return {};
     const auto next = lag + static_cast<std::ptrdiff_t>(std::lround(best->later));
     if (next == lag || std::abs(next) > most) break;
     lag = next;

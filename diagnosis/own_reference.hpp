@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <gyrostat/core/series.hpp>
 
 namespace gyrostat::gap {
@@ -16,5 +18,9 @@ ReferenceShare share_of_reference(const Series& recording);
 /// Whether the reference rate is of another axis than the gyro, which turns no more than a
 /// misaligned one does: by slope and by deviation less than a tenth of the reference.
 bool is_of_another_axis(const ReferenceShare& share);
+
+/// What the share says of how the recording was written, and what to do: radians for degrees, or
+/// the other sense of turning; nothing where it says neither.
+std::string doubt_of_reference(const ReferenceShare& share);
 
 }  // namespace gyrostat::gap

@@ -54,11 +54,15 @@ std::vector<double> smeared(const std::vector<double>& density) {
   return seen;
 }
 
-/// Whether pairs of samples that count are as likely far apart as evenly hidden ones make them.
-bool come_evenly(const std::vector<double>& pairs) {
-  const double chance = pairs.front() * pairs.front();
+/// Whether pairs of samples that count, of which so many were looked at, are as likely far apart as
+/// evenly hidden ones make them.
+bool come_evenly(const std::vector<double>& pairs, double looked_at) {
+  constexpr double clear = 6.0;  // standard deviations
+  const double kept = pairs.front(), chance = kept * kept;
+  const double apart = 0.5 * (kept - chance);
   const auto half = pairs.begin() + static_cast<std::ptrdiff_t>(pairs.size() / 2);
-  return *std::max_element(half, pairs.end()) > 0.5 * (chance + pairs.front());
+  return *std::max_element(half, pairs.end()) > chance + apart &&
+         apart > clear * std::sqrt(chance * (1.0 - chance) / looked_at);
 }
 
 }  // namespace
@@ -97,17 +101,20 @@ RateGrid::RateGrid(const Conditions& conditions, std::vector<char> masked)
     }
   kept_ = all > 0.0 ? 1.0 - hidden / all : 1.0;
   if (kept_ == 1.0) return;
-  constexpr std::size_t every = 7;  // a sample of the pairs tells their shares well enough
+  // Some of the pairs tell their shares well enough; no clock goes as these do.
+  constexpr double every = 7.0 + 1.0 / std::numbers::phi;
   pairs_.assign(bins, 0.0);
   std::vector<double> pairs_of_all(bins, 0.0);
   for (const auto& span : conditions.spans(Part::train))
-    for (std::size_t i = span.first; i < span.last; i += every)
+    for (double at = 0.0; at < static_cast<double>(span.size()); at += every) {
+      const std::size_t i = span.first + static_cast<std::size_t>(at);
       for (std::size_t lag = 0; lag < bins && i + lag < span.last; ++lag) {
         pairs_of_all[lag] += 1.0;
         pairs_[lag] += masked_[i] == 0 && masked_[i + lag] == 0 ? 1.0 : 0.0;
       }
+    }
   for (std::size_t lag = 0; lag < bins; ++lag) pairs_[lag] /= std::max(pairs_of_all[lag], 1.0);
-  comes_evenly_ = come_evenly(pairs_);
+  comes_evenly_ = come_evenly(pairs_, pairs_of_all.back());
   if (comes_evenly_) left_of_level_ = left_beside_level(angles_, conditions.cluster());
 }
 

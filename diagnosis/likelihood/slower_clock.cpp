@@ -118,7 +118,7 @@ bool has_all(const SlowerClock& clock, const Changes& changes) {
   };
   const auto count = static_cast<double>(changes.at.size());
   const double elsewhere = beyond(SlowerClock::uncertain);
-  const double by_chance = count * (1.0 - 1.0 / clock.samples);
+  const double by_chance = count * (1.0 - 1.0 / clock.samples - 2.0 * SlowerClock::uncertain);
   return count * clock.samples < (1.0 + few) * changes.of && by_chance > fewest_by_chance &&
          elsewhere < few * count && elsewhere < of_chance * by_chance &&
          beyond(-SlowerClock::uncertain) < most_at_ends * count;

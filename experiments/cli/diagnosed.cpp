@@ -145,7 +145,10 @@ LookedAt looked_at(const ToDiagnose& one, const SpanOption& span,
   auto read = one.recording.read_span(console.log, span);
   Series series = of_the_sensor(std::move(read.series), file, console.log);
   require_rate_of(options.claim, series, file);
-  if (const auto share = gap::share_of_reference(series); gap::is_of_another_axis(share)) {
+  const auto share = gap::share_of_reference(series);
+  const auto doubt = gap::doubt_of_reference(share);
+  if (!doubt.empty()) console.log << fmt::format("{}: {}\n", file, doubt);
+  if (gap::is_of_another_axis(share) && doubt.empty()) {
     const auto why = fmt::format(
         "does not turn with rate_ref_dps (by least squares {:.2g} of it), "
         "which is of another axis",

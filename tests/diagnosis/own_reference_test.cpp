@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace gyrostat::gap {
@@ -35,6 +36,19 @@ TEST(OwnReference, OneThatIsMissingOrNeverChangesIsOfEveryAxis) {
   EXPECT_FALSE(is_of_another_axis(share_of_reference(series)));
   series.rate_ref_dps.clear();
   EXPECT_FALSE(is_of_another_axis(share_of_reference(series)));
+}
+
+TEST(OwnReference, OtherUnitsAndSensesAreDoubted) {
+  using testing::HasSubstr;
+  const auto doubt = [](double slope, double own_dps) {
+    return doubt_of_reference(share_of_reference(turning(slope, own_dps)));
+  };
+  EXPECT_THAT(doubt(0.01745, 1e-3), HasSubstr("--units gyro=rad/s"));
+  EXPECT_THAT(doubt(57.3, 1.0), HasSubstr("--units rate_ref=rad/s"));
+  EXPECT_THAT(doubt(-1.02, 0.1), HasSubstr("change its sign"));
+  EXPECT_EQ(doubt(1.02, 0.1), "");
+  EXPECT_EQ(doubt(0.0175, 20.0), "");  // an axis of its own
+  EXPECT_EQ(doubt_of_reference({}), "");
 }
 
 }  // namespace
