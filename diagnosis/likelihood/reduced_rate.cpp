@@ -57,7 +57,8 @@ ReducedRate::ReducedRate(const Conditions& conditions, std::vector<double> error
   for (std::size_t i = 0; i < values.size(); ++i)
     if (masked[i] != 0) values[i] = no_value;
   const auto means = conditions.slow_means(values);
-  // Of a cluster, half of what counts elsewhere must count, and a sample.
+  // Of a cluster, half the samples at least must count; of a slower clock, half of its own.
+  const double least_share = grid_->comes_evenly() ? 0.5 * grid_->kept() : 0.5;
   const auto share_of = [&](std::size_t mean) {
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(mean * conditions.cluster());
     const auto there =
@@ -70,7 +71,7 @@ ReducedRate::ReducedRate(const Conditions& conditions, std::vector<double> error
     auto& slow = slow_[index_of(part)];
     for (const auto& span : conditions.slow_spans(part))
       for (std::size_t i = span.first; i < span.last; ++i)
-        if (const double share = share_of(i); share > 0.0 && share >= 0.5 * grid_->kept()) {
+        if (const double share = share_of(i); share > 0.0 && share >= least_share) {
           slow.points.push_back(i);
           inverse_shares += 1.0 / share;
           points += 1.0;
