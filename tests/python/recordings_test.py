@@ -138,6 +138,16 @@ class Recordings(InAFolder):
         with open("gap.html", encoding="utf-8") as page:
             self.assertIn("</html>", page.read())
 
+    def test_what_is_not_the_sensors_is_left_out_as_the_program_does(self):
+        t_s = np.arange(8000) / 50
+        rate = lambda at: 40 * np.sin(0.9 * at) + 25 * np.sin(2.3 * at + 1)
+        noise = np.random.default_rng(20550).normal(size=(2, t_s.size))
+        late = gyrostat.recording({"t_s": t_s, "gyro_dps": rate(t_s - 0.1) + 0.05 * noise[0],
+                                   "rate_ref_dps": rate(t_s)})
+        found = gyrostat.diagnose(late)
+        self.assertTrue(any("5 samples later than the reference" in note for note in found.notes))
+        self.assertEqual([effect["effect"] for effect in found.json["effects"]], ["time_offset"])
+
     def test_a_recording_too_long_for_one_diagnosis_is_refused_with_the_remedy(self):
         long = gyrostat.recording(np.arange(2 ** 22 + 1) % 7 * 0.01, rate_hz=1000)
         with self.assertRaisesRegex(gyrostat.Error, r"4194305 samples; allowed: up to 4194304, as between\(\)"):
