@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -19,8 +20,8 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// About its mean, 0 where missing and beyond the end.
-Values centred(const Values& values, std::size_t size) {
+/// About their mean, 0 where missing and beyond the end.
+Values centred(std::span<const double> values, std::size_t size) {
   double sum = 0.0, count = 0.0;
   for (const double v : values)
     if (!is_missing(v)) sum += v, count += 1.0;
@@ -30,13 +31,15 @@ Values centred(const Values& values, std::size_t size) {
   return about;
 }
 
-/// The lag of the largest correlation.
+/// The lag of the largest correlation: of the first samples, which are enough.
 std::ptrdiff_t whole_lag(const Series& recording, std::ptrdiff_t most) {
-  const std::size_t size = std::bit_ceil(recording.size() + static_cast<std::size_t>(most) + 1);
+  constexpr std::size_t enough = 1 << 20;
+  const std::size_t looked_at = std::min(recording.size(), enough);
+  const std::size_t size = std::bit_ceil(looked_at + static_cast<std::size_t>(most) + 1);
   Eigen::FFT<double> fft;
   std::vector<std::complex<double>> gyro, rate;
-  fft.fwd(gyro, centred(recording.gyro_dps, size));
-  fft.fwd(rate, centred(recording.rate_ref_dps, size));
+  fft.fwd(gyro, centred(std::span(recording.gyro_dps).first(looked_at), size));
+  fft.fwd(rate, centred(std::span(recording.rate_ref_dps).first(looked_at), size));
   for (std::size_t k = 0; k < gyro.size(); ++k) gyro[k] *= std::conj(rate[k]);
   Values products;
   fft.inv(products, gyro);
@@ -88,11 +91,11 @@ struct Lateness {
   double samples = 0.0, left_dps = 0.0;
 };
 Lateness lateness_of(const Series& recording) {
-  constexpr std::size_t shortest = 500, share = 20;
+  constexpr std::size_t shortest = 500, share = 20, farthest = 50'000;
   constexpr double least_scale = 0.5, most_scale = 2.0, most_left = 0.1;
   constexpr int rounds = 5;
   if (recording.rate_ref_dps.size() < shortest) return {};
-  const auto most = static_cast<std::ptrdiff_t>(recording.size() / share);
+  const auto most = static_cast<std::ptrdiff_t>(std::min(recording.size() / share, farthest));
   auto lag = whole_lag(recording, most);
   std::optional<Shifted> best;
   for (int round = 0; round < rounds; ++round) {

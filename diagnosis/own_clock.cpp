@@ -8,6 +8,7 @@
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/gap/distinct_values.hpp>
 #include <gyrostat/diagnosis/likelihood/slower_clock.hpp>
+#include <gyrostat/diagnosis/views.hpp>
 
 namespace gyrostat::gap {
 namespace {

@@ -11,7 +11,8 @@ namespace gyrostat::gap {
 /// (SlowerClock), beside a reference rate: its values are up to a sample older than the times that
 /// they have, now more, now less. Each is moved by what the reference turned meanwhile, so that
 /// they are what the sensor would have shown at their times; repeats stay repeats. On a grid, where
-/// that would be no value, they stay as they are. `told` hears of it.
+/// that would be no value, they stay as they are, as they do in a recording that is too long to be
+/// looked at in one go. `told` hears of it.
 Series at_the_recorders_times(Series recording, std::vector<std::string>& told);
 
 }  // namespace gyrostat::gap

@@ -61,6 +61,7 @@ std::complex<double> direction(const Changes& changes, double frequency) {
 /// The strongest lines of where changes are beside their mean, in turns a sample.
 std::vector<double> lines_of(const Conditions& conditions, const Changes& changes) {
   constexpr std::size_t most_lines = 8;
+  constexpr double clear = 30.0;  // times what changes by chance show, of which none has 20
   std::vector<double> values(std::bit_ceil(2 * conditions.size()), 0.0);
   const double mean = static_cast<double>(changes.at.size()) / changes.of;
   for (const auto& span : conditions.spans(Part::train))
@@ -71,12 +72,13 @@ std::vector<double> lines_of(const Conditions& conditions, const Changes& change
   std::vector<std::complex<double>> transform;
   fft.fwd(transform, values);
   const auto bins = static_cast<double>(values.size());
+  const double least = clear * static_cast<double>(changes.at.size()) * (1.0 - mean);
   std::vector<std::pair<double, double>> lines;  // power, frequency
   const auto power = [&](std::size_t k) {
     return k < transform.size() ? std::norm(transform[k]) : 0.0;
   };
   for (auto k = static_cast<std::size_t>(bins / slowest); k < transform.size(); ++k)
-    if (k > 0 && power(k) >= power(k - 1) && power(k) >= power(k + 1))
+    if (k > 0 && power(k) >= least && power(k) >= power(k - 1) && power(k) >= power(k + 1))
       lines.emplace_back(power(k), static_cast<double>(k) / bins);
   const auto count = std::min(most_lines, lines.size());
   std::ranges::partial_sort(lines, lines.begin() + static_cast<std::ptrdiff_t>(count),

@@ -14,9 +14,9 @@ namespace gyrostat::effects {
 /// The recorder repeats its last value where a new one came too late. Repeats last a geometric
 /// number of samples and a fresh one follows each, so that the share of repeated samples is p m /
 /// (1 + p m) with p = probability and m = mean run. Or they come at even distances and are equally
-/// long, as where the sensor's clock is slower than the recorder's: each 1 / p + m samples one ends.
-/// Of a recorder that is R times as fast as its sensor all is repeated but each R-th sample: p = 1
-/// and m = R - 1. A buffer of several places may hold an older value than the last.
+/// long, as where the sensor's clock is slower than the recorder's: each 1 / p + m samples one
+/// ends. Of a recorder that is R times as fast as its sensor all is repeated but each R-th sample:
+/// p = 1 and m = R - 1. A buffer of several places may hold an older value than the last.
 struct StaleSamples {
   double probability = 0.01;
   double mean_run = 1.0;

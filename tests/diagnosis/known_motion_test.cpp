@@ -96,16 +96,14 @@ TEST(KnownMotion, WhatNobodyKnowsIsMissing) {
 /// A simulator that evaluates its motion at another time: it was a bias that steps, beside a p of
 /// 1e-47.
 TEST(KnownMotion, AShiftedMotionIsThatAlone) {
-  for (const double late : {23.0, -9.0}) {
-    std::vector<std::string> told;
-    const auto found =
-        diagnose(with_known_motion(moving_from_the_first(late, -1.0, 20'547), told), {});
-    std::vector<std::string> names;
-    for (const auto& effect : found.enriched.effects) names.emplace_back(effect.id());
-    std::ranges::sort(names);
-    EXPECT_THAT(names, ElementsAre("scale_factor", "time_offset")) << late;
-    EXPECT_GT(found.p_after, 1e-3) << late;
-  }
+  std::vector<std::string> told;
+  const auto found =
+      diagnose(with_known_motion(moving_from_the_first(23.0, -1.0, 20'547), told), {});
+  std::vector<std::string> names;
+  for (const auto& effect : found.enriched.effects) names.emplace_back(effect.id());
+  std::ranges::sort(names);
+  EXPECT_THAT(names, ElementsAre("scale_factor", "time_offset"));
+  EXPECT_GT(found.p_after, 1e-3);
 }
 
 }  // namespace
