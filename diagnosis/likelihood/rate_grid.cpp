@@ -116,7 +116,9 @@ RateGrid::RateGrid(const Conditions& conditions, std::vector<char> masked)
     }
   for (std::size_t lag = 0; lag < bins; ++lag) pairs_[lag] /= std::max(pairs_of_all[lag], 1.0);
   comes_evenly_ = come_evenly(pairs_, pairs_of_all.back());
-  if (comes_evenly_) left_of_level_ = left_beside_level(angles_, conditions.cluster());
+  if (!comes_evenly_) return;
+  left_of_level_ = left_beside_level(angles_, conditions.cluster());
+  seen_of_level_ = smeared(left_of_level_);
 }
 
 std::vector<double> RateGrid::masked_density(std::vector<double> density) const {
@@ -148,7 +150,7 @@ std::vector<double> RateGrid::shown(const std::vector<double>& density) const {
     // what their gaps fold down.
     std::fill_n(fast.begin(), slow_bins, density[slow_bins]);
     const auto folded = masked_density(fast);
-    auto taken = smeared(left_of_level_);
+    auto taken = seen_of_level_;
     for (std::size_t k = 0; k < taken.size(); ++k)
       taken[k] = (1.0 - taken[k]) * folded[k] / (kept_ * kept_);
     // Of what is stronger the slower it is, the window shows what the level leaves.

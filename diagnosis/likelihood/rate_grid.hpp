@@ -66,6 +66,7 @@ class RateGrid {
   /// Where hidden samples come evenly, what is slow shows elsewhere, too.
   bool comes_evenly_ = false;
   std::vector<double> left_of_level_;  ///< share of a density that subtracting the level leaves
+  std::vector<double> seen_of_level_;  ///< through a periodogram's window
 };
 
 }  // namespace gyrostat::gap
