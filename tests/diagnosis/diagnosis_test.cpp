@@ -132,7 +132,7 @@ TEST(Diagnosis, AClaimedColourOfTheCompassIsAllItsNoise) {
 }
 
 TEST(Diagnosis, IsTheSameForAnyNumberOfThreads) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.effects = {effects::ScaleFactor{0.01}};
   const Series series = recorded(s, 8, true);
   const auto with = [&](std::size_t threads) {
@@ -150,9 +150,10 @@ struct Known {
 
 class StrongEffect : public testing::TestWithParam<Known> {};
 
-// In 1200 s at 20 Hz these effects are ten times the noise of the lens that sees them best.
+// In 600 s at 20 Hz these effects are at least seven times the noise of the lens that sees them
+// best.
 TEST_P(StrongEffect, IsNamedAndClosesTheGap) {
-  Scenario s = GetParam().moves ? moving() : still();
+  Scenario s = GetParam().moves ? moving(ten_minutes_s) : still(ten_minutes_s);
   s.effects = {GetParam().effect};
   const auto d = diagnose(recorded(s, 12, GetParam().moves), {});
   EXPECT_EQ(d.verdict.text(), GetParam().name);
@@ -166,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Known{"quantization", effects::Quantization{0.1}, false},
                     Known{"noise_bandwidth", effects::NoiseBandwidth{2.0}, false},
                     Known{"thermal_hysteresis", effects::ThermalHysteresis{0.08, 3.0}, false},
-                    Known{"stale_samples", effects::StaleSamples{0.05, 1.0}, false},
+                    Known{"stale_samples", effects::StaleSamples{0.1, 1.0}, false},
                     Known{"magnetic_bursts", effects::MagneticBursts{25.0, 20.0, 5.0}, false},
                     Known{"scale_factor", effects::ScaleFactor{0.01}, true},
                     Known{"dead_zone", effects::DeadZone{2.0}, true},
@@ -201,7 +202,7 @@ TEST(Diagnosis, ANameThatMissesTheRecordingIsNotAlone) {
 /// A neighbour takes up part of what is left out, and what it leaves of it follows the temperature
 /// by branch as no noise does: more than a form of nature's own would leave.
 TEST(Diagnosis, WhereTheLikelihoodSeesMoreThanAFormUnknownIsFirst) {
-  Scenario s = still();
+  Scenario s = still(ten_minutes_s);
   s.effects = {effects::ThermalHysteresis{0.08, 3.0}};
   DiagnosisOptions options;
   options.without = {"thermal_hysteresis"};
@@ -219,7 +220,7 @@ TEST(Diagnosis, WhereTheLikelihoodSeesMoreThanAFormUnknownIsFirst) {
 TEST(Diagnosis, FindsNothingWhereThereIsNoGap) {
   int named = 0, alarms = 0;
   for (std::uint64_t seed = 500; seed < 520; ++seed) {
-    const Series series = recorded(still(), seed, false);
+    const Series series = recorded(still(ten_minutes_s), seed, false);
     if (seed < 505) {
       const auto d = diagnose(series, {});
       named += d.effects.empty() ? 0 : 1;

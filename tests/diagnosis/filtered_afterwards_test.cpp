@@ -34,8 +34,7 @@ INSTANTIATE_TEST_SUITE_P(
                         .cutoff_hz = 1.6, .averages = 2.0, .zero_phase = 1.0}));
 
 Scenario ten_minutes(const Effect& effect) {
-  Scenario s = still();
-  s.sampling.duration_s = 600.0;
+  Scenario s = still(ten_minutes_s);
   s.effects = {effect};
   return s;
 }

@@ -8,19 +8,22 @@
 
 namespace gyrostat::gap {
 
-inline Scenario still() {
+constexpr double ten_minutes_s = 600.0, twenty_minutes_s = 1200.0;
+
+/// One and a half cycles of temperature.
+inline Scenario still(double duration_s = twenty_minutes_s) {
   Scenario s;
-  s.sampling = {1200.0, 20.0};
+  s.sampling = {duration_s, 20.0};
   s.random_error = {
       .phi = 0.8, .delta1_dps = 3e-4, .delta2_dps = 2.8e-4, .measurement_noise_std_dps = 0.05};
   s.thermal_drift = {.a_dps_per_C = -0.002, .b_dps_s_per_C = 0.1, .c_dps = 0.1};
-  s.temperature = temperature::Cycle{23.0, 57.0, 800.0};
+  s.temperature = temperature::Cycle{23.0, 57.0, duration_s / 1.5};
   s.compass.noise_std_deg = 0.3;
   return s;
 }
 
-inline Scenario moving() {
-  Scenario s = still();
+inline Scenario moving(double duration_s = twenty_minutes_s) {
+  Scenario s = still(duration_s);
   s.temperature = temperature::QuietRoom{.start_C = 38.0, .end_C = 40.0};
   s.motion = motion::Sinusoidal{80.0, 0.031};
   return s;

@@ -112,12 +112,12 @@ TEST(WithoutReferenceNoise, WhereThereIsNoneNothingChanges) {
   EXPECT_THAT(told, IsEmpty());
 }
 
-/// Against the noisy reference itself three of these four gyros have a limit, steps or a bandwidth.
+/// Against the noisy reference itself each of these four gyros has a bandwidth.
 /// Names by chance stand in 4 % of recordings, two of four in one set of a hundred.
 TEST(WithoutReferenceNoise, GoodGyrosHaveNothing) {
   int named = 0;
   for (const std::uint32_t seed : {41u, 42u, 43u, 44u}) {
-    auto series = recorded(moving(), seed, true);
+    auto series = recorded(moving(ten_minutes_s), seed, true);
     series.heading_deg.clear();
     const NormalStream noise(seed, 0, "reference");
     for (std::size_t i = 0; i < series.size(); ++i)

@@ -32,7 +32,7 @@ TEST(SetSearch, AFieldThatPassesSoftlyIsABurst) {
 /// Whether a sample has turned by its own rate, by half of it or not yet is the recorder's habit.
 TEST(SetSearch, AHeadingThatIsHalfASampleLateHasNoLag) {
   for (const double late : {-0.5, 1.0}) {
-    const auto series = recorded(moving(), 21, true);
+    const auto series = recorded(moving(ten_minutes_s), 21, true);
     Series shifted = series;
     for (std::size_t i = 0; i < series.size(); ++i) {
       const std::size_t next = std::min(i + 1, series.size() - 1);
@@ -48,7 +48,7 @@ TEST(SetSearch, AHeadingThatIsHalfASampleLateHasNoLag) {
 /// half sample beside iron has a name.
 TEST(SetSearch, AReferenceWhoseRatesDoNotAddUpHasNoIron) {
   for (const double amplitude_deg : {0.0, 2.0}) {
-    Scenario s = moving();
+    Scenario s = moving(ten_minutes_s);
     if (amplitude_deg > 0.0) s.effects = {effects::HardIron{amplitude_deg, 40.0}};
     auto series = recorded(s, 24, true);
     const NormalStream steps(24, 0, "wander");
@@ -67,7 +67,7 @@ TEST(SetSearch, AReferenceWhoseRatesDoNotAddUpHasNoIron) {
 /// Iron that trails with the heading, and iron that does not.
 TEST(SetSearch, IronBesideALagIsFoundInEitherForm) {
   for (const double turns_alone : {0.0, 1.0}) {
-    Scenario s = moving();
+    Scenario s = moving(ten_minutes_s);
     s.effects = {effects::HardIron{5.0, 40.0},
                  effects::CompassLag{.time_constant_s = 0.4, .turns_alone = turns_alone}};
     const auto series = recorded(s, 23, true);
@@ -85,7 +85,7 @@ TEST(SetSearch, IronBesideALagIsFoundInEitherForm) {
 /// decides what iron is left: with others, two poles were one and a delay, and hard iron there,
 /// too.
 TEST(SetSearch, ALagIsToldAnewBesideTheIronThatItDelays) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.effects = {effects::SoftIron{3.0, 70.0},
                effects::CompassLag{.time_constant_s = 1.0, .poles = 2.0}};
   const auto series = recorded(s, 25, true);
@@ -100,7 +100,7 @@ TEST(SetSearch, ALagIsToldAnewBesideTheIronThatItDelays) {
 /// On a table that rests in two directions the error beside iron of two degrees is centred
 /// elsewhere than beside none; about that of none, bursts at each turn were as likely.
 TEST(SetSearch, IronThatShowsInTurnsAloneIsNoBursts) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.motion = motion::RateTable{60.0, 24.0};
   s.effects = {effects::HardIron{2.0, 39.0}};
   EXPECT_EQ(found_in(recorded(s, 96, true)), (std::set<std::string>{"hard_iron"}));
@@ -109,7 +109,7 @@ TEST(SetSearch, IronThatShowsInTurnsAloneIsNoBursts) {
 /// Iron of an eighth of the noise, which gains a thousandth of what the delay does: beside it
 /// nothing of the motion is left.
 TEST(SetSearch, FaintIronBesideADelayIsFound) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.compass.noise_std_deg = 0.4;
   s.effects = {effects::HardIron{0.05, 88.0},
                effects::CompassLag{.time_constant_s = 0.0, .delay_s = 0.33, .turns_alone = 1.0}};
@@ -118,7 +118,7 @@ TEST(SetSearch, FaintIronBesideADelayIsFound) {
 
 /// A board that stamps both gyro and compass: one clock is late, and no compass.
 TEST(SetSearch, ACompassOnTheGyrosBoardHasItsClock) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   for (const double of_compass : {0.0, 1.0}) {
     s.effects = {effects::TimeOffset{.offset_s = 0.12, .of_compass = of_compass},
                  effects::SoftIron{1.0, 40.0}};
@@ -139,7 +139,7 @@ TEST(SetSearch, ACompassOnTheGyrosBoardHasItsClock) {
 /// Iron of a degree and a half on a vehicle that turns through a bit more than a quarter of a
 /// circle.
 TEST(SetSearch, IronShowsOnAnArc) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.motion = motion::Sinusoidal{12.0, 0.031};
   s.effects = {effects::HardIron{1.5, 40.0}};
   EXPECT_EQ(found_in(recorded(s, 98, true)), std::set<std::string>{"hard_iron"});
@@ -149,7 +149,7 @@ TEST(SetSearch, IronShowsOnAnArc) {
 
 /// What a lag of one pole has beside it, and a delay without one, at turns that begin at once.
 TEST(SetSearch, ACompassThatDelaysHasALagAlone) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.motion = motion::RateTable{60.0, 20.0};
   for (const auto& lag : {effects::CompassLag{.time_constant_s = 0.3, .delay_s = 0.025},
                           effects::CompassLag{.time_constant_s = 0.0, .delay_s = 0.6}}) {

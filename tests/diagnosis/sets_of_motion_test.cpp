@@ -37,7 +37,7 @@ std::vector<double> turns(std::size_t samples) {
 /// Systems of second order at 5 Hz, one after the other, in continuous time, of a motion whose
 /// reference is known at the samples alone.
 Series turned_before_systems_of_second_order(const std::vector<double>& dampings) {
-  Series series = recorded(still(), 80, false);
+  Series series = recorded(still(ten_minutes_s), 80, false);
   series.heading_deg.clear();
   const auto fine = turns(series.size());
   const double step_s = 1.0 / 160.0, omega = 2.0 * std::numbers::pi * 5.0;
@@ -78,7 +78,7 @@ TEST(SetSearch, AButterworthSensorIsOneOfContinuousTime) {
 
 /// The zone is where the shifted rate passes zero, five widths of it from where the rate does.
 TEST(SetSearch, ADeadZoneIsFoundWhereTheRateIsSensed) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.effects = {effects::TimeOffset{.offset_s = 0.4},
                effects::DeadZone{.half_width_dps = 0.6, .lost_beyond = 0.0}};
   const auto series = recorded(s, 83, true);
@@ -111,7 +111,7 @@ TEST(SetSearch, AThresholdIsBetweenItsSamples) {
 /// Of a shift by a sample on a rate table there is one sample a step, which a limit, a scale, a
 /// filter and a dead zone of half the range made together.
 TEST(SetSearch, AShiftThatHasNoNameIsNotALimitAndADeadZone) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.motion = motion::RateTable{60.0, 24.0};
   s.effects = {effects::TimeOffset{.offset_s = 0.05}};
   for (const std::uint64_t seed : {86, 87}) {
@@ -167,7 +167,7 @@ TEST(SetSearch, AResponseOfAnotherFormIsNoNoise) {
 /// Of the element, a tenth of a dps below the fastest rate: so near that it cuts or does not on
 /// neighbouring points of any grid of limits.
 TEST(SetSearch, ALimitJustBelowTheFastestRateIsFound) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.effects = {effects::ScaleAsymmetry{0.003},
                effects::Saturation{.limit_dps = 79.9, .of_element = 1.0}};
   EXPECT_EQ(found_in(recorded(s, 94, true)),
@@ -177,7 +177,7 @@ TEST(SetSearch, ALimitJustBelowTheFastestRateIsFound) {
 /// A scale that changes with temperature is right at some temperature that was met, or in a room,
 /// and still no scale factor besides.
 TEST(SetSearch, AScaleThatIsRightAtATemperatureMetIsOneEffect) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   for (const double right_C : {25.0, 32.0}) {
     s.temperature = temperature::Cycle{right_C == 25.0 ? 28.0 : 23.0, 57.0, 800.0};
     s.effects = {effects::ScaleTemperature{5e-4, right_C}};
@@ -188,7 +188,7 @@ TEST(SetSearch, AScaleThatIsRightAtATemperatureMetIsOneEffect) {
 
 /// The rounded corners of a dead zone, two of its widths wide, are no other scale.
 TEST(SetSearch, ADeadZoneUnderADitherIsOneEffect) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.motion = motion::Sinusoidal{8.0, 0.031};
   s.effects = {effects::DeadZone{.half_width_dps = 0.6, .lost_beyond = 1.0, .dither = 0.5}};
   EXPECT_EQ(found_in(recorded(s, 43, true)), std::set<std::string>{"dead_zone"});
@@ -197,7 +197,7 @@ TEST(SetSearch, ADeadZoneUnderADitherIsOneEffect) {
 /// Of a damped filter half of what the motion shows is the delay: it stood for both, tens of
 /// thousands of nats below.
 TEST(SetSearch, AShiftBesideAScaleIsNoFilter) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.effects = {effects::ScaleFactor{0.02}, effects::TimeOffset{.offset_s = 0.12}};
   EXPECT_EQ(found_in(recorded(s, 45, true)),
             (std::set<std::string>{"scale_factor", "time_offset"}));

@@ -142,7 +142,7 @@ TEST(SetSearch, AScaleUnderAThermalLoopIsOneEffect) {
 TEST(SetSearch, WhiteNoiseIsInTheMeasurementNoise) {
   for (const Effect& effect :
        {Effect(effects::Quantization{0.05}), Effect(effects::NoiseAveraging{.length = 1.43})}) {
-    Scenario s = still();
+    Scenario s = still(ten_minutes_s);
     s.effects = {effect};
     const Series series = recorded(s, 9, false);
     const Simulator simulator(series, 1);

@@ -29,7 +29,7 @@ TEST(SetSearch, AnAngleOnAGridIsOneEffect) {
 /// Half of the neighbours on a grid of two deviations are equal by chance. Without all of them the
 /// noise had another colour, and a repeat at the turn of the table, 60 dps off, was in R.
 TEST(SetSearch, RepeatsBesideACoarseGridColourNoNoise) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.motion = motion::RateTable{60.0, 8.0};
   s.effects = {effects::ScaleFactor{0.01}, effects::StaleSamples{0.05, 1.0},
                effects::Quantization{0.1}};
@@ -45,7 +45,7 @@ TEST(SetSearch, RepeatsBesideACoarseGridColourNoNoise) {
 /// On a grid of almost the noise a repeat is seen only where the motion went on, by three
 /// deviations as by ten: those between were outliers of four.
 TEST(SetSearch, RepeatsThatAMotionHardlyTellsAreNoOutliers) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.motion = motion::Sinusoidal{80.0, 0.031};
   s.effects = {effects::StaleSamples{0.01, 1.0}, effects::Quantization{0.04}};
   for (const std::uint64_t seed : {91, 92})

@@ -1,4 +1,4 @@
-// Strong sets by likelihood, found whole.
+// Strong sets by likelihood, found whole. Processes of long memory take twice as long to show.
 
 #include <set>
 #include <string>
@@ -17,12 +17,14 @@ struct Known {
   std::string name;
   std::vector<Effect> effects;
   bool moves = false;
+  double duration_s = ten_minutes_s;
 };
 
 class StrongSet : public testing::TestWithParam<Known> {};
 
 TEST_P(StrongSet, IsFoundWhole) {
-  Scenario s = GetParam().moves ? moving() : still();
+  const double duration_s = GetParam().duration_s;
+  Scenario s = GetParam().moves ? moving(duration_s) : still(duration_s);
   s.effects = GetParam().effects;
   std::set<std::string> expected;
   for (const auto& effect : s.effects) expected.emplace(effect.id());
@@ -37,7 +39,9 @@ INSTANTIATE_TEST_SUITE_P(
                effects::Outliers{0.005, 0.5}}},
         Known{"slow",
               {effects::GaussMarkov{0.02, 15.0}, effects::ThermalCurvature{6e-4, 40.0},
-               effects::StaleSamples{0.05, 1.0}}},
+               effects::StaleSamples{0.05, 1.0}},
+              false,
+              twenty_minutes_s},
         Known{"red",
               {effects::BiasInstability{.coefficient_dps = 0.03},
                effects::Sinusoidal{.amplitude_dps = 0.02, .frequency_hz = 0.3}}},
@@ -53,11 +57,15 @@ INSTANTIATE_TEST_SUITE_P(
         Known{"stairs", {effects::BiasSteps{20.0, 0.1}, effects::ThermalHysteresis{0.08, 3.0}}},
         Known{"filtered",
               {effects::NoiseBandwidth{2.0, 2.0, 1.0}, effects::GaussMarkov{0.02, 15.0},
-               effects::RateRamp{5e-4}}},
+               effects::RateRamp{5e-4}},
+              false,
+              twenty_minutes_s},
         Known{"sampled",
               {effects::NoiseBandwidth{
                    .cutoff_hz = 7.0, .poles = 2.0, .maximally_flat = 1.0, .continuous = 1.0},
-               effects::GaussMarkov{0.02, 15.0}}},
+               effects::GaussMarkov{0.02, 15.0}},
+              false,
+              twenty_minutes_s},
         Known{"angle",
               {effects::NoiseBandwidth{5.0, 2.0, 1.0},
                effects::AngleQuantization{.coefficient_deg = 8e-4},
@@ -91,7 +99,9 @@ INSTANTIATE_TEST_SUITE_P(
                                       .frequency_hz = 5.5,
                                       .wander_hz = 0.5,
                                       .correlation_time_s = 10.0},
-               effects::GaussMarkov{0.02, 15.0}}},
+               effects::GaussMarkov{0.02, 15.0}},
+              false,
+              twenty_minutes_s},
         Known{"sweep",
               {effects::WanderingLine{.amplitude_dps = 0.02,
                                       .frequency_hz = 6.0,
@@ -111,7 +121,8 @@ INSTANTIATE_TEST_SUITE_P(
         Known{"clocks",
               {effects::TimeOffset{.offset_s = 0.05, .drift_ppm = 60.0},
                effects::ScaleAsymmetry{0.003, 1.0}, effects::GaussMarkov{0.02, 15.0}},
-              true},
+              true,
+              twenty_minutes_s},
         Known{"motion",
               {effects::ScaleFactor{0.01}, effects::SensorBandwidth{1.0},
                effects::HardIron{5.0, 40.0}},
