@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 #include <unsupported/Eigen/FFT>
 
-#include <gyrostat/core/heading_turns.hpp>
 #include <gyrostat/core/step.hpp>
 
 namespace gyrostat::gap {
@@ -110,59 +109,11 @@ Lateness lateness_of(const Series& recording) {
   return {static_cast<double>(lag) + std::clamp(best->later, -1.0, 1.0), best->left_dps};
 }
 
-/// How long after the reference turned the heading does, by least squares with a level and a drift.
-double heading_lateness_s(const Series& recording, const Values& turned_deg) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d with = Eigen::Vector3d::Zero();
-  double reference_deg = 0.0;
-  for (std::size_t i = 1; i < turned_deg.size(); ++i) {
-    const double rate = recording.rate_ref_dps[i], step_s = recording.t_s[i] - recording.t_s[i - 1];
-    reference_deg += 0.5 * (rate + recording.rate_ref_dps[i - 1]) * step_s;
-    if (is_missing(turned_deg[i])) continue;
-    const Eigen::Vector3d row(1.0, recording.t_s[i] - recording.t_s[0], rate);
-    normal += row * row.transpose();
-    with += row * (reference_deg - turned_deg[i]);
-  }
-  return Eigen::LDLT<Eigen::Matrix3d>(normal).solve(with)[2];
-}
+}  // namespace
 
-/// By what changes from sample to sample.
-double heading_noise_deg(const Series& recording, const Values& turned_deg) {
-  double squares = 0.0, count = 0.0;
-  for (std::size_t i = 1; i < turned_deg.size(); ++i) {
-    const double step = turned_deg[i] - turned_deg[i - 1] -
-                        recording.rate_ref_dps[i] * (recording.t_s[i] - recording.t_s[i - 1]);
-    if (is_missing(step)) continue;
-    squares += step * step;
-    count += 1.0;
-  }
-  return count > 0.0 ? std::sqrt(0.5 * squares / count) : 0.0;
-}
+double lateness_samples(const Series& recording) { return lateness_of(recording).samples; }
 
-/// A lag of so long has forgotten what was before.
-Series with_known_heading(Series recording, std::vector<std::string>& told) {
-  constexpr double forgotten = 8.0, most_share = 0.05, clear = 3.0;
-  auto& heading = recording.heading_deg;
-  if (heading.empty() || recording.rate_ref_dps.empty()) return recording;
-  const auto turned = unwrapped(heading);
-  const double late_s = heading_lateness_s(recording, turned);
-  const double noise_deg = heading_noise_deg(recording, turned);
-  const double until_s = recording.t_s.front() + forgotten * late_s;
-  if (!(late_s > 0.0) || !(forgotten * late_s < most_share * recording.duration_s()) ||
-      !(noise_deg > 0.0) ||
-      !(std::abs(recording.rate_ref_dps.front()) * late_s > clear * noise_deg))
-    return recording;
-  for (std::size_t i = 0; i < heading.size() && recording.t_s[i] < until_s; ++i)
-    heading[i] = no_value;
-  told.push_back(fmt::format(
-      "the heading is {:.2g} s late, and the reference begins in motion: the first {:.2g} s of it "
-      "are left out",
-      late_s, forgotten * late_s));
-  return recording;
-}
-
-/// Likewise of what the gyro shows, at either end.
-Series with_known_rate(Series recording, std::vector<std::string>& told) {
+Series with_known_motion(Series recording, std::vector<std::string>& told) {
   const auto [late, noise_dps] = lateness_of(recording);
   // A sample more, for filters besides.
   const auto count = static_cast<std::ptrdiff_t>(std::ceil(std::abs(late))) + 1;
@@ -188,14 +139,6 @@ Series with_known_rate(Series recording, std::vector<std::string>& told) {
       std::abs(late), is_at_the_end ? "earlier" : "later", is_at_the_end ? "ends" : "begins",
       is_at_the_end ? "the last" : "the first", count));
   return recording;
-}
-
-}  // namespace
-
-double lateness_samples(const Series& recording) { return lateness_of(recording).samples; }
-
-Series with_known_motion(Series recording, std::vector<std::string>& told) {
-  return with_known_heading(with_known_rate(std::move(recording), told), told);
 }
 
 }  // namespace gyrostat::gap

@@ -12,9 +12,9 @@ namespace gyrostat::gap {
 /// by least squares with a scale and a level. 0 where they do not go together.
 double lateness_samples(const Series& recording);
 
-/// The recording without what it shows of a motion before the reference begins, or after it ends:
-/// where the gyro is late or early, and the reference moves by more than the noise meanwhile, these
-/// samples are missing; where the heading is late, its first eight times that. `told` hears of it.
+/// The recording without what its gyro shows of a motion before the reference begins, or after it
+/// ends: where it is late or early, and the reference moves by more than the noise meanwhile, these
+/// samples are missing. `told` hears of it.
 Series with_known_motion(Series recording, std::vector<std::string>& told);
 
 }  // namespace gyrostat::gap

@@ -12,6 +12,7 @@
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/core/values.hpp>
 #include <gyrostat/diagnosis/diagnosis.hpp>
+#include <gyrostat/diagnosis/known_heading.hpp>
 
 namespace gyrostat::gap::known_motion_test {
 namespace {
@@ -75,7 +76,7 @@ TEST(KnownMotion, WhatNobodyKnowsIsMissing) {
   EXPECT_EQ(missing_in(earlier.gyro_dps), 5);
   EXPECT_TRUE(is_missing(earlier.gyro_dps.back()));
   told.clear();
-  const auto heading = with_known_motion(moving_from_the_first(0.0, 0.4, 20'544), told);
+  const auto heading = with_known_heading(moving_from_the_first(0.0, 0.4, 20'544), told);
   EXPECT_EQ(missing_in(heading.gyro_dps), 0);
   EXPECT_NEAR(static_cast<double>(missing_in(heading.heading_deg)), 8 * 0.4 * rate_hz, 10.0);
   EXPECT_THAT(told, ElementsAre(HasSubstr("s late, and the reference begins in motion")));
@@ -83,6 +84,8 @@ TEST(KnownMotion, WhatNobodyKnowsIsMissing) {
   // At the same time, or from rest, all of it is known.
   EXPECT_EQ(missing_in(with_known_motion(moving_from_the_first(0.0, 0.0, 20'545), told).gyro_dps),
             0);
+  EXPECT_EQ(
+      missing_in(with_known_heading(moving_from_the_first(0.0, 0.0, 20'545), told).heading_deg), 0);
   auto from_rest = moving_from_the_first(0.0, -1.0, 20'546);
   for (std::size_t i = 0; i < from_rest.size(); ++i) {
     const double soft = std::min(1.0, 1e-3 * static_cast<double>(i));
@@ -91,6 +94,22 @@ TEST(KnownMotion, WhatNobodyKnowsIsMissing) {
   }
   EXPECT_EQ(missing_in(with_known_motion(from_rest, told).gyro_dps), 0);
   EXPECT_THAT(told, IsEmpty());
+}
+
+/// Under one rate all the time, but for its noise, a lag is not to be told from where the heading
+/// began: what passes for one is as long as noise of the heading makes it.
+TEST(KnownHeading, OfATableAtOneRateIsAllThere) {
+  for (const std::uint64_t seed : {20'548, 20'549, 20'550, 20'551}) {
+    auto series = moving_from_the_first(0.0, 0.0, seed);
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> normal;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      series.rate_ref_dps[i] = 40.0 + 0.01 * normal(engine);
+      series.heading_deg[i] = wrap_degrees(40.0 * series.t_s[i] + 0.3 * normal(engine));
+    }
+    std::vector<std::string> told;
+    EXPECT_EQ(missing_in(with_known_heading(series, told).heading_deg), 0) << seed;
+  }
 }
 
 /// A simulator that evaluates its motion at another time: it was a bias that steps, beside a p of
