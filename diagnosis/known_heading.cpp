@@ -36,10 +36,10 @@ Lateness lateness_of(const Series& recording, const std::vector<double>& turned_
 double heading_noise_deg(const Series& recording, const std::vector<double>& turned_deg) {
   double squares = 0.0, count = 0.0;
   for (std::size_t i = 1; i < turned_deg.size(); ++i) {
-    const double step = turned_deg[i] - turned_deg[i - 1] -
-                        recording.rate_ref_dps[i] * (recording.t_s[i] - recording.t_s[i - 1]);
-    if (is_missing(step)) continue;
-    squares += step * step;
+    const double by = turned_deg[i] - turned_deg[i - 1] -
+                      recording.rate_ref_dps[i] * (recording.t_s[i] - recording.t_s[i - 1]);
+    if (is_missing(by)) continue;
+    squares += by * by;
     count += 1.0;
   }
   return count > 0.0 ? std::sqrt(0.5 * squares / count) : 0.0;

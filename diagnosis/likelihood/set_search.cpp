@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include <gyrostat/diagnosis/likelihood/compass_search.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
@@ -152,6 +153,7 @@ FoundSet SetSearcher::described(Standing standing, FoundSet found) {
     for (std::size_t i = 0; i < unseen.size(); ++i)
       if (tails_.outliers[i] != 0) unseen[i] = 1;
   name_lines(bench_, standing, unseen, found);
+  join_gated_sines(unseen, found);
   look_for_transients(unseen, found);
   if (is_coarse_) {
     white_under_grid_dps_ = marks_.white_under_grid_dps;
@@ -177,7 +179,13 @@ void SetSearcher::look_for_transients(const std::vector<char>& hidden, FoundSet&
     const bool comes_and_goes = effect.id() == "vibration_bursts";
     if (!comes_and_goes && !is_line(effect.id())) continue;
     auto& line = lines.emplace_back(band_of_line(effect));
-    if (comes_and_goes) line.bandwidth_hz *= with_skirts;
+    if (!comes_and_goes) continue;
+    const auto rate_of = [&](std::string_view name) {
+      return 1.0 / effect.value(field_of(effect, name));
+    };
+    const double gated_hz =
+        (rate_of("mean_duration_s") + rate_of("mean_interval_s")) / std::numbers::pi;
+    line.bandwidth_hz = with_skirts * std::max(line.bandwidth_hz, gated_hz);
   }
   const auto left = bench_.rate_left_by(found.scenario, hidden);
   for (const auto part : both_parts)

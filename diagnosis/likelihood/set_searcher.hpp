@@ -93,6 +93,10 @@ class SetSearcher {
   Standing concluded(Standing standing, FoundSet& found);
   /// Adds what is known of the set where the search ended.
   FoundSet described(Standing standing, FoundSet found);
+  /// A sine that is on and off while its phase goes on is a line and skirts about it, and was found
+  /// as a sine within a narrow band: bursts, where both together show them more clearly than the
+  /// band alone.
+  void join_gated_sines(const std::vector<char>& hidden, FoundSet& found) const;
   void look_for_transients(const std::vector<char>& hidden, FoundSet& found) const;
   /// With other effects of a part of the sensor.
   static Scenario end_with(std::string_view part, const std::vector<Effect>& effects, Scenario end);

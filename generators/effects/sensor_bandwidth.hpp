@@ -9,6 +9,7 @@
 #include <gyrostat/core/fields.hpp>
 #include <gyrostat/core/random.hpp>
 #include <gyrostat/core/series.hpp>
+#include <gyrostat/generators/beyond_secant.hpp>
 #include <gyrostat/generators/butterworth.hpp>
 #include <gyrostat/generators/continuous_low_pass.hpp>
 #include <gyrostat/generators/forward_and_back.hpp>
@@ -144,14 +145,15 @@ struct SensorBandwidth {
         value = sensed[k] = value + left * (sensed[k] - value);
   }
 
-  /// Between samples straight, or a cubic with the slopes of their neighbours, as in TimeOffset.
+  /// Between samples straight, or a cubic with the slopes of TimeOffset.
   void run_on(Series& series, std::size_t first, std::size_t last, double begun_dps,
               const LowPassSystem& filter) const {
     ContinuousLowPass sensed(filter);
     const auto& rate = series.rate_ref_dps;
     const auto slope = [&](std::size_t i, double rise) {
       if (continuous > 1.5) return rise;
-      return 0.5 * (rate[std::min(i + 1, last - 1)] - rate[std::max(i, first + 1) - 1]);
+      return 0.5 * (rate[std::min(i + 1, last - 1)] - rate[std::max(i, first + 1) - 1]) +
+             beyond_secant(rate, i, first, last);
     };
     series.gyro_dps[first] += begun_dps - rate[first];
     for (std::size_t i = first + 1; i < last; ++i) {

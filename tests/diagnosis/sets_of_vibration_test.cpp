@@ -139,5 +139,31 @@ TEST(SetSearch, AShakerThatIsFeltIsNoVibration) {
   EXPECT_EQ(found_in(series), std::set<std::string>{"g_sensitivity"});
 }
 
+/// As of a pump that runs for some seconds now and then, from one motor: it was a vibration beside
+/// a sine. Where both are there all the time they are two effects.
+TEST(SetSearch, ASineThatIsGatedIsBursts) {
+  for (const bool is_gated : {true, false}) {
+    Scenario s = still();
+    s.effects = {effects::Vibration{.std_dps = 0.02, .centre_hz = 4.7, .bandwidth_hz = 0.3}};
+    Series series = recorded(is_gated ? still() : s, 53, false);
+    const NormalStream chance(54, 0, "gates");
+    std::uint64_t gates = 0;
+    double until_s = 0.0;
+    bool is_on = false;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      const double t_s = series.t_s[i];
+      if (t_s >= until_s) {
+        is_on = !is_on;
+        until_s += (is_on ? 3.0 : 12.0) * (0.5 + chance.uniform(gates++));
+      }
+      if (is_on || !is_gated)
+        series.gyro_dps[i] +=
+            (is_gated ? 0.05 : 0.03) * std::sin(2.0 * std::numbers::pi * 4.7 * t_s);
+    }
+    EXPECT_EQ(found_in(series), is_gated ? (std::set<std::string>{"vibration_bursts"})
+                                         : (std::set<std::string>{"sinusoidal", "vibration"}));
+  }
+}
+
 }  // namespace
 }  // namespace gyrostat::gap::sets_of_vibration_test
