@@ -48,6 +48,9 @@ class SetBench {
   void mark_saturation() { marked_saturation_ = true; }
   void mark_dead_zone() { marked_dead_zone_ = true; }
 
+  /// A sine at this frequency stands out from the random line in whose band it is.
+  void tell_of_line(std::optional<double> frequency_hz) { line_that_stands_out_hz_ = frequency_hz; }
+
   const RateGrid& grid() const { return *grid_; }
   const std::vector<char>& masked() const { return grid_->masked(); }
   void mask_only(std::vector<char> samples);
@@ -139,6 +142,7 @@ class SetBench {
   std::ptrdiff_t missing_ = 0;  ///< samples of the error beside no effect
   std::shared_ptr<const RateGrid> grid_;
   std::optional<Effect> response_;
+  std::optional<double> line_that_stands_out_hz_;
   bool marked_saturation_ = false, marked_dead_zone_ = false;
 };
 

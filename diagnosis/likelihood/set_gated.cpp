@@ -9,6 +9,7 @@
 #include <gyrostat/diagnosis/likelihood/hidden_line.hpp>
 #include <gyrostat/diagnosis/likelihood/line_fits.hpp>
 #include <gyrostat/diagnosis/likelihood/line_shape.hpp>
+#include <gyrostat/diagnosis/likelihood/line_within.hpp>
 
 namespace gyrostat::gap {
 
@@ -53,6 +54,34 @@ void SetSearcher::join_gated_sines(const std::vector<char>& hidden, FoundSet& fo
     if (elsewhere && has(found.scenario, "sinusoidal")) found.members.push_back(*elsewhere);
     return join_gated_sines(hidden, found);
   }
+}
+
+Standing SetSearcher::beside_a_line_within(Standing standing, FoundSet& found) {
+  if (!bench_.is_allowed("sinusoidal") || has(standing.scenario, "sinusoidal")) return standing;
+  const auto left = bench_.rate_left_by(standing.scenario, bench_.masked());
+  for (const auto& effect : standing.scenario.effects) {
+    if (effect.id() != "vibration") continue;
+    const auto band = band_of_line(effect);
+    const auto line = line_within(conditions_, left, band);
+    if (!line) continue;
+    const auto shape = line_shape(conditions_, left, band);
+    if (std::max(shape.bursts, shape.wandering) >= clear_shape) continue;
+    bench_.tell_of_line(line->sine.frequency_hz);
+    Scenario with = standing.scenario;
+    with.effects.emplace_back(line->sine);
+    double log_odds =
+        line->log_rarity - (bench_.price_of(with) - bench_.price_of(standing.scenario));
+    if (log_odds >= clear_shape) {
+      auto fit = bench_.refitted(with);
+      log_odds = std::min(log_odds, fit.score - standing.score);
+      if (log_odds > 0.0) {
+        found.members.push_back({"sinusoidal", log_odds});
+        return fit;
+      }
+    }
+    bench_.tell_of_line(std::nullopt);
+  }
+  return standing;
 }
 
 }  // namespace gyrostat::gap

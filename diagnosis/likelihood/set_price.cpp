@@ -66,11 +66,14 @@ bool is_filtered_noise(const Effect& effect, const Scenario& scenario,
              scenario.random_error.measurement_noise_std_dps;
 }
 
-/// A sine within the band of a random line that is the stronger is one of its peaks.
-bool is_of_a_line(const Effect& effect, const Scenario& scenario) {
+/// A sine within the band of a random line that is the stronger is one of its peaks, unless it is
+/// known to stand out.
+bool is_of_a_line(const Effect& effect, const Scenario& scenario,
+                  std::optional<double> stands_out_hz, double resolution_hz) {
   if (effect.id() != "sinusoidal") return false;
   constexpr double bands = 1.5;
   const double frequency_hz = effect.value(field_of(effect, "frequency_hz"));
+  if (stands_out_hz && std::abs(frequency_hz - *stands_out_hz) < resolution_hz) return false;
   const double amplitude_dps = effect.value(field_of(effect, "amplitude_dps"));
   return std::any_of(scenario.effects.begin(), scenario.effects.end(), [&](const auto& other) {
     if (other.id() != "vibration") return false;
@@ -86,6 +89,8 @@ double SetBench::price_of(const Scenario& scenario) const {
   constexpr double beyond_any = 1e300;
   if (!has_white_noise(scenario)) return beyond_any;
   const double values = static_cast<double>(conditions_.train_points().size());
+  const double resolution_hz =
+      1.0 / (conditions_.interval_s() * static_cast<double>(conditions_.size()));
   // What an ARIMA remembers, two effects would.
   double sum = scenario.random_error.phi != 0.0 ? 2.0 * (prior + of_a_parameter) : 0.0;
   for (const auto& effect : scenario.effects) {
@@ -93,7 +98,8 @@ double SetBench::price_of(const Scenario& scenario) const {
     if (cause == nullptr) continue;
     if (!cause->is_what_it_is_called(effect, conditions_) ||
         is_of_the_filter(effect, scenario, conditions_.interval_s()) ||
-        is_filtered_noise(effect, scenario, conditions_) || is_of_a_line(effect, scenario))
+        is_filtered_noise(effect, scenario, conditions_) ||
+        is_of_a_line(effect, scenario, line_that_stands_out_hz_, resolution_hz))
       return beyond_any;
     if (is_given(effect.id())) sum += of_a_parameter * own_sizes_of(effect, *cause);
     if (is_marked(effect.id())) continue;

@@ -128,6 +128,19 @@ SilentZone within_the_noise(const Conditions& conditions, const std::vector<doub
   const double swallowed =
       (values.below(edge + noise_dps) - values.below(edge)) * zone.half_width_dps / noise_dps;
   if (!(zeros < many_more * swallowed)) return {};
+  // Where few outputs are between rest and a table's speed, the edge is the least of them.
+  constexpr double deep = 0.6, off_rest = 0.2;  // of the zone
+  double heard = 0.0;
+  each_known(conditions, z, [&](std::size_t i) {
+    const double size = std::abs(reference[i] + bias_dps);
+    if (size > off_rest * zone.half_width_dps &&
+        size + beyond_noise * noise_dps < deep * zone.half_width_dps)
+      heard += z[i] != 0.0 ? 1.0 : -1.0;
+  });
+  if (heard > 0.0) {
+    if (values.least() < 2.0 * grid_dps) return {};
+    zone = {.half_width_dps = values.least()};
+  }
   const double near_dps = zone.half_width_dps + beyond_noise * noise_dps;
   if (quantile(values.rates_at_zero, 0.95) > std::abs(bias_dps) + near_dps) return {};
   zone.samples = flagged(z, reference, bias_dps, near_dps);
