@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
@@ -51,9 +53,12 @@ struct Diagnosed<effects::VibrationRectification> {
         span, least_change_m2ps4);
   }
 
-  static bool is_what_it_is_called(const effects::VibrationRectification& /*effect*/,
+  /// Datasheets have up to some thousandths; what would have to be a hundred times as much only
+  /// goes as the accelerometer's noise does.
+  static bool is_what_it_is_called(const effects::VibrationRectification& effect,
                                    const Conditions& /*c*/) {
-    return true;
+    constexpr double most_dps_per_m2ps4 = 1.0;
+    return std::abs(effect.coefficient_dps_per_m2ps4) <= most_dps_per_m2ps4;
   }
 };
 

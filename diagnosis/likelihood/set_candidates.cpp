@@ -59,11 +59,10 @@ Standing SetBench::with_guessed(const Standing& standing, const CauseType& cause
   const bool jumps = law_of(standing.scenario, conditions_.interval_s()).jumps.has_value();
   const bool slow = is_slow(cause.id);
   // What the others took up of an effect that went, they give back: begun as they were beside it,
-  // too, or with a smaller walk.
+  // too, and with a smaller walk.
   std::vector<Scenario> starts = {standing.scenario};
-  if (!slow && standing.beside_the_last)
-    starts.push_back(*standing.beside_the_last);
-  else if (!(jumps && slow))  // beside them it is small, and they take long
+  if (!slow && standing.beside_the_last) starts.push_back(*standing.beside_the_last);
+  if (!(jumps && slow))  // beside them it is small, and they take long
     starts.push_back(with_walk_times(standing.scenario, 0.1));
   // What samples within clusters know of an effect is taken out of them.
   std::vector<Guess> guesses;

@@ -26,6 +26,20 @@ const Standing* curve_for(const Standing& standing, const Effect& noise,
   return best;
 }
 
+/// The likeliest filter of the noise that is not `is_the_same`, where another form may yet bring it
+/// in front; nullptr where none may.
+template <class IsTheSame>
+Standing* nearest_filter(const Standing& standing, std::vector<Standing>& others,
+                         const IsTheSame& is_the_same) {
+  constexpr double within_reach = 30.0;
+  Standing* nearest = nullptr;
+  for (auto& other : others)
+    if (other.score > (nearest == nullptr ? standing.score - within_reach : nearest->score) &&
+        is_noise_filter(other.scenario.effects.back().id()) && !is_the_same(other))
+      nearest = &other;
+  return nearest;
+}
+
 }  // namespace
 
 Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
@@ -60,7 +74,13 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
         const auto id = other.scenario.effects.back().id();
         return id == effect.id() || (is_line(id) && is_line(effect.id()));
       };
-      const auto others = each_added(rest);
+      auto others = each_added(rest);
+      // A filter of another form is told otherwise only once it stands.
+      if (auto* filter = is_noise_filter(effect.id())
+                             ? nearest_filter(standing, others, is_the_same)
+                             : nullptr)
+        *filter =
+            bench_.told_otherwise(*filter, filter->scenario.effects.size() - 1, standing.score);
       // What has moved without it has moved for its rivals as for itself, put there anew.
       constexpr double moved = 10.0;
       double anew = standing.score;
