@@ -71,7 +71,8 @@ struct Diagnosed<effects::NoiseBandwidth> {
       all.push_back(form);
     };
     constexpr double damping_ratio = 0.85;
-    if (effect.after_dps > 0.0) {
+    constexpr double next_to_none = 1e-3;  // where a fit has left it for good
+    if (effect.after_dps > next_to_none * after_dps) {
       all.push_back(effect);
       all.back().after_dps = 0.0;
     } else {

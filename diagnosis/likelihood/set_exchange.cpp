@@ -26,21 +26,16 @@ const Standing* curve_for(const Standing& standing, const Effect& noise,
   return best;
 }
 
-/// The likeliest filter of the noise that is not `is_the_same`, where another form may yet bring it
-/// in front; nullptr where none may.
-template <class IsTheSame>
-Standing* nearest_filter(const Standing& standing, std::vector<Standing>& others,
-                         const IsTheSame& is_the_same) {
-  constexpr double within_reach = 30.0;
-  Standing* nearest = nullptr;
-  for (auto& other : others)
-    if (other.score > (nearest == nullptr ? standing.score - within_reach : nearest->score) &&
-        is_noise_filter(other.scenario.effects.back().id()) && !is_the_same(other))
-      nearest = &other;
-  return nearest;
-}
-
 }  // namespace
+
+Standing SetSearcher::fitted_to_the_end(Standing rival, double to_reach) const {
+  if (auto fit = bench_.polished(bench_.refitted(rival.scenario)); fit.score > rival.score)
+    rival = std::move(fit);
+  for (std::size_t k = 0; k < rival.scenario.effects.size(); ++k)
+    if (is_noise_filter(rival.scenario.effects[k].id()))
+      rival = bench_.told_otherwise(rival, k, to_reach);
+  return rival;
+}
 
 Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
   std::size_t exchanges = 0;
@@ -75,30 +70,42 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
         return id == effect.id() || (is_line(id) && is_line(effect.id()));
       };
       auto others = each_added(rest);
-      // A filter of another form is told otherwise only once it stands.
-      if (auto* filter = is_noise_filter(effect.id())
-                             ? nearest_filter(standing, others, is_the_same)
-                             : nullptr)
-        *filter =
-            bench_.told_otherwise(*filter, filter->scenario.effects.size() - 1, standing.score);
       // What has moved without it has moved for its rivals as for itself, put there anew.
       constexpr double moved = 10.0;
       double anew = standing.score;
       for (const auto& other : others)
         if (other.score > standing.score - moved && is_the_same(other))
           anew = std::min(anew, other.score);
+      // One that is likelier than that is fitted to the end, and is held against what stands; so is
+      // a filter, of whose many forms one must be clearly likelier.
+      constexpr double within_reach = 30.0, clearly = 3.0;
+      std::vector<double> against(others.size(), anew);
+      for (std::size_t o = 0; o < others.size(); ++o) {
+        if (others[o].score < -1e299 || is_the_same(others[o])) continue;
+        const bool is_likelier = others[o].score > anew;
+        const bool is_another_filter = is_noise_filter(effect.id()) &&
+                                       is_noise_filter(others[o].scenario.effects.back().id()) &&
+                                       others[o].score > standing.score - within_reach;
+        if (!is_likelier && !is_another_filter) continue;
+        auto fit = fitted_to_the_end(others[o], standing.score);
+        if (!is_likelier && fit.score < standing.score + clearly) continue;
+        others[o] = std::move(fit);
+        against[o] = standing.score;
+      }
       // Its rivals may yet give the others their names back.
       const auto called = bench_.as_called(rest);
       double least_lost = standing.score - called.score;
       const Standing* best = &called;
-      for (const auto& other : others) {
+      for (std::size_t o = 0; o < others.size(); ++o) {
+        const auto& other = others[o];
         if (other.score > best->score) best = &other;
         if (other.score < -1e299 || is_the_same(other)) continue;
-        least_lost = std::min(least_lost, anew - other.score);
-        if (other.score > anew - 3.0)
+        const double ahead = other.score - against[o];
+        least_lost = std::min(least_lost, -ahead);
+        if (ahead > -3.0)
           found.rivals.push_back({other.scenario.effects.back(),
                                   std::string(other.scenario.effects.back().id()),
-                                  std::string(effect.id()), other.score - anew});
+                                  std::string(effect.id()), ahead});
       }
       // From other parameters, what the others are worth beside it is as before.
       constexpr double little = 3.0;

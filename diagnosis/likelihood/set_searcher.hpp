@@ -102,6 +102,8 @@ class SetSearcher {
   static Scenario end_with(std::string_view part, const std::vector<Effect>& effects, Scenario end);
   /// From its noise, and from as much white noise as the fast part of the end calls for beside it.
   Standing refitted_from_either(const Scenario& scenario) const;
+  /// As it would be where it stood: polished, and its filters of the noise told otherwise.
+  Standing fitted_to_the_end(Standing rival, double to_reach) const;
   /// Every member against all that might stand in its place.
   Standing exchanged(Standing standing, FoundSet& found);
   /// Where several effects colour the noise, these found anew beside its lines, a filter first:
