@@ -51,8 +51,8 @@ struct Diagnosed<effects::Sinusoidal> {
     // One that no bin of the spectrum shows, in those of all samples.
     constexpr std::size_t around = 500;
     if (const double faint =
-            clearest_line_hz(of_train(conditions, e.scene.rate_error_dps), conditions.interval_s(),
-                             around, 0.25 / conditions.slow_interval_s());
+            clearest_line_hz(train_about_means(conditions, e.scene.rate_error_dps),
+                             conditions.interval_s(), around, 0.25 / conditions.slow_interval_s());
         faint <= e.nyquist_hz && is_new(faint))
       peaks.push_back({faint, 1.0 / duration_s_of(conditions), false});
     for (const auto& [frequency_hz, reach, slow] : peaks) {
@@ -95,20 +95,6 @@ struct Diagnosed<effects::Sinusoidal> {
     spectrum.density.resize(bins);
     return spectrum;
   }
-  /// Without the mean of each span; 0 elsewhere.
-  static std::vector<double> of_train(const Conditions& conditions,
-                                      const std::vector<double>& values) {
-    std::vector<double> kept(values.size(), 0.0);
-    for (const auto& span : conditions.spans(Part::train)) {
-      double sum = 0.0, count = 0.0;
-      for (std::size_t i = span.first; i < span.last; ++i)
-        if (!is_missing(values[i])) sum += values[i], count += 1.0;
-      for (std::size_t i = span.first; i < span.last; ++i)
-        if (!is_missing(values[i])) kept[i] = values[i] - sum / count;
-    }
-    return kept;
-  }
-
   static void keep(const Evidence& e, const effects::Sinusoidal& sine,
                    std::vector<effects::Sinusoidal>& in) {
     if (!follows_motion(e, sine) && !is_line_beside(e.conditions(), sine.frequency_hz))

@@ -12,45 +12,31 @@
 namespace gyrostat::gap {
 namespace {
 
-/// The train part without the mean of each span, 0 elsewhere.
-struct TrainPart {
-  std::vector<double> values;
-  double count = 0.0;
-
-  TrainPart(const Conditions& conditions, const std::vector<double>& left_dps)
-      : values(left_dps.size(), 0.0) {
-    for (const auto& span : conditions.spans(Part::train)) {
-      double sum = 0.0, known = 0.0;
-      for (std::size_t i = span.first; i < span.last; ++i)
-        if (!is_missing(left_dps[i])) sum += left_dps[i], known += 1.0;
-      for (std::size_t i = span.first; i < span.last; ++i)
-        if (!is_missing(left_dps[i])) values[i] = left_dps[i] - sum / known;
-      count += known;
-    }
-  }
-
-  /// Amplitude and phase at the first sample.
-  std::complex<double> at(double cycles_per_sample) const {
-    const double turn = -2.0 * std::numbers::pi * cycles_per_sample;
-    std::complex<double> sum = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (values[i] != 0.0) sum += values[i] * std::polar(1.0, turn * static_cast<double>(i));
-    return 2.0 * sum / count;
-  }
-};
+/// Amplitude and phase at the first sample, of `count` values that are not 0.
+std::complex<double> line_at(const std::vector<double>& values, double count,
+                             double cycles_per_sample) {
+  const double turn = -2.0 * std::numbers::pi * cycles_per_sample;
+  std::complex<double> sum = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] != 0.0) sum += values[i] * std::polar(1.0, turn * static_cast<double>(i));
+  return 2.0 * sum / count;
+}
 
 }  // namespace
 
 std::optional<LineWithin> line_within(const Conditions& conditions,
                                       const std::vector<double>& left_dps, const Resonance& band) {
-  const TrainPart train(conditions, left_dps);
-  std::vector<double> padded = train.values;
+  const auto train = train_about_means(conditions, left_dps);
+  const auto count = static_cast<double>(
+      std::count_if(train.begin(), train.end(), [](double value) { return value != 0.0; }));
+  if (count == 0.0) return std::nullopt;
+  std::vector<double> padded = train;
   padded.resize(std::bit_ceil(2 * padded.size()), 0.0);
   const double interval_s = conditions.interval_s();
   const double bin_hz = 1.0 / (interval_s * static_cast<double>(padded.size()));
   // Bins that one resolved frequency takes.
   const auto resolved =
-      static_cast<std::size_t>(std::ceil(static_cast<double>(padded.size()) / train.count));
+      static_cast<std::size_t>(std::ceil(static_cast<double>(padded.size()) / count));
   constexpr double bands = 1.5, of_band = 0.125;
   constexpr std::size_t beside = 2, fewest = 4, most = 64;
   const auto reach =
@@ -58,6 +44,7 @@ std::optional<LineWithin> line_within(const Conditions& conditions,
                                               (bin_hz * static_cast<double>(resolved))));
   if (reach < fewest) return std::nullopt;
   const std::size_t margin = (beside + reach) * resolved;
+  if (2 * (margin + 1) >= padded.size()) return std::nullopt;
   const double lowest = (band.centre_hz - bands * band.bandwidth_hz) / bin_hz;
   const double highest = (band.centre_hz + bands * band.bandwidth_hz) / bin_hz;
   const auto first = static_cast<std::size_t>(std::max(lowest, static_cast<double>(margin + 1)));
@@ -76,7 +63,7 @@ std::optional<LineWithin> line_within(const Conditions& conditions,
     rarest = rarity;
     frequency_hz = static_cast<double>(first - margin + k) * bin_hz;
   }
-  const auto line = train.at(frequency_hz * interval_s);
+  const auto line = line_at(train, count, frequency_hz * interval_s);
   const double phase_deg = (std::arg(line) + 0.5 * std::numbers::pi) * 180.0 / std::numbers::pi;
   return LineWithin{{std::abs(line), frequency_hz, wrap_degrees(phase_deg)}, rarest};
 }

@@ -7,6 +7,7 @@
 
 #include <unsupported/Eigen/FFT>
 
+#include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
@@ -44,6 +45,19 @@ SpectralPeak highest_peak(const Spectrum& spectrum, std::size_t widest) {
     }
   }
   return best;
+}
+
+std::vector<double> train_about_means(const Conditions& conditions,
+                                      const std::vector<double>& values) {
+  std::vector<double> kept(values.size(), 0.0);
+  for (const auto& span : conditions.spans(Part::train)) {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (!is_missing(values[i])) sum += values[i], count += 1.0;
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (!is_missing(values[i])) kept[i] = values[i] - sum / count;
+  }
+  return kept;
 }
 
 std::vector<double> powers_of(const std::vector<double>& values, std::size_t first,

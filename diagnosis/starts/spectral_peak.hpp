@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <gyrostat/analysis/spectra/welch.hpp>
+#include <gyrostat/diagnosis/gap/conditions.hpp>
 
 namespace gyrostat::gap {
 
@@ -15,6 +16,10 @@ struct SpectralPeak {
 
 /// Of peaks of at most `widest` bins to either side.
 SpectralPeak highest_peak(const Spectrum& spectrum, std::size_t widest = 64);
+
+/// The train part of `values` (NaN: missing) without the mean of each span; 0 elsewhere.
+std::vector<double> train_about_means(const Conditions& conditions,
+                                      const std::vector<double>& values);
 
 /// Squares of the discrete Fourier transform of `values`, from bin `first` to before bin `last`.
 std::vector<double> powers_of(const std::vector<double>& values, std::size_t first,
