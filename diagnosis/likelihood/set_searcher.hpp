@@ -131,8 +131,8 @@ class SetSearcher {
   /// before a filter or a shift of time has followed the rate, beside which the search finds more,
   /// and sines of a line that they are part of.
   Standing without_what_others_are(Standing standing, FoundSet& found) const;
-  /// With a sine that stands out from a vibration in whose band it is; the spectrum's steps are
-  /// wider than it, so that no other move of the search has it.
+  /// With a sine that stands out from a vibration in whose band it is: until it is known to, it has
+  /// no price.
   Standing beside_a_line_within(Standing standing, FoundSet& found);
   /// With an ARIMA(1,1,1) that remembers, beside what is there or in place of what colours the
   /// noise.

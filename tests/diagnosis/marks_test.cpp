@@ -25,6 +25,15 @@ Scenario turning_on_a_grid() {
   return s;
 }
 
+/// At rest, and turned by a rate that is a function of time.
+template <class Rate>
+Series turned(std::uint64_t seed, const Rate& rate_dps) {
+  Series series = recorded(still(), seed, false);
+  for (const double t_s : series.t_s) series.rate_ref_dps.push_back(rate_dps(t_s));
+  for (std::size_t i = 0; i < series.size(); ++i) series.gyro_dps[i] += series.rate_ref_dps[i];
+  return series;
+}
+
 Marks marks_in(const Series& series) { return marks_of(Simulator(series, 1), series); }
 
 /// At rest every fifth sample equals the one before by chance; across a turn none does. The half
@@ -52,17 +61,14 @@ TEST(Marks, RepeatsBesideAGridShowWhereTheMotionTurns) {
 TEST(Marks, WhatRestsOnACoarseGridIsNoRepeat) {
   constexpr double lsb_dps = 0.15, period_s = 30.0, ramp_s = 2.5;
   for (std::uint64_t seed = 60; seed < 66; ++seed) {
-    Series series = recorded(still(), seed, false);
-    series.rate_ref_dps.resize(series.size());
-    for (std::size_t i = 0; i < series.size(); ++i) {
-      const double periods = std::floor(series.t_s[i] / period_s);
-      const double into_s = series.t_s[i] - periods * period_s;
+    Series series = turned(seed, [&](double t_s) {
+      const double periods = std::floor(t_s / period_s);
+      const double into_s = t_s - periods * period_s;
       const auto rest_dps = [&](double number) { return 9.0 * std::sin(2.0 * number); };
       const double from = rest_dps(periods), to = rest_dps(periods + 1.0);
-      series.rate_ref_dps[i] = from + (to - from) * std::min(into_s / ramp_s, 1.0);
-      series.gyro_dps[i] =
-          lsb_dps * std::nearbyint((series.gyro_dps[i] + series.rate_ref_dps[i]) / lsb_dps);
-    }
+      return from + (to - from) * std::min(into_s / ramp_s, 1.0);
+    });
+    for (double& z : series.gyro_dps) z = lsb_dps * std::nearbyint(z / lsb_dps);
     EXPECT_EQ(marks_in(series).stale_probability, 0.0) << seed;
   }
 }
@@ -283,17 +289,14 @@ TEST(Marks, AZoneOfTheOutputWithinItsNoiseIsReadOff) {
 TEST(Marks, AZoneOfTheOutputShowsThoughTheTableHardlyDwellsBesideIt) {
   constexpr double zone_dps = 0.3, period_s = 36.37, swing_s = 0.5;
   for (std::uint64_t seed = 60; seed < 64; ++seed) {
-    Series series = recorded(still(), seed, false);
-    series.rate_ref_dps.resize(series.size());
-    for (std::size_t i = 0; i < series.size(); ++i) {
-      const double turn = series.t_s[i] / period_s;
+    Series series = turned(seed, [&](double t_s) {
+      const double turn = t_s / period_s;
       const double into_s = (turn - std::floor(turn)) * period_s;
       const double edge_s = std::min(into_s, 30.0 - into_s);
       const double share = std::clamp(edge_s / swing_s, 0.0, 1.0);
       const double speed_dps = std::fmod(std::floor(turn), 2.0) < 1.0 ? 40.0 : -40.0;
-      series.rate_ref_dps[i] = 0.5 * speed_dps * (1.0 - std::cos(std::numbers::pi * share));
-      series.gyro_dps[i] += series.rate_ref_dps[i];
-    }
+      return 0.5 * speed_dps * (1.0 - std::cos(std::numbers::pi * share));
+    });
     EXPECT_EQ(marks_in(series).silent.half_width_dps, 0.0);
     silence(series, zone_dps, 0.0, 0.0);
     for (const std::size_t samples : {std::size_t{3600}, std::size_t{7200}, series.size()}) {
