@@ -125,6 +125,8 @@ Scenario Diagnosing::with_drift(Scenario scenario, const Series& recording) cons
     if (const auto* grid = effect.as<effects::Quantization>();
         grid != nullptr && grid->towards_zero != 0.0)
       left.gyro_dps = middles_of_cut_off(conditions, left.gyro_dps, grid->lsb_dps);
+  if (!found_.before_rounding_dps.empty() && has(scenario, "quantization"))
+    left.gyro_dps = found_.before_rounding_dps;
   synthesise_rate_under(quiet, conditions.series(), {}, bare);
   for (const auto& effect : scenario.effects) {
     const auto* cause = cause_types().find(effect.id());

@@ -18,10 +18,11 @@ struct KeptApart {
   /// samples is: at odds of a tenth against being rounded to the same value of a grid. What is
   /// hidden in vain is little noise the less, what is not is an outlier the more.
   double told_from_dps(double repeated) const;
-  /// Where the gyro only lags, they stand still without being equal.
+  /// Where the gyro only lags, they stand still without being equal, but for as many as a coarse
+  /// grid makes equal by chance.
   bool shows_repeats() const {
-    constexpr double fewest = 2.0, most_of_them = 0.8;
-    return equal >= fewest && equal >= most_of_them * still;
+    constexpr double fewest = 2.0, nearly_all = 0.95;
+    return equal >= fewest && equal >= nearly_all * still;
   }
 };
 

@@ -18,7 +18,8 @@ Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::st
   Scenario some = whole;
   some.effects.clear();
   for (const auto& effect : whole.effects)
-    if (is_in(effect.id())) some.effects.push_back(effect);
+    if (is_in(effect.id()) && !(coarse_grid_ && effect.id() == coarse_grid_->id()))
+      some.effects.push_back(effect);
   bench_.mask_too(edges_of_the_dead_zone(some));
   Scenario rate = some;
   std::erase_if(rate.effects, [](const auto& e) { return e.stage() == Stage::compass; });
@@ -35,6 +36,7 @@ Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::st
   }
   some.random_error = fit.scenario.random_error;
   leave_to_tails(some, some.random_error);
+  if (coarse_grid_ && is_in(coarse_grid_->id())) put_grid_back(some);
   if (white_under_grid_dps_ && is_in("quantization"))
     some.random_error.measurement_noise_std_dps = *white_under_grid_dps_;
   return some;

@@ -183,6 +183,13 @@ Evidence SetBench::evidence_of(const Standing& standing) const {
   return evidence;
 }
 
+std::vector<double> SetBench::known_rate(const Scenario& scenario) const {
+  const auto error = error_of(gyro_beside(scenario));
+  auto known = recording_.gyro_dps;
+  for (std::size_t i = 0; i < known.size(); ++i) known[i] -= error[i];
+  return known;
+}
+
 std::vector<double> SetBench::rate_left_by(const Scenario& scenario,
                                            const std::vector<char>& hidden) const {
   auto left = rate_error_beside(scenario);

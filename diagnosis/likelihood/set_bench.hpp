@@ -97,6 +97,8 @@ class SetBench {
   /// The rate error less what is taken out and its level (take_out_level), NaN where `hidden` (a
   /// flag a sample).
   std::vector<double> rate_left_by(const Scenario& scenario, const std::vector<char>& hidden) const;
+  /// What of the gyro's rate is known beside the scenario: what is taken out, and the reference.
+  std::vector<double> known_rate(const Scenario& scenario) const;
   /// The reference rate as the scenario's effects have it sensed.
   std::vector<double> sensed_rate(const Scenario& scenario) const;
 

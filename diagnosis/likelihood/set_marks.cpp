@@ -107,10 +107,14 @@ double SetSearcher::noise_about_levels(const std::vector<double>& left) const {
 }
 
 double SetSearcher::noise_on_grid(const Scenario& begun, const Marks& marks) const {
-  const bool at_rest = conditions_.series().rate_ref_dps.empty();
-  return std::max(
-      {white_with_rounding(begun), marks.noise_of_steps_dps,
-       at_rest ? noise_about_levels(bench_.rate_left_by(begun, bench_.masked())) : 0.0});
+  const double white = white_with_rounding(begun);
+  if (conditions_.series().rate_ref_dps.empty())
+    return std::max({white, marks.noise_of_steps_dps,
+                     noise_about_levels(bench_.rate_left_by(begun, bench_.masked()))});
+  // What a motion leaves is not seen where neighbours are equal.
+  const double of_equal = std::hypot(marks.white_under_grid_dps, marks.lsb_dps / std::sqrt(12.0));
+  return std::max(marks.noise_of_steps_dps,
+                  marks.white_under_grid_dps > 0.0 ? std::min(white, of_equal) : white);
 }
 
 double SetSearcher::feigned_by_repeats(const Marks& marks) const {

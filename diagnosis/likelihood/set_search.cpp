@@ -60,20 +60,38 @@ FoundSet SetSearcher::run() {
   tell("fitting the baseline", 3);
   bare_ = bench_.beside_noise({});
   found.baseline = bare_.scenario;
-  const auto marked = read_off(marks_, found);
+  auto marked = read_off(marks_, found);
   for (const auto& cause : cause_types())
     if (bench_.is_allowed(cause.id) && !is_compass(cause) && !bench_.is_marked(cause.id))
       candidates_.push_back(&cause);
 
   begun_ = bench_.beside_noise(marked);
-  // Rounding to more than the noise is no longer noise, unless a motion dithers it: what it does to
-  // the fast part and to slow noise has no law here.
+  // Rounding to more than the noise is no longer noise, unless a motion dithers it.
   constexpr double coarsest = 2.2;
   const double lsb_of_noise =
       marks_.lsb_dps / (marks_.level_on_grid_dps ? marks_.white_under_grid_dps
                                                  : noise_on_grid(begun_.scenario, marks_));
   is_coarse_ = lsb_of_noise > coarsest && !marks_.turns_through_grid;
-  if (is_coarse_)
+  const bool is_drawn =
+      is_coarse_ && !marks_.level_on_grid_dps && bench_.is_allowed("quantization");
+  if (is_drawn) {
+    before_rounding_.emplace(
+        recording_.gyro_dps, repeats_, marks_.lsb_dps,
+        is_cut_off_ ? BeforeRounding::Cells::twice_as_wide_at_zero : BeforeRounding::Cells::alike);
+    coarse_grid_ = marked.front();
+    marked.erase(marked.begin());
+    constexpr double level_s = 10.0;
+    constexpr int draws = 240;
+    Scenario bare = bench_.plain();
+    bare.effects = marked;
+    before_rounding_->draw_under_own(bench_.known_rate(bare),
+                                     static_cast<std::size_t>(level_s * conditions_.rate_hz()) + 1,
+                                     draws);
+    recording_.gyro_dps = before_rounding_->rate_dps();
+    bare_ = bench_.beside_noise({});
+    begun_ = bench_.beside_noise(marked);
+    is_coarse_ = false;
+  } else if (is_coarse_)
     feigned_ = {.warmth = 1e300, .tails = 1e300};
   else if (!marks_.turns_through_grid) {
     feigned_ = feigned_by_grid(lsb_of_noise);
@@ -87,7 +105,12 @@ FoundSet SetSearcher::run() {
 
   feigned_colour_ = feigned_by_repeats(marks_);
   tell("the first effect", 3);
+  const auto read = found.members;
   auto standing = concluded(searched_beside_tails(begun_), found);
+  if (is_drawn) {
+    found.members = read;
+    standing = drawn_anew(std::move(standing), found);
+  }
   return described(std::move(standing), std::move(found));
 }
 
@@ -163,6 +186,11 @@ FoundSet SetSearcher::described(Standing standing, FoundSet found) {
   drift = {.a_dps_per_C = coefficients.size() > 0 ? coefficients[0] : 0.0,
            .b_dps_s_per_C = coefficients.size() > 1 ? coefficients[1] : 0.0,
            .c_dps = 0.0};
+  if (coarse_grid_) {
+    put_grid_back(found.scenario);
+    for (auto& interval : found.intervals) ++interval.effect;
+    found.before_rounding_dps = recording_.gyro_dps;
+  }
   give_grid_to_angle(marks_, found);
   put_in_order(found);
   if (conditions_.has_heading()) search_compass(simulator_, recording_, options_, found);

@@ -72,6 +72,8 @@ struct FoundSet {
   std::array<std::optional<Transient>, 2> transients{};
   /// What rounds to it, where a grid is coarser than the noise that rests on it.
   std::optional<double> level_on_grid_dps{};
+  /// Where noise and drift show on so coarse a grid: the gyro's rate as it was drawn, or empty.
+  std::vector<double> before_rounding_dps{};
   double score = 0.0;  ///< log-likelihood of the rate's set, less its cost
   double gain = 0.0;   ///< log-likelihood of the rate's set, less its cost, beyond the baseline's
   /// Of all that was found, beyond white noise and a walk; none where samples do not count, as

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gyrostat/diagnosis/cause_type.hpp>
+#include <gyrostat/diagnosis/likelihood/before_rounding.hpp>
 #include <gyrostat/diagnosis/likelihood/detectable.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/marks.hpp>
@@ -154,6 +155,20 @@ class SetSearcher {
   static void remove(std::vector<Effect>::iterator effect, FoundSet& found);
   /// What acts at the converter, in the order in which it does.
   static void put_in_order(FoundSet& found);
+  /// Rounding to more than the noise is not noise: what was rounded is drawn from its law, and
+  /// looked at instead.
+  void draw_once(const Scenario& scenario);
+  /// Drawn and fitted in turn.
+  Standing drawn_before_rounding(Standing standing);
+  void put_grid_back(Scenario& set) const {
+    set.effects.insert(set.effects.begin(), *coarse_grid_);
+  }
+  /// Log-likelihood that the whole gains on draws from the rest, on average.
+  double gain_on_draws(const Scenario& whole, Standing rest);
+  /// Without effects that draws show for having been drawn with them.
+  Standing without_what_draws_show(Standing standing, FoundSet& found);
+  /// The set found anew on draws beside itself, until it stays.
+  Standing drawn_anew(Standing standing, FoundSet& found);
   std::vector<char> edges_of_the_dead_zone(const Scenario& scenario) const;
   /// Where rates begin to be sensed at a jump: those samples say it that the search has hidden, by
   /// the least squares of either side.
@@ -189,8 +204,8 @@ class SetSearcher {
   const Simulator& simulator_;
   const Conditions& conditions_;
   bool is_cut_off_ = false;
-  double blur_dps_ = 0.0;   ///< of the noise about a grid
-  const Series recording_;  ///< as_converted()
+  double blur_dps_ = 0.0;  ///< of the noise about a grid
+  Series recording_;       ///< as_converted(); where the grid is coarse, before rounding
   SetSearchOptions options_;
   SetSearchProgress progress_;
   SetBench bench_;
@@ -206,9 +221,11 @@ class SetSearcher {
   std::vector<const CauseType*> candidates_;
   Marks marks_;
   bool is_coarse_ = false;  ///< a grid, so that rounding is no longer noise
-  Standing bare_, begun_;   ///< without effects; with what is read off
-  FoundSet searched_;       ///< at the end of the search, before it was described
-  std::size_t rounds_ = 0;  ///< in which every candidate was tried
+  std::optional<BeforeRounding> before_rounding_;
+  std::optional<Effect> coarse_grid_;  ///< of what was drawn
+  Standing bare_, begun_;              ///< without effects; with what is read off
+  FoundSet searched_;                  ///< at the end of the search, before it was described
+  std::size_t rounds_ = 0;             ///< in which every candidate was tried
   std::size_t left_ = 1;
   std::string doing_;
   std::optional<Standing> end_;     ///< of the search; none where the fast part has no law
