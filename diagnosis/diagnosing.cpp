@@ -125,6 +125,7 @@ Scenario Diagnosing::with_drift(Scenario scenario, const Series& recording) cons
     if (const auto* grid = effect.as<effects::Quantization>();
         grid != nullptr && grid->towards_zero != 0.0)
       left.gyro_dps = middles_of_cut_off(conditions, left.gyro_dps, grid->lsb_dps);
+  // The mean of rounded values is not what was rounded.
   if (!found_.before_rounding_dps.empty() && has(scenario, "quantization"))
     left.gyro_dps = found_.before_rounding_dps;
   synthesise_rate_under(quiet, conditions.series(), {}, bare);
@@ -139,7 +140,6 @@ Scenario Diagnosing::with_drift(Scenario scenario, const Series& recording) cons
     left.gyro_dps[i] -= with.gyro_dps[i] - bare.gyro_dps[i];
   left.heading_deg.clear();
   scenario.thermal_drift = fit_drift(conditions, Scene(conditions, left, train_alone));
-  // The mean of rounded values is not what was rounded.
   if (found_.level_on_grid_dps && has(scenario, "quantization"))
     scenario.thermal_drift = {
         .a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = *found_.level_on_grid_dps};

@@ -56,20 +56,29 @@ double normal_between(double mean, double deviation, double low, double high, do
                     high);
 }
 
-/// A flag a sample: those that are there and not far from the median of those about them.
-std::vector<char> near_their_neighbours(const std::vector<double>& values, double step) {
+/// How far values are from the median of those about them.
+std::vector<double> off_their_neighbours(const std::vector<double>& values) {
   constexpr std::size_t reach = 20;
-  constexpr double farthest = 6.0;
   const std::size_t size = values.size();
-  std::vector<double> off(size, no_value), sizes, about;
+  std::vector<double> off(size, no_value), about;
   for (std::size_t i = 0; i < size; ++i) {
     if (is_missing(values[i])) continue;
     about.clear();
     for (std::size_t k = i < reach ? 0 : i - reach; k < std::min(i + reach + 1, size); ++k)
       if (!is_missing(values[k])) about.push_back(values[k]);
     off[i] = std::abs(values[i] - quantile(about, 0.5));
-    sizes.push_back(off[i]);
   }
+  return off;
+}
+
+/// A flag a sample: those that are there and not far off.
+std::vector<char> near_their_neighbours(const std::vector<double>& values, double step) {
+  constexpr double farthest = 6.0;
+  const std::size_t size = values.size();
+  const auto off = off_their_neighbours(values);
+  std::vector<double> sizes;
+  for (const double size_of_it : off)
+    if (!is_missing(size_of_it)) sizes.push_back(size_of_it);
   std::vector<char> near(size, 0);
   if (sizes.empty()) return near;
   const double deviation = quantile(std::move(sizes), 0.5) / normal_quartile;
@@ -117,6 +126,19 @@ NoiseAboutLevel noise_about_level(NoiseLaw law, const Angles& angles, double clu
   return found;
 }
 
+double share_off_their_neighbours(const std::vector<double>& rounded_dps,
+                                  const std::vector<double>& known_dps, double lsb_dps) {
+  auto errors = rounded_dps;
+  for (std::size_t i = 0; i < errors.size(); ++i) errors[i] -= known_dps[i];
+  double off = 0.0, count = 0.0;
+  for (const double size : off_their_neighbours(errors))
+    if (!is_missing(size)) {
+      count += 1.0;
+      off += size > 0.5 * lsb_dps ? 1.0 : 0.0;
+    }
+  return count > 0.0 ? off / count : 0.0;
+}
+
 BeforeRounding::BeforeRounding(std::vector<double> rounded_dps, const std::vector<char>& unknown,
                                double lsb_dps, Cells cells)
     : rounded_(std::move(rounded_dps)),
@@ -148,12 +170,24 @@ void BeforeRounding::end(const std::vector<double>& known_dps) {
 void BeforeRounding::draw(const NoiseAboutLevel& noise, const std::vector<double>& known_dps,
                           int times) {
   begin(known_dps);
+  if (draws_ > 0) leave_out_far(known_dps);
   for (int k = 0; k < times; ++k) {
     ++draws_;
     draw_level(noise);
     draw_errors(noise, known_dps);
   }
   end(known_dps);
+}
+
+void BeforeRounding::leave_out_far(const std::vector<double>& known_dps) {
+  constexpr double farthest = 5.0;
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < errors_.size(); ++i)
+    if (is_known_[i] != 0) sizes.push_back(std::abs(errors_[i] - level_[i]));
+  const double most = 0.5 * lsb_ + farthest / normal_quartile * quantile(std::move(sizes), 0.5);
+  for (std::size_t i = 0; i < errors_.size(); ++i)
+    if (is_known_[i] != 0 && std::abs(rounded_[i] - known_dps[i] - level_[i]) > most)
+      is_known_[i] = 0;
 }
 
 NoiseAboutLevel BeforeRounding::own(std::size_t cluster) const {
@@ -187,7 +221,10 @@ void BeforeRounding::draw_under_own(const std::vector<double>& known_dps, std::s
   noise.coefficients.clear();
   noise.innovation = lsb_ * lsb_ / 12.0;
   for (int k = 0; k < times; ++k) {
-    if (k > 0 && k % draws_of_a_law == 0) noise = own(cluster);
+    if (k > 0 && k % draws_of_a_law == 0) {
+      leave_out_far(known_dps);
+      noise = own(cluster);
+    }
     ++draws_;
     draw_level(noise);
     draw_errors(noise, known_dps);

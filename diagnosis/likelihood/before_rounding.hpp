@@ -19,6 +19,11 @@ struct NoiseAboutLevel {
 /// the rest as the walk that stands out from it at as fast a frequency.
 NoiseAboutLevel noise_about_level(NoiseLaw law, const Angles& angles, double cluster_s);
 
+/// How many of the values that a grid has rounded, beside what is known of them, are not the one
+/// that most of those about them are: what they say of anything but their level.
+double share_off_their_neighbours(const std::vector<double>& rounded_dps,
+                                  const std::vector<double>& known_dps, double lsb_dps);
+
 /// The rate before it was rounded to a grid, drawn from its law given the rounded one by Gibbs'
 /// sampler (Geman and Geman, IEEE Transactions PAMI 6, 1984): the level given the errors, each
 /// error given the level, its neighbours and its cell of the grid. Fits to such draws, and draws
@@ -46,6 +51,8 @@ class BeforeRounding {
   void end(const std::vector<double>& known_dps);
   /// Noise of which nothing is seen.
   double least_dps2() const { return 1e-4 * lsb_ * lsb_; }
+  /// Of what is known; gross errors are not drawn, nor do they say what noise is.
+  void leave_out_far(const std::vector<double>& known_dps);
   NoiseAboutLevel own(std::size_t cluster) const;
   void draw_level(const NoiseAboutLevel& noise);
   void draw_errors(const NoiseAboutLevel& noise, const std::vector<double>& known_dps);

@@ -37,8 +37,8 @@ Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::st
   some.random_error = fit.scenario.random_error;
   leave_to_tails(some, some.random_error);
   if (coarse_grid_ && is_in(coarse_grid_->id())) put_grid_back(some);
-  if (white_under_grid_dps_ && is_in("quantization"))
-    some.random_error.measurement_noise_std_dps = *white_under_grid_dps_;
+  if (white_at_rest_dps_ && is_in("quantization"))
+    some.random_error.measurement_noise_std_dps = *white_at_rest_dps_;
   return some;
 }
 

@@ -90,6 +90,9 @@ Standing SetSearcher::without_what_draws_show(Standing standing, FoundSet& found
 Standing SetSearcher::drawn_anew(Standing standing, FoundSet& found) {
   constexpr int most_rounds = 4;
   const auto known = found.members;
+  // Where there is nothing, what the law of the first draws has by chance must not be left.
+  if (standing.scenario.effects.size() == begun_.scenario.effects.size())
+    return drawn_before_rounding(std::move(standing));
   for (int round = 0; round < most_rounds; ++round) {
     const auto names = names_in(standing.scenario);
     standing = drawn_before_rounding(std::move(standing));

@@ -72,8 +72,11 @@ FoundSet SetSearcher::run() {
       marks_.lsb_dps / (marks_.level_on_grid_dps ? marks_.white_under_grid_dps
                                                  : noise_on_grid(begun_.scenario, marks_));
   is_coarse_ = lsb_of_noise > coarsest && !marks_.turns_through_grid;
+  constexpr double least_told = 0.05;
   const bool is_drawn =
-      is_coarse_ && !marks_.level_on_grid_dps && bench_.is_allowed("quantization");
+      is_coarse_ && bench_.is_allowed("quantization") &&
+      share_off_their_neighbours(recording_.gyro_dps, bench_.known_rate(begun_.scenario),
+                                 marks_.lsb_dps) > least_told;
   if (is_drawn) {
     before_rounding_.emplace(
         recording_.gyro_dps, repeats_, marks_.lsb_dps,
@@ -176,11 +179,6 @@ FoundSet SetSearcher::described(Standing standing, FoundSet found) {
   name_lines(bench_, standing, unseen, found);
   join_gated_sines(unseen, found);
   look_for_transients(unseen, found);
-  if (is_coarse_) {
-    white_under_grid_dps_ = marks_.white_under_grid_dps;
-    found.scenario.random_error.measurement_noise_std_dps = marks_.white_under_grid_dps;
-    found.level_on_grid_dps = marks_.level_on_grid_dps;
-  }
   auto& drift = found.scenario.thermal_drift;
   const auto& coefficients = standing.fit.drift;
   drift = {.a_dps_per_C = coefficients.size() > 0 ? coefficients[0] : 0.0,
@@ -190,6 +188,12 @@ FoundSet SetSearcher::described(Standing standing, FoundSet found) {
     put_grid_back(found.scenario);
     for (auto& interval : found.intervals) ++interval.effect;
     found.before_rounding_dps = recording_.gyro_dps;
+  }
+  // Of what rests, and is nothing but noise, counts of values say more than a draw.
+  if (is_coarse_ || (coarse_grid_ && marks_.level_on_grid_dps && found.members.size() == 1)) {
+    white_at_rest_dps_ = marks_.white_under_grid_dps;
+    found.scenario.random_error.measurement_noise_std_dps = *white_at_rest_dps_;
+    found.level_on_grid_dps = marks_.level_on_grid_dps;
   }
   give_grid_to_angle(marks_, found);
   put_in_order(found);

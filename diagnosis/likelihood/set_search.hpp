@@ -70,9 +70,9 @@ struct FoundSet {
   std::vector<Unexplained> unexplained{};  ///< beside the set
   /// The clearest of each part, by index_of(Part); its frequency is none of the set's.
   std::array<std::optional<Transient>, 2> transients{};
-  /// What rounds to it, where a grid is coarser than the noise that rests on it.
+  /// What rounds to it, where nothing but noise rests on a few values of a grid.
   std::optional<double> level_on_grid_dps{};
-  /// Where noise and drift show on so coarse a grid: the gyro's rate as it was drawn, or empty.
+  /// Where a grid is coarser than the noise: the gyro's rate as it was drawn; else empty.
   std::vector<double> before_rounding_dps{};
   double score = 0.0;  ///< log-likelihood of the rate's set, less its cost
   double gain = 0.0;   ///< log-likelihood of the rate's set, less its cost, beyond the baseline's

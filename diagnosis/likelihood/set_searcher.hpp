@@ -217,10 +217,10 @@ class SetSearcher {
   OfGrid feigned_;
   double feigned_colour_ = 0.0;  ///< feigned_by_repeats()
   bool has_outliers_ = false, has_warm_noise_ = false;
-  std::optional<double> white_under_grid_dps_;  ///< where the grid is coarse
   std::vector<const CauseType*> candidates_;
   Marks marks_;
-  bool is_coarse_ = false;  ///< a grid, so that rounding is no longer noise
+  std::optional<double> white_at_rest_dps_;  ///< where a grid and noise are all there is
+  bool is_coarse_ = false;  ///< a grid that hides all else, so that nothing has a law
   std::optional<BeforeRounding> before_rounding_;
   std::optional<Effect> coarse_grid_;  ///< of what was drawn
   Standing bare_, begun_;              ///< without effects; with what is read off

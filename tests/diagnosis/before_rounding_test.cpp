@@ -159,7 +159,7 @@ TEST(SetSearch, WhiteNoiseBelowACoarseGridHasNoOtherEffect) {
 /// On a table nothing dithers so coarse a grid but the turns, of which a shift leaves samples of
 /// 60 dps: a scale of .28, limits, steps and outliers stood there, at p = 6e-10.
 TEST(SetSearch, AShiftOnATableIsFoundAboveAGridCoarserThanTheNoise) {
-  Scenario s = still(ten_minutes_s);
+  Scenario s = still(0.5 * ten_minutes_s);
   s.motion = motion::RateTable{60.0, 24.0};
   s.effects = {effects::TimeOffset{.offset_s = 0.05}, effects::ScaleAsymmetry{.error = 0.005},
                effects::NoiseBandwidth{.cutoff_hz = 2.0}, effects::Quantization{0.1}};
