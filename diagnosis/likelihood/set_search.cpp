@@ -72,7 +72,7 @@ FoundSet SetSearcher::run() {
       marks_.lsb_dps / (marks_.level_on_grid_dps ? marks_.white_under_grid_dps
                                                  : noise_on_grid(begun_.scenario, marks_));
   is_coarse_ = lsb_of_noise > coarsest && !marks_.turns_through_grid;
-  constexpr double least_told = 0.05;
+  constexpr double least_told = 0.1;
   const bool is_drawn =
       is_coarse_ && bench_.is_allowed("quantization") &&
       share_off_their_neighbours(recording_.gyro_dps, bench_.known_rate(begun_.scenario),
