@@ -96,8 +96,6 @@ Standing SetSearcher::drawn_anew(Standing standing, FoundSet& found) {
   for (int round = 0; round < most_rounds; ++round) {
     const auto names = names_in(standing.scenario);
     standing = drawn_before_rounding(std::move(standing));
-    begun_ = bench_.beside_noise(begun_.scenario.effects);
-    bare_ = bench_.beside_noise({});
     found.members = known;
     found.rivals.clear();
     standing = concluded(searched_beside_tails(std::move(standing)), found);

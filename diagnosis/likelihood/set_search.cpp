@@ -113,6 +113,9 @@ FoundSet SetSearcher::run() {
   if (is_drawn) {
     found.members = read;
     standing = drawn_anew(std::move(standing), found);
+    // Likelihoods of other draws are not to be compared.
+    begun_ = bench_.beside_noise(begun_.scenario.effects);
+    bare_ = bench_.beside_noise({});
   }
   return described(std::move(standing), std::move(found));
 }

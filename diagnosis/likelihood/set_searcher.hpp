@@ -27,8 +27,9 @@ double white_with_rounding(const Scenario& scenario);
 /// set_exchange.cpp, beginnings from elsewhere in set_beginnings.cpp and
 /// set_responding.cpp, what stands for others of the
 /// set in set_needless.cpp, what other axes give in set_given.cpp, what is read off values in
-/// set_marks.cpp, what only sizes of innovations say in set_tails.cpp, where a dead zone ends in
-/// set_threshold.cpp, what is asked afterwards in set_afterwards.cpp.
+/// set_marks.cpp, what a coarse grid hides in set_drawn.cpp, what only sizes of innovations say in
+/// set_tails.cpp, where a dead zone ends in set_threshold.cpp, what is asked afterwards in
+/// set_afterwards.cpp.
 class SetSearcher {
  public:
   SetSearcher(const Simulator& simulator, const Series& recording, const SetSearchOptions& options,
