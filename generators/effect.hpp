@@ -25,9 +25,8 @@ struct EffectType : ParametricType {
   /// noise: then it may be given any samples, also those of several trials, in any order. Null: it
   /// does not.
   bool (*is_sample_by_sample)(const std::any& effect) = nullptr;
-  /// Whether it says how the rate is sensed: it comes before the electronics' other effects, to
-  /// which the rate is what is sensed. Null: it does not.
-  bool (*is_response)(const std::any& effect) = nullptr;
+  /// Null: none.
+  Response (*response)(const std::any& effect) = nullptr;
   /// Tells its code from another under the same name; empty for code of the program itself.
   std::string code{};
 
@@ -53,7 +52,10 @@ class Effect : public Chosen<EffectType> {
   bool is_sample_by_sample() const {
     return type().is_sample_by_sample != nullptr && type().is_sample_by_sample(plugin());
   }
-  bool is_response() const { return type().is_response != nullptr && type().is_response(plugin()); }
+  Response response() const {
+    return type().response != nullptr ? type().response(plugin()) : Response::none;
+  }
+  bool is_response() const { return response() != Response::none; }
   /// Changes the series as the effect does, under the trial's noise.
   void apply(Series& series, const Noise& noise) const { type().apply(plugin(), series, noise); }
 };
@@ -67,16 +69,16 @@ bool acts_sample_by_sample(const std::any& effect) {
   return requires { E::sample_by_sample; };
 }
 
-/// An effect that may say how the rate is sensed has an `is_response`.
+/// An effect that may say how the rate is sensed has a `response`.
 template <class E>
 concept MayRespond = requires(const E& effect) {
-  { effect.is_response() } -> std::same_as<bool>;
+  { effect.response() } -> std::same_as<Response>;
 };
 
 template <class E>
-bool responds(const std::any& effect) {
-  if constexpr (MayRespond<E>) return std::any_cast<E>(&effect)->is_response();
-  return false;
+Response response_of(const std::any& effect) {
+  if constexpr (MayRespond<E>) return std::any_cast<E>(&effect)->response();
+  return Response::none;
 }
 
 /// The description of an effect under a name. A program that describes and adds one of its own has
@@ -119,7 +121,7 @@ EffectType describe_effect(std::string_view id) {
             std::any_cast<E>(&effect)->apply(series, noise);
           },
           acts_sample_by_sample<E>,
-          responds<E>};
+          response_of<E>};
 }
 
 }  // namespace gyrostat

@@ -132,14 +132,14 @@ constexpr std::array influences = {&Series::temperature_C,   &Series::rate_ref_d
 
 std::vector<Effect> effects_on_gyro(const Scenario& scenario) {
   std::vector<Effect> ordered;
-  const auto take = [&](Stage stage, bool responses) {
+  const auto take = [&](Stage stage, Response response) {
     for (const auto& effect : scenario.effects)
-      if (effect.stage() == stage && effect.is_response() == responses) ordered.push_back(effect);
+      if (effect.stage() == stage && effect.response() == response) ordered.push_back(effect);
   };
-  take(Stage::noise, false);
-  for (const bool responses : {true, false})
+  take(Stage::noise, Response::none);
+  for (const auto response : {Response::of_element, Response::of_electronics, Response::none})
     for (const auto stage : {Stage::electronics, Stage::conversion, Stage::transport})
-      take(stage, responses);
+      take(stage, response);
   return ordered;
 }
 

@@ -15,4 +15,12 @@ enum class Stage {
   compass,      ///< on heading_deg before its white noise, not yet wrapped to +-180
 };
 
+/// Whether an effect says how the rate is sensed, and where: such effects come before the others of
+/// their stages, to which the rate is what is sensed.
+enum class Response {
+  none,
+  of_element,      ///< before what the electronics make of the rate
+  of_electronics,  ///< stage by stage
+};
+
 }  // namespace gyrostat

@@ -43,7 +43,25 @@ struct Diagnosed<effects::Saturation> {
                          &Limit::below_dps, 0.05 * fastest, 1.02 * fastest));
     all.push_back(shaped(e, Trace::rate, Limit{.of_element = 1.0, .below_dps = never},
                          &Limit::limit_dps, 0.05 * fastest, 1.02 * fastest));
+    if (std::any_of(e.baseline.effects.begin(), e.baseline.effects.end(),
+                    [](const Effect& beside) { return beside.id() == "sensor_bandwidth"; }))
+      for (std::size_t k = 0, behind = all.size(); k < behind; ++k)
+        all.push_back(across_a_filter(all[k]));
     return all;
+  }
+
+  /// With one limit, or with two that may differ, and on the other side of a filter.
+  static std::vector<effects::Saturation> told_otherwise(const effects::Saturation& effect,
+                                                         const Conditions& /*c*/) {
+    auto other_limits = effect;
+    other_limits.below_dps = effect.below_dps > 0.0 ? 0.0 : effect.limit_dps;
+    return {other_limits, across_a_filter(effect), across_a_filter(other_limits)};
+  }
+
+  /// Before a filter of the rate, and not behind it, or the other way about.
+  static effects::Saturation across_a_filter(effects::Saturation effect) {
+    if (effect.of_element > 0.5) effect.of_element = 3.0 - effect.of_element;
+    return effect;
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

@@ -6,6 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <gyrostat/diagnosis/catalogue/saturation.hpp>
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
@@ -41,6 +42,20 @@ std::vector<Guess> likeliest(const std::vector<Guess>& guesses, std::size_t coun
   std::vector<Guess> first;
   for (std::size_t k = 0; k < count; ++k) first.push_back(guesses[ranks[k].second]);
   return first;
+}
+
+/// What a further effect is put beside: to a filter of the rate a limit of the element may also be
+/// on its other side.
+std::vector<Scenario> sides_of(const CauseType& cause, const Scenario& beside) {
+  std::vector<Scenario> sides = {beside};
+  if (cause.id != "sensor_bandwidth") return sides;
+  for (std::size_t k = 0; k < beside.effects.size(); ++k)
+    if (const auto* limit = beside.effects[k].as<effects::Saturation>();
+        limit != nullptr && limit->of_element > 0.5) {
+      sides.push_back(beside);
+      sides.back().effects[k] = Diagnosed<effects::Saturation>::across_a_filter(*limit);
+    }
+  return sides;
 }
 
 }  // namespace
@@ -119,10 +134,11 @@ Standing SetBench::with_started(const Standing& standing, const CauseType& cause
   // line's are its maxima already.
   const bool are_forms = band_of(cause.id) == EffectBand::motion;
   const auto starts = cause.starts(left);
-  std::vector<Standing> fits(starts.size());
-  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t k) {
-    Scenario scenario = standing.scenario;
-    scenario.effects.push_back(starts[k]);
+  const auto sides = sides_of(cause, standing.scenario);
+  std::vector<Standing> fits(sides.size() * starts.size());
+  tbb::parallel_for(std::size_t{0}, fits.size(), [&](std::size_t k) {
+    Scenario scenario = sides[k / starts.size()];
+    scenario.effects.push_back(starts[k % starts.size()]);
     auto tried = refitted(scenario, 6);
     // The walk that stood in for a motion is more than the noise, and a fit may end beside it.
     if (are_forms && tried.score > standing.score + much)

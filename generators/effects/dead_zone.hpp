@@ -47,7 +47,7 @@ struct DeadZone {
 
   static constexpr DeadZone absent() { return {.half_width_dps = 0.0}; }
 
-  bool is_response() const { return of_output < 0.5; }
+  Response response() const { return of_output < 0.5 ? Response::of_electronics : Response::none; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {

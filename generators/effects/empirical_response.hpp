@@ -47,7 +47,7 @@ struct EmpiricalResponse {
     return {.weight_4 = 0.0, .weight_5 = 0.0, .weight_6 = 0.0};
   }
 
-  bool is_response() const { return true; }
+  Response response() const { return Response::of_electronics; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
     const std::array weights{weight_1, weight_2, weight_3, weight_4, weight_5,

@@ -30,8 +30,9 @@ struct Saturation {
     using P = Saturation;
     return std::array{
         Field{"limit_dps", &P::limit_dps, "dps", ranges::positive, "largest output"},
-        Field{"of_element", &P::of_element, "1", Range{.from = 0, .to = 1, .whole = true},
-              "1: the rate is clipped, and noise comes after; 0: the output is"},
+        Field{"of_element", &P::of_element, "1", Range{.from = 0, .to = 2, .whole = true},
+              "1: the rate is clipped, and noise comes after; 2: before a filter of the rate, too; "
+              "0: the output is"},
         Field{"knee", &P::knee, "1", Range{.from = 0, .to = 1},
               "of the limit, before and beyond it, over which it bends; 0: at once"},
         Field{"below_dps", &P::below_dps, "dps", ranges::non_negative,
@@ -41,7 +42,10 @@ struct Saturation {
 
   static constexpr Saturation absent() { return {.limit_dps = 1e9}; }
 
-  bool is_response() const { return of_element >= 0.5; }
+  Response response() const {
+    if (of_element < 0.5) return Response::none;
+    return of_element < 1.5 ? Response::of_electronics : Response::of_element;
+  }
 
   void apply(Series& series, const Noise& /*noise*/) const {
     if (of_element < 0.5) {

@@ -72,7 +72,7 @@ struct SensorBandwidth {
 
   static constexpr SensorBandwidth absent() { return {.cutoff_hz = 1e9}; }
 
-  bool is_response() const { return true; }
+  Response response() const { return Response::of_electronics; }
 
   void apply(Series& series, const Noise& /*noise*/) const {
     const std::size_t samples = samples_with(series, needs);

@@ -47,7 +47,7 @@ struct TimeOffset {
 
   static constexpr TimeOffset absent() { return {.offset_s = 0.0}; }
 
-  bool is_response() const { return true; }
+  Response response() const { return Response::of_electronics; }
 
   /// At sample i.
   double late_s(const std::vector<double>& t_s, std::size_t i) const {

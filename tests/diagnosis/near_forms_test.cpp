@@ -176,6 +176,24 @@ TEST(NearForms, ALimitOnOneSideIsOneEffect) {
   EXPECT_NEAR(limit.below_dps, 76.0, 5.0 * 0.05 / std::sqrt(1440.0));
 }
 
+/// Of the element, before its filter or behind it: in the other order a shift, a knee and telegraph
+/// noise stood in for what the filter makes of a limit.
+TEST(NearForms, ALimitStandsOnItsOwnSideOfAFilter) {
+  Scenario s = moving(0.5 * ten_minutes_s);
+  for (const double of_element : {1.0, 2.0}) {
+    s.effects = {
+        effects::Saturation{.limit_dps = 64.75, .of_element = of_element, .below_dps = 65.25},
+        effects::SensorBandwidth{.cutoff_hz = 1.0}};
+    const Found found(recorded(s, 31, true));
+    ASSERT_EQ(found.names(), (std::set<std::string>{"saturation", "sensor_bandwidth"}));
+    for (const auto& effect : found.set.scenario.effects)
+      if (const auto* limit = effect.as<effects::Saturation>()) {
+        EXPECT_EQ(limit->of_element, of_element);
+        EXPECT_NEAR(limit->below_dps - limit->limit_dps, 0.5, 0.05) << limit->knee;
+      }
+  }
+}
+
 /// What lags by a fiftieth of a sample is late by as much: no recording tells them apart, and both
 /// are in the answer.
 TEST(NearForms, ALagFarBelowASampleMayBeAShift) {

@@ -4,8 +4,10 @@
 #include <gyrostat/generators/environment/temperature/list.hpp>
 #include <gyrostat/generators/scenario.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -262,6 +264,39 @@ TEST(SynthesiseUnder, KeepsTheGapsAndFlagsOfTheRecording) {
   // The missing temperature is held.
   EXPECT_NEAR(series.thermal_bias_dps[7] - series.thermal_bias_dps[6],
               -0.3 * (series.temperature_C[6] - series.temperature_C[5]) / 0.05, 1e-12);
+}
+
+/// A rate turns fast enough to be cut for half of the time, and a filter rounds the corners of the
+/// cut; cut behind the filter, it has them. The order of the effects says nothing.
+TEST(Synthesise, CutsTheRateOnItsOwnSideOfAFilter) {
+  const Effect filter = effects::SensorBandwidth{.cutoff_hz = 0.3};
+  Scenario scenario;
+  scenario.sampling = {.duration_s = 60.0, .rate_hz = 20.0};
+  scenario.motion = motion::Sinusoidal{10.0 * std::sqrt(2.0), 0.5};
+  scenario.random_error = {
+      .phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.0};
+  scenario.thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = 0.0};
+  const auto sensed = [&](std::vector<Effect> effects) {
+    scenario.effects = std::move(effects);
+    return synthesised(scenario).gyro_dps;
+  };
+  auto cut_then_filtered = synthesised(scenario);
+  for (double& rate : cut_then_filtered.rate_ref_dps) rate = std::clamp(rate, -10.0, 10.0);
+  cut_then_filtered.gyro_dps = cut_then_filtered.rate_ref_dps;
+  filter.apply(cut_then_filtered, {1, 0});
+  auto filtered_then_cut = sensed({filter});
+  for (double& rate : filtered_then_cut) rate = std::clamp(rate, -5.0, 5.0);
+
+  const Effect before = effects::Saturation{.limit_dps = 10.0, .of_element = 2.0};
+  const Effect behind = effects::Saturation{.limit_dps = 5.0, .of_element = 1.0};
+  for (const bool filter_is_first : {true, false}) {
+    const auto one = filter_is_first ? sensed({filter, before}) : sensed({before, filter});
+    const auto other = filter_is_first ? sensed({filter, behind}) : sensed({behind, filter});
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      EXPECT_NEAR(one[i], cut_then_filtered.gyro_dps[i], 1e-12) << i;
+      EXPECT_NEAR(other[i], filtered_then_cut[i], 1e-12) << i;
+    }
+  }
 }
 
 TEST(SynthesiseUnder, IgnoresTheScenariosDisturbances) {
