@@ -1,14 +1,46 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include <gyrostat/diagnosis/catalogue/sensor_bandwidth.hpp>
 #include <gyrostat/diagnosis/likelihood/arima_law.hpp>
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
+#include <gyrostat/generators/effects/time_offset.hpp>
 
 namespace gyrostat::gap {
+namespace {
+
+/// Where of a filter and a shift one goes, the other as late as both were.
+std::optional<Scenario> as_late_alone(const Effect& gone, Scenario rest) {
+  using Filtered = Diagnosed<effects::SensorBandwidth>;
+  for (auto& effect : rest.effects) {
+    const auto* filter = gone.as<effects::SensorBandwidth>();
+    const auto* shift = gone.as<effects::TimeOffset>();
+    if (const auto* stays = effect.as<effects::TimeOffset>();
+        stays != nullptr && filter != nullptr) {
+      auto late = *stays;
+      late.offset_s += Filtered::delay_s_of(*filter);
+      effect = late;
+      return rest;
+    }
+    if (const auto* stays = effect.as<effects::SensorBandwidth>();
+        stays != nullptr && shift != nullptr) {
+      const double delay_s = Filtered::delay_s_of(*stays);
+      if (!(delay_s > 0.0) || !(delay_s + shift->offset_s > 0.0)) return std::nullopt;
+      auto late = *stays;
+      late.cutoff_hz *= delay_s / (delay_s + shift->offset_s);
+      effect = late;
+      return rest;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 Standing SetBench::without(const Standing& standing, std::size_t effect) const {
   Scenario rest = standing.scenario;
@@ -21,6 +53,8 @@ Standing SetBench::without(const Standing& standing, std::size_t effect) const {
   const double small =
       0.1 * beside.slow_std_dps() / std::sqrt(static_cast<double>(conditions_.cluster()));
   Standing best = refitted(rest);
+  if (const auto late = as_late_alone(standing.scenario.effects[effect], rest))
+    if (auto other = refitted(*late); other.score > best.score) best = std::move(other);
   // How far it falls short of the whole is of interest when it is little.
   constexpr double little = 30.0;
   const double to_reach = standing.score - little;
