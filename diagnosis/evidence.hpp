@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include <gyrostat/diagnosis/simulator.hpp>
@@ -27,6 +28,10 @@ struct Evidence {
   double nyquist_hz = std::numeric_limits<double>::infinity();
 
   const Conditions& conditions() const { return simulator.conditions(); }
+  bool is_filtered() const {
+    return std::any_of(baseline.effects.begin(), baseline.effects.end(),
+                       [](const Effect& effect) { return effect.id() == "sensor_bandwidth"; });
+  }
 };
 
 }  // namespace gyrostat::gap

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/fitted_signature.hpp>
@@ -49,7 +52,21 @@ struct Diagnosed<effects::DeadZone> {
         zone = shaped(e, Trace::rate, zone, side, zone.*side / near, zone.*side * near);
       found.push_back(zone);
     }
+    if (e.is_filtered())
+      for (std::size_t k = 0, behind = found.size(); k < behind; ++k)
+        found.push_back(across_a_filter(found[k]));
     return found;
+  }
+
+  static std::vector<effects::DeadZone> told_otherwise(const effects::DeadZone& effect,
+                                                       const Conditions& /*c*/) {
+    return {across_a_filter(effect)};
+  }
+
+  /// Before a filter of the rate, and not behind it, or the other way about.
+  static effects::DeadZone across_a_filter(effects::DeadZone effect) {
+    if (effect.of_output < 0.5) effect.of_element = 1.0 - effect.of_element;
+    return effect;
   }
 
   static std::string why_not_assessable(const Conditions& c) { return needs::motion(c); }

@@ -43,8 +43,7 @@ struct Diagnosed<effects::Saturation> {
                          &Limit::below_dps, 0.05 * fastest, 1.02 * fastest));
     all.push_back(shaped(e, Trace::rate, Limit{.of_element = 1.0, .below_dps = never},
                          &Limit::limit_dps, 0.05 * fastest, 1.02 * fastest));
-    if (std::any_of(e.baseline.effects.begin(), e.baseline.effects.end(),
-                    [](const Effect& beside) { return beside.id() == "sensor_bandwidth"; }))
+    if (e.is_filtered())
       for (std::size_t k = 0, behind = all.size(); k < behind; ++k)
         all.push_back(across_a_filter(all[k]));
     return all;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include <tbb/parallel_for.h>
 
+#include <gyrostat/diagnosis/catalogue/dead_zone.hpp>
 #include <gyrostat/diagnosis/catalogue/saturation.hpp>
 #include <gyrostat/diagnosis/likelihood/beside.hpp>
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
@@ -44,17 +46,21 @@ std::vector<Guess> likeliest(const std::vector<Guess>& guesses, std::size_t coun
   return first;
 }
 
-/// What a further effect is put beside: to a filter of the rate a limit of the element may also be
-/// on its other side.
+/// What a further effect is put beside: to a filter of the rate a limit of the element or a dead
+/// zone may also be on its other side.
 std::vector<Scenario> sides_of(const CauseType& cause, const Scenario& beside) {
   std::vector<Scenario> sides = {beside};
   if (cause.id != "sensor_bandwidth") return sides;
-  for (std::size_t k = 0; k < beside.effects.size(); ++k)
-    if (const auto* limit = beside.effects[k].as<effects::Saturation>();
-        limit != nullptr && limit->of_element > 0.5) {
-      sides.push_back(beside);
-      sides.back().effects[k] = Diagnosed<effects::Saturation>::across_a_filter(*limit);
-    }
+  const auto put_across = [&](std::size_t k, const auto& effect) {
+    using E = std::decay_t<decltype(effect)>;
+    if (effect.response() == Response::none) return;
+    sides.push_back(beside);
+    sides.back().effects[k] = Diagnosed<E>::across_a_filter(effect);
+  };
+  for (std::size_t k = 0; k < beside.effects.size(); ++k) {
+    if (const auto* limit = beside.effects[k].as<effects::Saturation>()) put_across(k, *limit);
+    if (const auto* zone = beside.effects[k].as<effects::DeadZone>()) put_across(k, *zone);
+  }
   return sides;
 }
 

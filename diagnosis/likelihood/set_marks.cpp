@@ -168,7 +168,8 @@ void SetSearcher::put_in_order(FoundSet& found) {
   // analogue.
   const auto rank = [&](std::size_t k) {
     if (effects[k].id() == "angle_quantization") return 0;
-    return effects[k].id() == "dead_zone" ? 2 : 1;
+    const auto* zone = effects[k].as<effects::DeadZone>();
+    return zone != nullptr && zone->response() == Response::none ? 2 : 1;
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
@@ -185,17 +186,21 @@ void SetSearcher::put_in_order(FoundSet& found) {
 /// There noise decides whether a sample is written as 0.
 std::vector<char> SetSearcher::edges_of_the_dead_zone(const Scenario& scenario) const {
   constexpr double reach = 5.0;  // standard deviations
-  const auto& reference = conditions_.series().rate_ref_dps;
   std::vector<char> edges(recording_.size(), 0);
   for (const auto& effect : scenario.effects) {
-    if (effect.id() != "dead_zone" || reference.empty()) continue;
+    if (effect.id() != "dead_zone" || conditions_.series().rate_ref_dps.empty()) continue;
     const auto& zone = *effect.as<effects::DeadZone>();
+    Scenario before = scenario;
+    std::erase_if(before.effects, [&](const Effect& other) {
+      return other.id() == "dead_zone" || zone.response() == Response::of_element;
+    });
+    const auto sensed = bench_.sensed_rate(before);
     const double near = reach * white_with_rounding(scenario);
     if (near > std::min(zone.half_width_at(1.0), zone.half_width_at(-1.0)))
       continue;  // nothing would be left of it
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      const double edge = zone.half_width_at(reference[i]);
-      if (std::abs(std::abs(reference[i]) - edge) < near) edges[i] = 1;
+      const double edge = zone.half_width_at(sensed[i]);
+      if (std::abs(std::abs(sensed[i]) - edge) < near) edges[i] = 1;
     }
   }
   return edges;

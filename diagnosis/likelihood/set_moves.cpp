@@ -173,8 +173,9 @@ Standing SetSearcher::settled(Standing standing) const {
   for (std::size_t k = 0; k < standing.scenario.effects.size(); ++k) {
     const auto id = standing.scenario.effects[k].id();
     const bool is_last = k + 1 == standing.scenario.effects.size();
-    if (band == EffectBand::motion ? (is_of_response(id) || id == "saturation") && !is_last
-                                   : band == EffectBand::fast && is_noise_filter(id))
+    if (band == EffectBand::motion
+            ? (is_of_response(id) || id == "saturation" || id == "dead_zone") && !is_last
+            : band == EffectBand::fast && is_noise_filter(id))
       standing = bench_.told_otherwise(standing, k);
   }
   return standing;

@@ -45,6 +45,8 @@ void SetSearcher::place_threshold(FoundSet& found) const {
   const double white = white_with_rounding(found.scenario);
   constexpr double clear = 3.0, outlying = 8.0;
   if (zone.of_output > 0.5 || zone.dither > 0.0 || jump_dps < clear * white) return;
+  // What a filter makes of the jump has no edge.
+  if (zone.response() == Response::of_element && has(found.scenario, "sensor_bandwidth")) return;
 
   Scenario nowhere = found.scenario, everywhere = found.scenario;
   const auto at = place - effects.begin();

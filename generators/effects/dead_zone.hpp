@@ -23,9 +23,10 @@ struct DeadZone {
   double of_output = 0.0;
   double dither = 0.0;
   double below_dps = 0.0;
+  double of_element = 0.0;
 
   static constexpr std::string_view title = "small rates are not sensed";
-  static constexpr Stage stage = Stage::electronics;
+  static constexpr Stage stage = Stage::conversion;
   static constexpr bool sample_by_sample = true;
   static constexpr std::array needs = {&Series::gyro_dps, &Series::rate_ref_dps};
 
@@ -42,12 +43,17 @@ struct DeadZone {
               "standard deviation of what moves the element besides, over the half width"},
         Field{"below_dps", &P::below_dps, "dps", ranges::non_negative,
               "half width below zero; 0: as above"},
+        Field{"of_element", &P::of_element, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: of the rate before a filter; 0: behind it"},
     };
   }
 
   static constexpr DeadZone absent() { return {.half_width_dps = 0.0}; }
 
-  Response response() const { return of_output < 0.5 ? Response::of_electronics : Response::none; }
+  Response response() const {
+    if (of_output > 0.5) return Response::none;
+    return of_element > 0.5 ? Response::of_element : Response::of_electronics;
+  }
 
   void apply(Series& series, const Noise& /*noise*/) const {
     for (std::size_t i = 0, n = samples_with(series, needs); i < n; ++i) {
