@@ -68,10 +68,11 @@ FoundSet SetSearcher::run() {
   begun_ = bench_.beside_noise(marked);
   // Rounding to more than the noise is no longer noise, unless a motion dithers it.
   constexpr double coarsest = 2.2;
-  const double lsb_of_noise =
-      marks_.lsb_dps / (marks_.level_on_grid_dps ? marks_.white_under_grid_dps
-                                                 : noise_on_grid(begun_.scenario, marks_));
-  is_coarse_ = lsb_of_noise > coarsest && !marks_.turns_through_grid;
+  const double widest_cell_dps = (is_cut_off_ ? 2.0 : 1.0) * marks_.lsb_dps;
+  const double cell_of_noise =
+      widest_cell_dps / (marks_.level_on_grid_dps ? marks_.white_under_grid_dps
+                                                  : noise_on_grid(begun_.scenario, marks_));
+  is_coarse_ = cell_of_noise > coarsest && !marks_.turns_through_grid;
   constexpr double least_told = 0.1;
   const bool is_drawn =
       is_coarse_ && bench_.is_allowed("quantization") &&
@@ -97,8 +98,8 @@ FoundSet SetSearcher::run() {
   } else if (is_coarse_)
     feigned_ = {.warmth = 1e300, .tails = 1e300};
   else if (!marks_.turns_through_grid) {
-    feigned_ = feigned_by_grid(lsb_of_noise);
-    undithered_lsb_dps_ = marks_.lsb_dps;
+    feigned_ = feigned_by_grid(cell_of_noise);
+    undithered_lsb_dps_ = widest_cell_dps;
   }
   if (is_coarse_)
     std::erase_if(candidates_, [](const auto* cause) {

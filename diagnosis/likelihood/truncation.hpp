@@ -7,8 +7,8 @@
 namespace gyrostat::gap {
 
 /// Whether values on a grid through zero were cut off towards zero, as a cast to an integer does:
-/// 0 then stands for two steps, and every other value for one. Of stretches whose values are normal
-/// the train part is likelier so, and the shares of values next to zero are as they should be.
+/// 0 then stands for two steps, and every other value for one. Told from the counts of values next
+/// to zero over the stretches of the train part.
 bool is_cut_off(const Conditions& conditions, const std::vector<double>& gyro_dps, double lsb_dps);
 
 /// Such values as the middles of what was cut off: a grid that is rounded to, half a step beside
