@@ -3,21 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <gyrostat/diagnosis/likelihood/noise_law.hpp>
+#include <gyrostat/diagnosis/likelihood/noise_about_level.hpp>
 
 namespace gyrostat::gap {
-
-/// Noise about a level that walks, a sample at a time.
-struct NoiseAboutLevel {
-  std::vector<double>
-      coefficients;         ///< of the noise as an autoregression: A(z) = 1 + a_1 / z + ...
-  double innovation = 0.0;  ///< variance of what drives it, dps²
-  double walk = 0.0;        ///< variance of a step of the level, dps²
-};
-
-/// A law but for its rounding: what lasts for less than half of `cluster_s` as an autoregression,
-/// the rest as the walk that stands out from it at as fast a frequency.
-NoiseAboutLevel noise_about_level(NoiseLaw law, const Angles& angles, double cluster_s);
 
 /// How many of the values that a grid has rounded, beside what is known of them, are not the one
 /// that most of those about them are: what they say of anything but their level.
@@ -34,7 +22,7 @@ class BeforeRounding {
  public:
   enum class Cells { alike, twice_as_wide_at_zero };
   /// Of `rounded_dps`, the middles of their cells, a value a sample, those that are missing or
-  /// `unknown` (a flag a sample) say nothing.
+  /// `unknown` (a flag a sample) say nothing. Either half of a wide cell stands for all of it.
   BeforeRounding(std::vector<double> rounded_dps, const std::vector<char>& unknown, double lsb_dps,
                  Cells cells = Cells::alike);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -14,28 +15,43 @@ constexpr int reach = reach_of_zero;
 constexpr std::size_t values_near = 2 * reach + 1;
 using Shares = CountsNearZero;
 
-/// Normal, but for a share of wider values; in steps.
+/// Normal, but for a share of wider values, or about a sine; in steps.
 struct Noise {
   double deviation, wide_share = 0.0, times_wider = 1.0;
+  double sine = 0.0;  // amplitude
 
   double below(double high, double level) const {
-    return (1.0 - wide_share) * gap::below(high, level, deviation) +
-           wide_share * gap::below(high, level, times_wider * deviation);
+    if (sine == 0.0)
+      return (1.0 - wide_share) * gap::below(high, level, deviation) +
+             wide_share * gap::below(high, level, times_wider * deviation);
+    constexpr int phases = 8;  // Chebyshev's nodes
+    double sum = 0.0;
+    for (int k = 0; k < phases; ++k)
+      sum += gap::below(high, level + sine * std::cos(std::numbers::pi * (k + 0.5) / phases),
+                        deviation);
+    return sum / phases;
   }
 };
+
+/// Of the cell of k, in steps; what is cut off leaves none between -1 and 1 but that of zero.
+double edge_below(int k, bool cut_off) {
+  if (!cut_off) return k - 0.5;
+  return k > 0 ? k : k - 1;
+}
 
 /// What the values near zero are at every level, under one noise.
 class Laws {
  public:
   Laws(const Noise& noise, bool cut_off) {
-    constexpr double farthest = 4.0, apart = 0.125;
+    constexpr double farthest = 8.0, least_apart = 0.125;
+    const double apart = std::max(least_apart, 0.25 * noise.deviation);
     for (double level = -farthest; level <= farthest; level += apart) {
       Shares shares;
+      double below = noise.below(edge_below(-reach, cut_off), level);
       for (int k = -reach; k <= reach; ++k) {
-        const double low = cut_off ? (k > 0 ? k : k - 1) : k - 0.5;
-        const double high = cut_off ? (k < 0 ? k : k + 1) : k + 0.5;
-        shares[static_cast<std::size_t>(k + reach)] =
-            std::max(noise.below(high, level) - noise.below(low, level), 1e-12);
+        const double next = noise.below(edge_below(k + 1, cut_off), level);
+        shares[static_cast<std::size_t>(k + reach)] = std::max(next - below, 1e-12);
+        below = next;
       }
       const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
       for (double& share : shares) share /= all;
@@ -95,7 +111,7 @@ class Foretold {
   Shares observed_{}, expected_{};
 };
 
-/// Every stretch has a level of its own, all have one noise, whose tails may be heavy.
+/// Every stretch has a level of its own, all have one noise, with heavy tails or a sine.
 Foretold foretold(const std::vector<Shares>& stretches, bool cut_off) {
   constexpr double narrowest = 0.125, widest = 16.0, wider = 1.19;
   std::vector<Noise> noises;
@@ -104,6 +120,8 @@ Foretold foretold(const std::vector<Shares>& stretches, bool cut_off) {
     for (const double wide_share : {0.003, 0.01, 0.03, 0.1})
       for (const double times_wider : {2.0, 3.0, 6.0})
         noises.push_back({deviation, wide_share, times_wider});
+    for (const double sine : {1.0, 1.5, 2.0, 3.0})
+      noises.push_back({.deviation = deviation, .sine = sine * deviation});
   }
   std::optional<Foretold> best;
   for (const auto& law : laws_of(noises, cut_off)) {
@@ -122,11 +140,11 @@ bool are_cut_off(std::vector<CountsNearZero> stretches) {
   });
   // Of three values tails say as much as the width of zero does, where levels hardly move.
   constexpr double clear_nats = 20.0, nats_of_stretch = 1.0;
-  constexpr double nearly_all = 0.1;
+  constexpr double most_of_it = 0.2;
   const Foretold rounded = foretold(stretches, false), cut_off = foretold(stretches, true);
   return cut_off.log_likelihood() > rounded.log_likelihood() + clear_nats +
                                         nats_of_stretch * static_cast<double>(stretches.size()) &&
-         cut_off.chi_squared() < nearly_all * rounded.chi_squared();
+         cut_off.chi_squared() < most_of_it * rounded.chi_squared();
 }
 
 }  // namespace gyrostat::gap

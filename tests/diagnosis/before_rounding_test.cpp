@@ -1,5 +1,6 @@
 #include <gyrostat/diagnosis/likelihood/before_rounding.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -67,14 +68,19 @@ TEST(BeforeRounding, DrawsLieInTheirCells) {
 
 /// What is cut off towards zero comes there from both sides.
 TEST(BeforeRounding, TheCellAtZeroIsTwiceAsWideWhereValuesAreCutOff) {
-  const std::vector<double> values(2000, 0.0);
-  const std::vector<char> unknown(values.size(), 0);
-  BeforeRounding before(values, unknown, lsb, BeforeRounding::Cells::twice_as_wide_at_zero);
-  before.draw({.coefficients = {}, .innovation = lsb * lsb, .walk = 0.0}, values, 3);
-  double most = 0.0;
-  for (const double value : before.rate_dps()) most = std::max(most, std::abs(value));
-  EXPECT_GT(most, 0.9 * lsb);
-  EXPECT_LE(most, lsb);
+  // Half a step beside zero, which `middles_of_cut_off` makes of a zero, is the same cell.
+  for (const double middle : {0.0, 0.5 * lsb}) {
+    const std::vector<double> values(2000, middle), known(values.size(), 0.0);
+    BeforeRounding before(values, std::vector<char>(values.size(), 0), lsb,
+                          BeforeRounding::Cells::twice_as_wide_at_zero);
+    before.draw({.coefficients = {}, .innovation = lsb * lsb, .walk = 0.0}, known, 3);
+    const auto [least, most] =
+        std::minmax_element(before.rate_dps().begin(), before.rate_dps().end());
+    EXPECT_GT(*most, 0.9 * lsb);
+    EXPECT_LE(*most, lsb);
+    EXPECT_LT(*least, -0.9 * lsb);
+    EXPECT_GE(*least, -lsb);
+  }
 }
 
 /// Draws from the law that the noise has, given what it was rounded to, have on average the noise's
