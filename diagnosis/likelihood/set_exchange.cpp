@@ -108,9 +108,9 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
                                   std::string(effect.id()), ahead});
       }
       // From other parameters, what the others are worth beside it is as before.
-      constexpr double little = 3.0;
-      if (!is_bare && best != &called && is_the_same(*best) && best->score > standing.score &&
-          best->score < standing.score + little) {
+      constexpr double more = 0.1, little = 3.0;
+      if (!is_bare && best != &called && is_the_same(*best) &&
+          best->score > standing.score + more && best->score < standing.score + little) {
         standing = *best;
         auto& effects = standing.scenario.effects;
         std::rotate(effects.begin() + static_cast<std::ptrdiff_t>(k), effects.end() - 1,
@@ -118,9 +118,9 @@ Standing SetSearcher::exchanged(Standing standing, FoundSet& found) {
         standing.fit.scenario.effects = effects;
         best = &called;
       }
-      const bool is_better = best->score > standing.score + 0.1;
+      const bool is_better = best->score > standing.score + more;
       if (const auto* curve = is_better ? nullptr : curve_for(standing, effect, others)) {
-        if (auto several = searched(*curve); several.score > standing.score + 0.1) {
+        if (auto several = searched(*curve); several.score > standing.score + more) {
           standing = std::move(several);
           swapped = ++exchanges < 2 * options_.most_effects;
           break;
