@@ -60,6 +60,10 @@ KeptApart kept_apart_by_motion(const Conditions& conditions, const std::vector<d
     apart.pairs += 1.0;
     apart.still += std::abs(step) <= far ? 1.0 : 0.0;
     apart.equal += step == 0.0 ? 1.0 : 0.0;
+    if (step == 0.0 && std::abs(reference[i - 1] - reference[i - 2]) > far) {
+      apart.in_a_row += 1.0;
+      apart.both_equal += z[i - 1] == z[i - 2] ? 1.0 : 0.0;
+    }
     if (step != 0.0 && std::abs(step) < (beside + 0.5) * grid)
       (step * turned < 0.0 ? back : forth) += 1.0;
   });

@@ -12,7 +12,8 @@ namespace gyrostat::gap {
 /// the motion falls on one side alone.
 struct KeptApart {
   double pairs = 0.0, still = 0.0, equal = 0.0, by_chance = 0.0;
-  double far_dps = 0.0;  ///< what neither undoes
+  double in_a_row = 0.0, both_equal = 0.0;  ///< equal ones behind another such pair; that is equal
+  double far_dps = 0.0;                     ///< what neither undoes
   double spread_dps = 0.0, grid_dps = 0.0;
   /// From which step of the reference on equal neighbours may well be repeated, as this share of
   /// samples is: at odds of a tenth against being rounded to the same value of a grid. What is

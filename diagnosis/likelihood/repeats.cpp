@@ -104,8 +104,12 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
     return;
   // Where a fresh sample follows each repeat, only those by chance stand beside others, by as much
   // again as without repeats at the most.
-  const double follow = twice / std::max(equal, 1.0);
-  const double chance = std::max(0.0, equal - beyond) / std::max(count, 1.0);
+  constexpr double enough_repeats = 20.0;
+  const bool are_apart = apart.in_a_row >= enough_repeats;
+  const double follow =
+      are_apart ? apart.both_equal / apart.in_a_row : twice / std::max(equal, 1.0);
+  const double chance = are_apart ? apart.by_chance / apart.pairs
+                                  : std::max(0.0, equal - beyond) / std::max(count, 1.0);
   marks.stale_run = follow > 2.0 * chance ? 1.0 / (1.0 - std::min(follow - chance, 0.95)) : 1.0;
   const double repeated = std::clamp(beyond / count, 1e-6, 0.99);
   marks.stale_probability = std::min(1.0, repeated / (marks.stale_run * (1.0 - repeated)));

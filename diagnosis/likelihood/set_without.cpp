@@ -88,12 +88,14 @@ Standing SetBench::told_otherwise(const Standing& standing, std::size_t effect,
   const auto& told = standing.scenario.effects[effect];
   const auto& cause = cause_types().named(told.id(), "effects");
   if (cause.told_otherwise == nullptr || is_given(told.id())) return standing;
+  // Where nothing shows the form, it stays: a fit that goes on from elsewhere ends a little higher.
+  constexpr double clearly = 1.0;
   Standing best = standing;
   for (const auto& other : cause.told_otherwise(told, conditions_)) {
     Scenario scenario = standing.scenario;
     scenario.effects[effect] = other;
     if (auto fit = polished(refitted(scenario), std::max(best.score, to_reach));
-        fit.score > best.score)
+        fit.score > std::max(best.score, standing.score + clearly))
       best = std::move(fit);
   }
   return best;

@@ -62,6 +62,20 @@ TEST_P(LateResponse, OfAShiftAndAFilterIsBoth) {
   EXPECT_NEAR(only<effects::SensorBandwidth>(found).cutoff_hz, 3.0, 0.15);
 }
 
+/// Where a table has jumped between two samples, a cubic and a straight line are two recordings;
+/// with those samples hidden, as they are while a scale is looked for, they are one.
+TEST(LateShift, OfATableThatJumpsKeepsItsForm) {
+  Scenario s = still();
+  s.motion = motion::RateTable{60.0, 24.0};
+  s.effects = {effects::TimeOffset{.offset_s = 0.1 / s.sampling.rate_hz},
+               effects::ScaleTemperature{.scale_per_C = 1e-4, .reference_C = 40.0}};
+  const auto series = recorded(s, 44, true);
+  const Simulator simulator(series, 1);
+  const auto found = find_set(simulator, series, {});
+  ASSERT_EQ(names_of(found), (std::set<std::string>{"scale_temperature", "time_offset"}));
+  EXPECT_EQ(only<effects::TimeOffset>(found).straight, 0.0);
+}
+
 /// A sine is late by a filter as by a shift, and as likely by either but for some nats: which of
 /// the two was fitted further does not tell. Nothing that was tried in a member's place is likelier
 /// than what stands.

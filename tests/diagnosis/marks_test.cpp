@@ -176,6 +176,23 @@ TEST(Marks, RepeatsMayFollowOneAnother) {
   EXPECT_LT(marks_in(even).stale_run, 1.01);
 }
 
+/// Where a motion is slow a grid makes neighbours equal, in rows: how long repeats last shows where
+/// it is fast. None of some 500 is followed by another: were one in a hundred, it were 1 in 150.
+TEST(Marks, NeighboursThatAGridMakesEqualAreNoLongerRepeats) {
+  const auto slow_and_fast = [](double t_s) { return 60.0 * std::sin(0.5 * t_s); };
+  auto series = turned(70, slow_and_fast);
+  constexpr double lsb_dps = 0.1;
+  for (double& z : series.gyro_dps) z = lsb_dps * std::nearbyint(z / lsb_dps);
+  const auto fresh = series.gyro_dps;
+  const NormalStream stream(1, 0, "stale");
+  std::size_t last = 0;
+  for (std::size_t i = 2; i < fresh.size(); ++i)
+    if (stream.uniform(i) < 0.05 && last + 1 < i) series.gyro_dps[i] = fresh[(last = i) - 1];
+  const auto marks = marks_in(series);
+  EXPECT_GT(marks.stale_probability, 0.04);
+  EXPECT_LT(marks.stale_run, 1.02);
+}
+
 /// A buffer of two places whose other one is sent: outliers and lines stood in for these.
 TEST(Marks, AnOlderValueThanTheLastIsARepeat) {
   Scenario s = still();
