@@ -112,6 +112,7 @@ class Foretold {
   Shares observed_{}, expected_{};
 };
 
+/// Of the noises that are tried.
 enum class Shape { normal, any };
 
 /// Every stretch has a level of its own, all have one noise, which may have heavy tails or a sine.
@@ -145,7 +146,7 @@ bool are_cut_off(std::vector<CountsNearZero> stretches) {
   const auto both = [&](Shape shape) {
     return std::pair(foretold(stretches, false, shape), foretold(stretches, true, shape));
   };
-  // A wide zero shows under a normal law, too, which most grids are soon asked by.
+  // A wide zero shows under normal laws, too; they are few.
   if (const auto [rounded, cut_off] = both(Shape::normal);
       cut_off.log_likelihood() <= rounded.log_likelihood())
     return false;
