@@ -88,6 +88,9 @@ RateGrid::RateGrid(const Conditions& conditions, std::vector<char> masked)
     const double mean = mean_gain(angle, m);
     const double weight = k == 0 || k == bins - 1 ? 0.5 : 1.0;
     of_a_mean_.push_back(weight * mean * mean * resolution_hz_);
+    for (std::size_t lag = 0; lag < of_neighbours_.size(); ++lag)
+      of_neighbours_[lag].push_back(of_a_mean_.back() *
+                                    std::cos(static_cast<double>(lag + 1) * m * angle));
   }
   const double lowest_hz = 0.5 / conditions.slow_interval_s();
   first_fast_bin_ =
@@ -134,6 +137,14 @@ double RateGrid::variance_of_a_mean(const std::vector<double>& density) const {
     return std::inner_product(of.begin(), of.end(), of_a_mean_.begin(), 0.0);
   };
   return comes_evenly_ ? sum(masked_density(density)) / (kept_ * kept_) : sum(density);
+}
+
+std::array<double, 2> RateGrid::covariances_of_means(const std::vector<double>& density) const {
+  std::array<double, 2> covariances;
+  for (std::size_t lag = 0; lag < covariances.size(); ++lag)
+    covariances[lag] =
+        std::inner_product(density.begin(), density.end(), of_neighbours_[lag].begin(), 0.0);
+  return covariances;
 }
 
 std::vector<double> RateGrid::shown(const std::vector<double>& density) const {

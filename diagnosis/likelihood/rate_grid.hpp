@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <gyrostat/diagnosis/gap/conditions.hpp>
@@ -45,6 +46,8 @@ class RateGrid {
   /// Variance of the mean of a cluster's samples that count, under a density of all; where these do
   /// not come evenly, over what noise that is white has the more of it for being fewer.
   double variance_of_a_mean(const std::vector<double>& density) const;
+  /// Covariances of a mean with the next and with the one after it, where all samples count.
+  std::array<double, 2> covariances_of_means(const std::vector<double>& density) const;
   bool comes_evenly() const { return comes_evenly_; }
   /// What periodograms show of a density: samples that do not count are zeros, others have the
   /// level taken out.
@@ -58,6 +61,7 @@ class RateGrid {
   std::size_t first_fast_bin_;
   /// Share of a density at each bin, times the resolution, that the variance of a mean is.
   std::vector<double> of_a_mean_;
+  std::array<std::vector<double>, 2> of_neighbours_;  ///< the same of their covariances
   /// The covariance whose density is given, of the samples that count.
   std::vector<double> masked_density(std::vector<double> density) const;
 

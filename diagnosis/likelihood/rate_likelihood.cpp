@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace gyrostat::gap {
@@ -41,36 +42,69 @@ Bands bands_of(const NoiseLaw& law, double cluster_s) {
   return bands;
 }
 
-SlowLaw slow_law_of(const ReducedRate& reduced, const NoiseLaw& remembered,
-                    const std::vector<double>& fast_density, double interval_s) {
+/// What noise that is fast shares with the next cluster's, as a decaying error with the covariances
+/// of its mean with the next two; lines are white to means.
+std::optional<SlowLaw::Part> shared_by_means(const RateGrid& grid, const NoiseLaw& fast,
+                                             const std::vector<double>& gain_of_white,
+                                             double cluster_s) {
+  auto [next, after] = grid.covariances_of_means(gain_of_white);
+  const double of_unit_noise = 2.0 * fast.interval_s * fast.white;
+  next *= of_unit_noise;
+  after *= of_unit_noise;
+  for (const auto& d : fast.decaying) {
+    const double u = cluster_s / d.memory_s;
+    const double shared = d.variance * mean_over(u).neighbours;
+    next += shared;
+    after += shared * std::exp(-u);
+  }
+  constexpr double least_decay = 0.05, most_decay = 0.99;
+  if (!(next > 0.0)) return std::nullopt;
+  const double decay = std::clamp(after / next, least_decay, most_decay);
+  return SlowLaw::Part{next / decay, decay};
+}
+
+SlowLaw slow_law_of(const ReducedRate& reduced, const Bands& bands,
+                    const std::vector<double>& fast_density,
+                    const std::vector<double>& gain_of_white, double interval_s) {
+  const auto& remembered = bands.slow;
   SlowLaw slow{.white = 0.0,
                .walk = remembered.walk * interval_s,
                .parts = {},
                .jumps = remembered.jumps,
                .interval_s = interval_s};
   slow.white = reduced.grid().variance_of_a_mean(fast_density) * reduced.noise_of_means();
+  // Where what they share is less than that, means are white.
+  constexpr double least_shared = 0.02;
+  const auto shared = shared_by_means(reduced.grid(), bands.fast, gain_of_white, interval_s);
+  const bool is_shared = shared && shared->variance * shared->decay > least_shared * slow.white;
   // The mean of a walk over its cluster has a sixth of a step's variance less than its end.
   slow.white -= slow.walk / 6.0;
   double at_the_fastest = 0.25 * slow.walk, size = at_the_fastest;
+  const auto add = [&](const SlowLaw::Part& part) {
+    slow.white -= part.variance;
+    const double fastest = part.variance * (1.0 - part.decay) / (1.0 + part.decay);
+    at_the_fastest += fastest;
+    size += std::abs(fastest);
+    slow.parts.push_back(part);
+    return fastest;
+  };
   for (const auto& d : remembered.decaying) {
     // Means over u memories have covariances that fall by exp(-u) from lag to lag, from the first
     // on; that at lag 0 is a little less than where they come from. The white noise of the means
     // takes the difference up.
     const double u = interval_s / d.memory_s;
     const auto mean = mean_over(u);
-    const SlowLaw::Part part{d.variance * mean.neighbours * std::exp(u), std::exp(-u)};
-    slow.white -= part.variance - d.variance * mean.variance;
-    const double fastest = part.variance * (1.0 - part.decay) / (1.0 + part.decay);
-    at_the_fastest += fastest;
-    size += std::abs(fastest);
-    slow.parts.push_back(part);
+    slow.white += d.variance * mean.variance;
+    add({d.variance * mean.neighbours * std::exp(u), std::exp(-u)});
   }
+  const double of_shared = is_shared ? add(*shared) : 0.0;
   // Where the density is least, something must be left of it. Beside a motion that is not yet
   // explained, what passes for a walk is none, and need not be as smooth from mean to mean.
   constexpr double share_left = 0.02, least_beside_motion = 0.05;
   slow.white =
-      std::max(slow.white, reduced.is_beside_motion() ? least_beside_motion * slow.walk
-                                                      : share_left * size - at_the_fastest);
+      std::max(slow.white, reduced.is_beside_motion()
+                               ? least_beside_motion * slow.walk + (share_left - 1.0) * of_shared
+                               : share_left * size - at_the_fastest);
   return slow;
 }
 
@@ -79,8 +113,9 @@ SlowLaw slow_law_of(const ReducedRate& reduced, const NoiseLaw& remembered,
 SlowLaw slow_law(const ReducedRate& reduced, const NoiseLaw& law, std::size_t cluster) {
   const double interval_s = law.interval_s * static_cast<double>(cluster);
   const auto bands = bands_of(law, interval_s);
-  return slow_law_of(reduced, bands.slow, density_of(bands.fast, reduced.grid().angles()),
-                     interval_s);
+  DensityParts parts;
+  const auto density = density_of(bands.fast, reduced.grid().angles(), parts);
+  return slow_law_of(reduced, bands, density, parts.gain_of_white, interval_s);
 }
 
 double fast_ratio(const ReducedRate& reduced, const NoiseLaw& law) {
@@ -97,7 +132,7 @@ RateBands rate_bands(const ReducedRate& reduced, const NoiseLaw& law, DensityPar
   const double interval_s = law.interval_s * std::round(reduced.cluster_s() / law.interval_s);
   const auto bands = bands_of(law, interval_s);
   auto density = density_of(bands.fast, reduced.grid().angles(), near);
-  RateBands found{.slow = slow_law_of(reduced, bands.slow, density, interval_s),
+  RateBands found{.slow = slow_law_of(reduced, bands, density, near.gain_of_white, interval_s),
                   .fast = {},
                   .parts = std::move(near)};
   const auto& seen = reduced.periodogram();
