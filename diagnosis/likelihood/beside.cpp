@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <gyrostat/diagnosis/likelihood/slow_law.hpp>
+#include <gyrostat/diagnosis/starts/spectral_peak.hpp>
 
 namespace gyrostat::gap {
 
 double Beside::slow_std_dps() const {
-  const auto law = slow_law(fitter.reduced(), law_of(fit.scenario, conditions.interval_s()),
-                            conditions.cluster());
+  const auto law = slow_law(fitter.reduced(), law_of(fit.scenario, conditions.interval_s()));
   // Beside a walk that is larger the white noise of means may be less than none.
   return std::sqrt(std::max(law.white, law.walk));
 }
@@ -54,6 +58,45 @@ std::vector<Resonance> Beside::lines() const {
         {1.3 * variance,
          (static_cast<double>(at) + 0.5 * (bins - 1.0)) * reduced.grid().resolution_hz(),
          0.6 * bins * reduced.grid().resolution_hz()});
+  }
+  const auto slow = slow_lines();
+  found.insert(found.end(), slow.begin(), slow.end());
+  return found;
+}
+
+std::vector<Resonance> Beside::slow_lines() const {
+  constexpr std::size_t fewest = 64;
+  const auto slow = fitter.terms(fit.scenario).slow;
+  const std::size_t count = slow.innovations.size();
+  if (count < fewest) return {};
+  const auto& points = fitter.reduced().slow(Part::train).points;
+  std::vector<double> innovations(points.back() + 1, 0.0);
+  double of_one = 0.0;  // variance, dps²
+  for (std::size_t k = 0; k < count; ++k) {
+    innovations[points[k + 1]] = slow.innovations[k];
+    of_one += std::exp(slow.log_variances[k]) / static_cast<double>(count);
+  }
+  const std::size_t bins = innovations.size() / 2;
+  const double interval_s = conditions.slow_interval_s();
+  const double resolution_hz = 1.0 / (interval_s * static_cast<double>(innovations.size()));
+  auto excess = powers_of(innovations, 0, bins);
+  for (double& e : excess) e = e / static_cast<double>(count) - 1.0;
+  std::vector<Resonance> found;
+  for (std::size_t width = 3; 8 * width < bins; width *= 3) {
+    double most = 0.0;
+    std::size_t at = 0;
+    // One that is narrower than its frequency.
+    for (std::size_t k = 2 * width; k + width < bins; ++k) {
+      const auto first = excess.begin() + static_cast<std::ptrdiff_t>(k);
+      const double sum = std::accumulate(first, first + static_cast<std::ptrdiff_t>(width), 0.0);
+      if (sum > most) most = sum, at = k;
+    }
+    const auto in_bins = static_cast<double>(width);
+    if (most < 4.0 * std::sqrt(in_bins)) continue;
+    const double centre_hz = (static_cast<double>(at) + 0.5 * (in_bins - 1.0)) * resolution_hz;
+    const double x = std::numbers::pi * centre_hz * interval_s, of_mean = std::sin(x) / x;
+    found.push_back({1.3 * most / static_cast<double>(bins) * of_one / (of_mean * of_mean),
+                     centre_hz, 0.6 * in_bins * resolution_hz});
   }
   return found;
 }

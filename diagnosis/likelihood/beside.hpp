@@ -19,6 +19,10 @@ struct Beside {
   double middle_temperature_C() const;
   /// Bands that hold more than the set explains, the clearest of each width first.
   std::vector<Resonance> lines() const;
+
+ private:
+  /// Those that cluster means show.
+  std::vector<Resonance> slow_lines() const;
 };
 
 }  // namespace gyrostat::gap

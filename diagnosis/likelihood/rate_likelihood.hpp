@@ -40,7 +40,4 @@ SlowTerms slow_terms(const ReducedRate& reduced, const SlowLaw& law,
 /// none.
 double fast_ratio(const ReducedRate& reduced, const NoiseLaw& law);
 
-/// The law of cluster means under the law of samples.
-SlowLaw slow_law(const ReducedRate& reduced, const NoiseLaw& law, std::size_t cluster);
-
 }  // namespace gyrostat::gap

@@ -52,7 +52,7 @@ SlowTerms gaussian_terms(const SlowLaw& law, std::span<const std::size_t> points
     const double deviation = std::sqrt(recursion.variance());
     for (std::size_t c = 0; c <= columns; ++c) {
       const double value = c == 0 ? values[row] : regressors(row, static_cast<Eigen::Index>(c) - 1);
-      const double innovation = value - estimates[c].expected(recursion.states());
+      const double innovation = value - estimates[c].expected(recursion);
       estimates[c].update(recursion, innovation);
       white(row, static_cast<Eigen::Index>(c)) = innovation / deviation;
     }
@@ -116,7 +116,7 @@ Jumped followed(const SlowLaw& law, std::span<const std::size_t> points,
 template <int N = 1, class Call>
 auto with_room_for(const SlowLaw& law, Call&& call) {
   if constexpr (N <= counted_states) {
-    if (law.parts.size() + 1 == N) return call(std::integral_constant<int, N>{});
+    if (states_of(law) == N) return call(std::integral_constant<int, N>{});
     return with_room_for<N + 1>(law, std::forward<Call>(call));
   } else {
     return call(std::integral_constant<int, most_states>{});

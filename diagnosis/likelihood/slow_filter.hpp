@@ -8,9 +8,9 @@
 
 namespace gyrostat::gap {
 
-/// Cluster means of the rate error as a level that walks, decaying errors and white noise, with
-/// nothing known of where the level began. Variances may be below 0 where those beside them leave
-/// the sum a spectrum: the mean of a strong walk is smoother than a walk.
+/// Cluster means of the rate error as a level that walks, decaying errors, of which some turn, and
+/// white noise, with nothing known of where the level began. Variances may be below 0 where those
+/// beside them leave the sum a spectrum: the mean of a strong walk is smoother than a walk.
 struct SlowLaw {
   double white;  ///< variance of a mean
   double walk;   ///< variance of the level's step from one mean to the next
@@ -19,12 +19,19 @@ struct SlowLaw {
     bool operator==(const Part&) const = default;
   };
   std::vector<Part> parts;
+  /// The real part of a decaying error that turns, by an angle from one mean to the next.
+  struct Turning {
+    double variance, decay, angle;
+    bool operator==(const Turning&) const = default;
+  };
+  std::vector<Turning> turning{};
   std::optional<Jumps> jumps;
   double interval_s = 1.0;
 
   /// The same, but for the white noise.
   bool remembers_as(const SlowLaw& other) const {
-    return walk == other.walk && parts == other.parts && jumps == other.jumps;
+    return walk == other.walk && parts == other.parts && turning == other.turning &&
+           jumps == other.jumps;
   }
 };
 

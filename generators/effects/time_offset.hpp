@@ -72,6 +72,8 @@ struct TimeOffset {
       return (rate[to] - rate[from] + 2.0 * beyond_secant(rate, i, 0, n)) / over_s;
     };
     std::size_t at = 0;  // the last sample that is not after the time asked for
+    std::size_t between = n;
+    double slope_from = 0.0, slope_to = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
       const double then_s = t_s[i] - late_s(t_s, i);
       while (at + 1 < n && t_s[at + 1] <= then_s) ++at;
@@ -81,7 +83,12 @@ struct TimeOffset {
         const double rise = rate[at + 1] - rate[at];
         seen += x * rise;
         if (straight < 0.5) {
-          const double from = slope(at) * interval_s - rise, to = slope(at + 1) * interval_s - rise;
+          if (at != between) {
+            slope_from = at == between + 1 ? slope_to : slope(at);
+            slope_to = slope(at + 1);
+            between = at;
+          }
+          const double from = slope_from * interval_s - rise, to = slope_to * interval_s - rise;
           seen += x * (1.0 - x) * ((1.0 - x) * from - x * to);
         }
       }

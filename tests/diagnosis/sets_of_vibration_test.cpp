@@ -93,6 +93,19 @@ TEST(SetSearch, OfAShakerNothingIsFeltWithoutASize) {
   EXPECT_EQ(bench.rate_left_by(scenario, all), without);
 }
 
+/// A building sways at tenths of a hertz, below what spectra of samples are asked for. White to
+/// cluster means, such lines were averages, filters or slow noise.
+TEST(SetSearch, LinesOfTenthsOfAHertzHaveTheirNames) {
+  const std::vector<Effect> lines = {effects::Vibration{0.02, 0.4, 0.1},
+                                     effects::Vibration{0.02, 0.12, 0.03},
+                                     effects::WanderingLine{0.02, 0.5, 0.05, 5.0}};
+  for (const auto& line : lines) {
+    Scenario s = still();
+    s.effects = {line};
+    EXPECT_EQ(found_in(recorded(s, 85, false)), std::set<std::string>{std::string(line.id())});
+  }
+}
+
 /// Where noise in a band is not in the catalogue, it is no line that wanders.
 TEST(SetSearch, NoiseInABandHasNoOtherName) {
   Scenario s = still();

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <gyrostat/diagnosis/gap/conditions.hpp>
-#include <gyrostat/diagnosis/likelihood/rate_likelihood.hpp>
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 #include <gyrostat/diagnosis/likelihood/set_fit.hpp>
+#include <gyrostat/diagnosis/likelihood/slow_law.hpp>
 #include <gyrostat/generators/effects/list.hpp>
 #include <gyrostat/tests/diagnosis/known_recordings.hpp>
 
@@ -48,6 +48,9 @@ Eigen::MatrixXd covariance_of(const SlowLaw& law) {
       c(i, j) = law.walk * first + (i == j ? law.white : 0.0);
       for (const auto& part : law.parts)
         c(i, j) += part.variance * std::pow(part.decay, last - first);
+      for (const auto& turning : law.turning)
+        c(i, j) += turning.variance * std::pow(turning.decay, last - first) *
+                   std::cos(turning.angle * (last - first));
     }
   return c;
 }
@@ -63,6 +66,19 @@ Eigen::MatrixXd differences() {
 
 TEST(SlowFilter, IsTheDensityOfDifferences) {
   const SlowLaw law{.white = 0.5, .walk = 0.03, .parts = {{0.8, 0.7}, {0.2, 0.95}}, .jumps = {}};
+  const auto values = drawn("values", 10);
+  const Eigen::MatrixXd d = differences();
+  const double expected = log_normal(d * values, d * covariance_of(law) * d.transpose());
+  const auto terms = slow_terms(law, points, values, Eigen::MatrixXd(10, 0), Eigen::VectorXd());
+  EXPECT_NEAR(terms.log_likelihood, expected, 1e-5);
+}
+
+TEST(SlowFilter, IsTheDensityOfDifferencesOfWhatTurns) {
+  const SlowLaw law{.white = 0.5,
+                    .walk = 0.03,
+                    .parts = {{0.2, 0.95}},
+                    .turning = {{0.8, 0.9, 1.1}, {0.4, 0.7, 2.6}},
+                    .jumps = {}};
   const auto values = drawn("values", 10);
   const Eigen::MatrixXd d = differences();
   const double expected = log_normal(d * values, d * covariance_of(law) * d.transpose());
@@ -144,8 +160,8 @@ TEST(SlowLaw, HasTheCovariancesOfMeans) {
   const NoiseLaw white{.interval_s = conditions.interval_s(), .white = 0.0025};
   NoiseLaw law = white;
   law.decaying.push_back({variance, memory_s});
-  const auto slow = slow_law(reduced, law, conditions.cluster());
-  const double noise = slow_law(reduced, white, conditions.cluster()).white;
+  const auto slow = slow_law(reduced, law);
+  const double noise = slow_law(reduced, white).white;
   const auto of_the_law = [&](int lag) {
     return slow.parts[0].variance * std::pow(slow.parts[0].decay, lag) +
            (lag == 0 ? slow.white : 0.0);
@@ -172,7 +188,7 @@ TEST(SlowLaw, HasWhatFastNoiseSharesWithTheNextMeans) {
   const auto cluster = static_cast<int>(conditions.cluster());
   const double variance = 4e-4, interval_s = conditions.interval_s();
   const auto expect_as_summed = [&](const NoiseLaw& law, double decay_a_sample, double tolerance) {
-    const auto slow = slow_law(reduced, law, conditions.cluster());
+    const auto slow = slow_law(reduced, law);
     ASSERT_EQ(slow.parts.size(), 1);
     for (const int lag : {0, 1, 2}) {
       double summed = 0.0;
@@ -195,6 +211,40 @@ TEST(SlowLaw, HasWhatFastNoiseSharesWithTheNextMeans) {
   NoiseLaw forgets{.interval_s = interval_s, .white = 0.0};
   forgets.decaying.push_back({variance, memory_s});
   expect_as_summed(forgets, std::exp(-interval_s / memory_s), 0.02);
+}
+
+/// A line below the frequencies that spectra of samples are asked for, and one that the means fold,
+/// as sums over samples give them: to a fiftieth of their variance, by which the law's are ahead;
+/// of the other, narrower than the bins of the density that its variance is from, to a twelfth.
+TEST(SlowLaw, HasTheCovariancesOfTheMeansOfALine) {
+  const Reduced at_rest;
+  const auto& [series, conditions, reduced] = at_rest;
+  const auto cluster = static_cast<int>(conditions.cluster());
+  const double interval_s = conditions.interval_s();
+  for (const auto& [line, tolerance] : {std::pair{Resonance{4e-4, 0.4, 0.1}, 1.0 / 50.0},
+                                        std::pair{Resonance{4e-4, 1.7, 0.03}, 1.0 / 12.0}}) {
+    NoiseLaw law{.interval_s = interval_s, .white = 1e-5};
+    law.resonances.push_back(line);
+    const auto slow = slow_law(reduced, law);
+    ASSERT_EQ(slow.turning.size(), 1);
+    const auto& turning = slow.turning.front();
+    const auto summed = [&](int lag) {
+      double sum = 0.0;
+      for (int i = 0; i < cluster; ++i)
+        for (int j = 0; j < cluster; ++j) {
+          const double later_s = interval_s * std::abs(lag * cluster + i - j);
+          sum += std::exp(-std::numbers::pi * line.bandwidth_hz * later_s) *
+                 std::cos(2.0 * std::numbers::pi * line.centre_hz * later_s);
+        }
+      return (line.variance * sum + (lag == 0 ? law.white * cluster : 0.0)) / (cluster * cluster);
+    };
+    for (const int lag : {0, 1, 2, 3, 8}) {
+      const double of_the_law =
+          turning.variance * std::pow(turning.decay, lag) * std::cos(turning.angle * lag) +
+          (lag == 0 ? slow.white : 0.0);
+      EXPECT_NEAR(of_the_law, summed(lag), tolerance * summed(0)) << line.centre_hz << ' ' << lag;
+    }
+  }
 }
 
 /// Beside noise that has passed a filter, flicker and an ARIMA(1,1,1) that remembers gained 27 to
@@ -230,7 +280,7 @@ TEST(SlowLaw, HasTheCovariancesOfTheMeansOfAStrongWalk) {
        {Arima111<double>{0.0, 0.1, 0.0, 0.05}, Arima111<double>{0.9, 0.01, 0.002, 0.05}}) {
     Scenario s;
     s.random_error = e;
-    const auto slow = slow_law(reduced, law_of(s, conditions.interval_s()), cluster);
+    const auto slow = slow_law(reduced, law_of(s, conditions.interval_s()));
     const auto of_the_law = [&](int lag) {
       double sum = lag == 0 ? slow.walk + 2.0 * slow.white : lag == 1 ? -slow.white : 0.0;
       for (const auto& part : slow.parts)
