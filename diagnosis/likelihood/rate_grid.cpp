@@ -119,17 +119,58 @@ RateGrid::RateGrid(const Conditions& conditions, std::vector<char> masked)
     }
   for (std::size_t lag = 0; lag < bins; ++lag) pairs_[lag] /= std::max(pairs_of_all[lag], 1.0);
   comes_evenly_ = come_evenly(pairs_, pairs_of_all.back());
-  if (!comes_evenly_) return;
+  if (!comes_evenly_) {
+    put_halfway(conditions);
+    return;
+  }
   left_of_level_ = left_beside_level(angles_, conditions.cluster());
   seen_of_level_ = smeared(left_of_level_);
 }
 
+void RateGrid::put_halfway(const Conditions& conditions) {
+  halfway_.assign(masked_.size(), 0);
+  const std::size_t lags = pairs_.size();
+  beside_halfway_.assign(lags, 0.0);
+  both_halfway_.assign(lags, 0.0);
+  std::vector<double> pairs_of_all(lags, 0.0);
+  for (const Part part : both_parts)
+    for (const auto& span : conditions.spans(part)) {
+      for (std::size_t i = span.first + 1; i + 1 < span.last; ++i)
+        halfway_[i] = masked_[i] != 0 && masked_[i - 1] == 0 && masked_[i + 1] == 0 ? 1 : 0;
+      if (part != Part::train) continue;
+      for (std::size_t lag = 0; lag < std::min(lags, span.size()); ++lag)
+        pairs_of_all[lag] += static_cast<double>(span.size() - lag);
+      for (std::size_t i = span.first; i < span.last; ++i) {
+        if (halfway_[i] == 0) continue;
+        for (std::size_t lag = 0; lag < lags && i + lag < span.last; ++lag) {
+          both_halfway_[lag] += halfway_[i + lag] != 0 ? 1.0 : 0.0;
+          beside_halfway_[lag] += masked_[i + lag] == 0 ? 0.5 : 0.0;
+        }
+        for (std::size_t lag = 0; lag < lags && i >= span.first + lag; ++lag)
+          beside_halfway_[lag] += masked_[i - lag] == 0 ? 0.5 : 0.0;
+      }
+    }
+  for (auto* shares : {&beside_halfway_, &both_halfway_})
+    for (std::size_t lag = 0; lag < lags; ++lag) (*shares)[lag] /= std::max(pairs_of_all[lag], 1.0);
+}
+
 std::vector<double> RateGrid::masked_density(std::vector<double> density) const {
   // The covariance of a product of independent series is the product of their covariances.
-  auto covariance = cosine_sums(density);
-  const auto period = static_cast<double>(segment());
-  for (std::size_t lag = 0; lag < covariance.size(); ++lag) covariance[lag] *= pairs_[lag] / period;
-  return cosine_sums(covariance);
+  const auto covariance = cosine_sums(density);
+  const auto last = static_cast<std::ptrdiff_t>(covariance.size()) - 1;
+  const auto at = [&](std::ptrdiff_t lag) {
+    return covariance[static_cast<std::size_t>(last - std::abs(last - std::abs(lag)))];
+  };
+  std::vector<double> shown(covariance.size());
+  for (std::ptrdiff_t lag = 0; lag <= last; ++lag) {
+    const auto k = static_cast<std::size_t>(lag);
+    shown[k] = pairs_[k] * at(lag);
+    if (!halfway_.empty())
+      shown[k] += beside_halfway_[k] * (at(lag - 1) + at(lag + 1)) +
+                  0.25 * both_halfway_[k] * (at(lag - 2) + 2.0 * at(lag) + at(lag + 2));
+    shown[k] /= static_cast<double>(segment());
+  }
+  return cosine_sums(shown);
 }
 
 double RateGrid::variance_of_a_mean(const std::vector<double>& density) const {

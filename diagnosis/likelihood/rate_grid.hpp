@@ -49,8 +49,12 @@ class RateGrid {
   /// Covariances of a mean with the next and with the one after it, where all samples count.
   std::array<double, 2> covariances_of_means(const std::vector<double>& density) const;
   bool comes_evenly() const { return comes_evenly_; }
-  /// What periodograms show of a density: samples that do not count are zeros, others have the
-  /// level taken out.
+  /// Whether this sample, which does not count, is taken to be halfway between its neighbours, as
+  /// those are that stand alone and do not come evenly. The others are zeros: of noise that changes
+  /// little from sample to sample, they spread what is slow over all frequencies.
+  bool is_halfway(std::size_t sample) const { return !halfway_.empty() && halfway_[sample] != 0; }
+  /// What periodograms show of a density: samples that do not count are zeros or halfway, others
+  /// have the level taken out.
   std::vector<double> shown(const std::vector<double>& density) const;
 
  private:
@@ -64,9 +68,13 @@ class RateGrid {
   std::array<std::vector<double>, 2> of_neighbours_;  ///< the same of their covariances
   /// The covariance whose density is given, of the samples that count.
   std::vector<double> masked_density(std::vector<double> density) const;
+  void put_halfway(const Conditions& conditions);
 
   std::vector<double>
       pairs_;  ///< share of pairs of samples at each lag that both count; empty: all
+  std::vector<char> halfway_;           ///< a flag a sample; empty: none
+  std::vector<double> beside_halfway_;  ///< share of pairs of one that counts and one halfway
+  std::vector<double> both_halfway_;
   /// Where hidden samples come evenly, what is slow shows elsewhere, too.
   bool comes_evenly_ = false;
   std::vector<double> left_of_level_;  ///< share of a density that subtracting the level leaves

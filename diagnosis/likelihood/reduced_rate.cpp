@@ -87,6 +87,8 @@ ReducedRate::ReducedRate(const Conditions& conditions, std::vector<double> error
     const auto level = smoothed(conditions, means);
     for (std::size_t i = 0; i < values.size(); ++i)
       values[i] = is_missing(values[i]) ? 0.0 : values[i] - level[i];
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (grid_->is_halfway(i)) values[i] = 0.5 * (values[i - 1] + values[i + 1]);
   }
   reduce_fast(conditions, values);
 }

@@ -27,21 +27,36 @@ struct Whitened {
   std::vector<double> innovations;
 };
 
-/// Where few samples have all before them, those that are missing are as if they were zero.
+/// Of samples of which so many before are there; those further back that are missing are as if they
+/// were zero.
 Whitened whiten(const Conditions& conditions, const std::vector<double>& left, Part part,
-                const std::vector<double>& coefficients, bool bridges) {
+                const std::vector<double>& coefficients, std::size_t present) {
   Whitened w;
   for (const auto& span : conditions.spans(part))
     for (std::size_t i = span.first + order; i < span.last; ++i) {
       double e = left[i];
       for (std::size_t j = 0; j < order; ++j)
-        if (const double before = left[i - 1 - j]; !bridges || !is_missing(before))
+        if (const double before = left[i - 1 - j]; j < present || !is_missing(before))
           e += coefficients[j] * before;
       if (is_missing(e)) continue;
       w.samples.push_back(i);
       w.innovations.push_back(e);
     }
   return w;
+}
+
+/// How many samples before one foretell it: what all others add is little beside its error.
+std::size_t foretelling(const Autoregression& law) {
+  constexpr double little = 0.02;
+  const auto& a = law.coefficients;
+  double others = 0.0;
+  std::size_t count = a.size();
+  while (count > 0) {
+    others += a[count - 1] * a[count - 1] * law.errors.front();
+    if (others > little * law.errors.back()) break;
+    --count;
+  }
+  return count;
 }
 
 std::vector<double> covariances(const Conditions& conditions, const std::vector<double>& left,
@@ -114,14 +129,18 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
   tails.outliers.assign(given.size(), 0);
   if (present.size() < 500) return tails;
   const double limit = 5.0 * robust_deviation(present);
-  const auto coefficients = autoregression(covariances(conditions, given, limit)).coefficients;
+  const auto law = autoregression(covariances(conditions, given, limit));
+  const auto& coefficients = law.coefficients;
   // The predictions are from cut values, so that an outlier is one innovation and not seventeen.
   std::vector<double> left = given;
   for (double& v : left)
     if (!is_missing(v)) v = std::clamp(v, -limit, limit);
-  auto w = whiten(conditions, left, Part::train, coefficients, false);
-  if (2 * w.samples.size() < present.size())
-    w = whiten(conditions, left, Part::train, coefficients, true);
+  // Where few have all before them, those that foretell them; and where few have these, none.
+  Whitened w;
+  for (const std::size_t needed : {order, foretelling(law), std::size_t{0}}) {
+    w = whiten(conditions, left, Part::train, coefficients, needed);
+    if (2 * w.samples.size() >= present.size()) break;
+  }
   for (std::size_t k = 0; k < w.samples.size(); ++k)
     w.innovations[k] += given[w.samples[k]] - left[w.samples[k]];
   if (w.innovations.size() < 500) return tails;

@@ -48,6 +48,18 @@ TEST(FilteredNoise, ForwardAndBackIsOneEffect) {
             std::set<std::string>{"noise_bandwidth"});
 }
 
+/// Where repeats do not count, what foretells the next sample does: as zeros, they made outliers of
+/// those behind them, and of the slow noise that they spread over the spectrum sines.
+TEST(FilteredNoise, WithRepeatsIsThatAndThese) {
+  for (const std::uint64_t seed : {54, 55}) {
+    Scenario s = still();
+    s.effects = {effects::NoiseBandwidth{.cutoff_hz = 2.0, .poles = 2.0},
+                 effects::StaleSamples{.probability = 0.05}};
+    EXPECT_EQ(found_in(recorded(s, seed, false)),
+              (std::set<std::string>{"noise_bandwidth", "stale_samples"}));
+  }
+}
+
 /// One pole of Butterworth's at a quarter of the rate is the same.
 TEST(FilteredNoise, TheMeanOfTwoSamplesIsAnAverage) {
   EXPECT_EQ(found_in(recorded(ten_minutes(effects::NoiseAveraging{2.0, 1.0}), 53, false)),
