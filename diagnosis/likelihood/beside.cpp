@@ -59,6 +59,7 @@ std::vector<Resonance> Beside::lines() const {
          (static_cast<double>(at) + 0.5 * (bins - 1.0)) * reduced.grid().resolution_hz(),
          0.6 * bins * reduced.grid().resolution_hz()});
   }
+  if (is_moved) return found;
   const auto slow = slow_lines();
   found.insert(found.end(), slow.begin(), slow.end());
   return found;
@@ -92,7 +93,8 @@ std::vector<Resonance> Beside::slow_lines() const {
       if (sum > most) most = sum, at = k;
     }
     const auto in_bins = static_cast<double>(width);
-    if (most < 4.0 * std::sqrt(in_bins)) continue;
+    // Of few ordinates, the largest of all is an exponential one's.
+    if (most < 4.0 * std::sqrt(in_bins) + std::log(static_cast<double>(bins))) continue;
     const double centre_hz = (static_cast<double>(at) + 0.5 * (in_bins - 1.0)) * resolution_hz;
     const double x = std::numbers::pi * centre_hz * interval_s, of_mean = std::sin(x) / x;
     found.push_back({1.3 * most / static_cast<double>(bins) * of_one / (of_mean * of_mean),

@@ -11,6 +11,7 @@ struct Beside {
   const Conditions& conditions;
   const SetFitter& fitter;
   const SetFit& fit;
+  bool is_moved = false;  ///< it leaves something of the motion, which is in slow lines, too
 
   /// Standard deviation of a cluster mean that the set leaves, or of its step to the next.
   double slow_std_dps() const;

@@ -13,6 +13,7 @@
 #include <gyrostat/diagnosis/likelihood/dials.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/motion_left.hpp>
 
 namespace gyrostat::gap {
 namespace {
@@ -74,7 +75,11 @@ Standing SetBench::with(const Standing& standing, const CauseType& cause,
 }
 
 Standing SetBench::with_guessed(const Standing& standing, const CauseType& cause) const {
-  const Beside beside{conditions_, *standing.fitter, standing.fit};
+  constexpr double clearly = 10.0;
+  const bool is_moved =
+      is_line(cause.id) && conditions_.has_motion() &&
+      log_gain_of_motion(conditions_, rate_left_by(standing.scenario, masked())) > clearly;
+  const Beside beside{conditions_, *standing.fitter, standing.fit, is_moved};
   // The walk that stands in for jumps of the set takes up whatever is slow, so beside a slow
   // effect they are followed; of a fast one, what was screened without them is not taken over.
   const bool jumps = law_of(standing.scenario, conditions_.interval_s()).jumps.has_value();
