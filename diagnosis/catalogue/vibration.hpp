@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
@@ -31,9 +32,13 @@ struct Diagnosed<effects::Vibration> {
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
-  /// A line, and one whose top is among the frequencies that samples have.
+  /// A line, and one whose top is among the frequencies that samples have; what remembers for as
+  /// long as the recording stands still.
   static bool is_what_it_is_called(const effects::Vibration& effect, const Conditions& c) {
-    return effect.bandwidth_hz < 0.5 * effect.centre_hz && effect.centre_hz <= 0.5 * c.rate_hz();
+    constexpr double fewest_memories = 10.0;
+    const double duration_s = c.interval_s() * static_cast<double>(c.size());
+    return effect.bandwidth_hz < 0.5 * effect.centre_hz && effect.centre_hz <= 0.5 * c.rate_hz() &&
+           std::numbers::pi * effect.bandwidth_hz * duration_s > fewest_memories;
   }
 };
 
