@@ -40,9 +40,13 @@ struct Diagnosed<effects::WanderingLine> {
 
   static std::string why_not_assessable(const Conditions& c) { return needs::nothing(c); }
 
-  /// Neither a line that stands still nor one that is anywhere, and one that samples have.
+  /// Neither a line that stands still, its phase the same for as long as the recording, nor one
+  /// that is anywhere, and one that samples have.
   static bool is_what_it_is_called(const effects::WanderingLine& effect, const Conditions& c) {
-    return effect.wander_hz < 0.25 * effect.frequency_hz &&
+    constexpr double fewest_memories = 10.0;
+    const double duration_s = c.interval_s() * static_cast<double>(c.size());
+    return effect.coherence(duration_s / fewest_memories) < std::exp(-1.0) &&
+           effect.wander_hz < 0.25 * effect.frequency_hz &&
            effect.frequency_hz <= 0.5 * c.rate_hz() &&
            effect.wander_hz > spectrum_resolution_hz(c.spans(Part::train), c.rate_hz());
   }
