@@ -157,6 +157,7 @@ Standing SetBench::fitted(const Scenario& scenario, std::shared_ptr<const SetFit
   s.fitter = std::move(fitter);
   s.scenario = s.fit.scenario;
   s.score = s.fit.log_likelihood - price_of(s.scenario);
+  if (std::isnan(s.score)) s.score = Standing{}.score;
   return s;
 }
 

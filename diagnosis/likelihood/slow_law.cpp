@@ -29,10 +29,11 @@ MeanOf mean_over(double u) {
 }
 
 /// What noise that is fast shares with the next cluster's, as a decaying error with the covariances
-/// of its mean with the next two.
+/// of its mean with the next two; the second is larger where the error would else have more than
+/// `most` of variance.
 std::optional<SlowLaw::Part> shared_by_means(const RateGrid& grid, const NoiseLaw& fast,
                                              const std::vector<double>& gain_of_white,
-                                             double cluster_s) {
+                                             double cluster_s, double most) {
   auto [next, after] = grid.covariances_of_means(gain_of_white);
   const double of_unit_noise = 2.0 * fast.interval_s * fast.white;
   next *= of_unit_noise;
@@ -45,7 +46,8 @@ std::optional<SlowLaw::Part> shared_by_means(const RateGrid& grid, const NoiseLa
   }
   constexpr double least_decay = 0.05, most_decay = 0.99;
   if (!(next > 0.0)) return std::nullopt;
-  const double decay = std::clamp(after / next, least_decay, most_decay);
+  const double decay =
+      std::clamp(std::max(after, next * next / most) / next, least_decay, most_decay);
   return SlowLaw::Part{next / decay, decay};
 }
 
@@ -97,7 +99,8 @@ class Means {
   void add(const SlowLaw::Part& part, bool is_fast) {
     law_.white -= part.variance;
     law_.parts.push_back(part);
-    take(part.variance * (1.0 - part.decay) / (1.0 + part.decay), is_fast);
+    if (!is_fast || !law_.jumps)
+      take(part.variance * (1.0 - part.decay) / (1.0 + part.decay), is_fast);
   }
   void add(const SlowLaw::Turning& turning) {
     if (states_of(law_) + 2 > most_states) return;
@@ -157,10 +160,14 @@ SlowLaw slow_law_of(const ReducedRate& reduced, const LawBands& bands,
   const auto shows = [&](const auto& part) {
     return part.variance * part.decay > least_shown * of_fast;
   };
-  if (const auto shared = shared_by_means(reduced.grid(), bands.fast, gain_of_white, interval_s);
+  // To histories of jumps, white noise must be some.
+  constexpr double most_beside_jumps = 0.9;
+  const double most = bands.slow.jumps ? most_beside_jumps * of_fast : 1e300;
+  if (const auto shared =
+          shared_by_means(reduced.grid(), bands.fast, gain_of_white, interval_s, most);
       shared && shows(*shared))
     means.add(*shared, true);
-  // Histories of jumps have no room for what turns.
+  // Nor have they room for what turns.
   if (!bands.slow.jumps) {
     const auto add_line = [&](const Resonance& line) {
       if (const auto turning = turning_means(line, interval_s); shows(turning)) means.add(turning);

@@ -206,6 +206,15 @@ TEST(SlowLaw, HasWhatFastNoiseSharesWithTheNextMeans) {
   NoiseLaw filtered{.interval_s = interval_s, .white = variance * (1.0 + decay) / (1.0 - decay)};
   filtered.filter = one_pole;
   expect_as_summed(filtered, decay, 1e-3);
+  // Beside jumps, whose histories cannot follow white noise of less than none, with the next alone.
+  const auto next = [&](const NoiseLaw& law) {
+    const auto slow = slow_law(reduced, law);
+    EXPECT_TRUE(!law.jumps || slow.white > 0.0);
+    return slow.parts.front().variance * slow.parts.front().decay;
+  };
+  NoiseLaw jumping = filtered;
+  jumping.jumps = {Jumps::To::another_level, 0.1, 0.01};
+  EXPECT_NEAR(next(jumping), next(filtered), 1e-9 * variance);
   // The means of clusters of samples and of a continuous error differ by u^2 / 12 of a sample's u.
   const double memory_s = 0.45 * conditions.slow_interval_s();
   NoiseLaw forgets{.interval_s = interval_s, .white = 0.0};
