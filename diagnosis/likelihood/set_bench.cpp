@@ -1,6 +1,7 @@
 #include <gyrostat/diagnosis/likelihood/set_bench.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/block_level.hpp>
