@@ -126,6 +126,28 @@ bool is_crossed(const std::vector<double>& values, const BlurredGrid& grid) {
   return crossed > least * static_cast<double>(values.size());
 }
 
+/// Of values on more levels than noise alone takes them to, those on neither end: what a limit
+/// clips before the noise is about two values, as on a grid, wherever all others are.
+std::vector<double> between_ends(const std::vector<double>& values, double lsb_dps) {
+  constexpr double fewest_levels = 8.0;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if (*high - *low < fewest_levels * lsb_dps) return values;
+  std::vector<double> between;
+  for (const double value : values)
+    if (value > *low + lsb_dps && value < *high - lsb_dps) between.push_back(value);
+  return between;
+}
+
+/// How far values are from those of a grid, in its steps.
+double share_missed(const std::vector<double>& values, const BlurredGrid& grid) {
+  double squares = 0.0;
+  for (const double value : values) {
+    const double missed = (value - grid.nearest_dps(value)) / grid.lsb_dps;
+    squares += missed * missed;
+  }
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
 }  // namespace
 
 double BlurredGrid::nearest_dps(double value_dps) const {
@@ -151,6 +173,9 @@ std::optional<BlurredGrid> blurred_grid(const Simulator& simulator,
     // Beside values that may be anywhere between two of the grid.
     const double gain = -std::log(share * std::sqrt(2.0 * std::numbers::pi)) - 0.5;
     if (gain <= most || !is_crossed(values.dps, grid)) continue;
+    if (const auto between = between_ends(values.dps, grid.lsb_dps);
+        between.size() < fewest_free_values || share_missed(between, grid) > most_blurred)
+      continue;
     most = gain;
     best = grid;
   }

@@ -23,7 +23,7 @@ const Conditions& conditions() {
   return simulator.conditions();
 }
 
-const std::vector<char> none_misled(conditions().slow_size(), 0);
+std::vector<char> none_misled() { return std::vector<char>(conditions().slow_size(), 0); }
 
 /// Where a quarter of the means are 3.4 deg off and noise is 1.5 deg, half of all long runs reach
 /// into a burst, on one side more than on the other: a median deviation of runs had hidden them.
@@ -38,7 +38,7 @@ TEST(HeadingBursts, AQuarterOfTheTimeAreFound) {
       means[i] += deg;
       is_off[i] = 1;
     }
-  const auto found = heading_bursts(conditions(), means, none_misled);
+  const auto found = heading_bursts(conditions(), means, none_misled());
   double off = 0.0, both = 0.0;
   for (const auto& span : conditions().slow_spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i) {
@@ -57,7 +57,8 @@ TEST(HeadingBursts, NoiseHasNone) {
   int found = 0;
   for (std::uint32_t trial = 1; trial <= 200; ++trial)
     found +=
-        heading_bursts(conditions(), white(conditions().slow_size(), trial), none_misled).gain > 0.0
+        heading_bursts(conditions(), white(conditions().slow_size(), trial), none_misled()).gain >
+                0.0
             ? 1
             : 0;
   EXPECT_LE(found, 14);
