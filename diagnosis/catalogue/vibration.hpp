@@ -5,6 +5,7 @@
 
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
+#include <gyrostat/diagnosis/starts/still_line.hpp>
 #include <gyrostat/generators/effects/vibration.hpp>
 
 namespace gyrostat::gap {
@@ -35,10 +36,8 @@ struct Diagnosed<effects::Vibration> {
   /// A line, and one whose top is among the frequencies that samples have; what remembers for as
   /// long as the recording stands still.
   static bool is_what_it_is_called(const effects::Vibration& effect, const Conditions& c) {
-    constexpr double fewest_memories = 10.0;
-    const double duration_s = c.interval_s() * static_cast<double>(c.size());
     return effect.bandwidth_hz < 0.5 * effect.centre_hz && effect.centre_hz <= 0.5 * c.rate_hz() &&
-           std::numbers::pi * effect.bandwidth_hz * duration_s > fewest_memories;
+           1.0 < std::numbers::pi * effect.bandwidth_hz * longest_memory_of_a_line_s(c);
   }
 };
 

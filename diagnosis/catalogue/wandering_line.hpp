@@ -7,6 +7,7 @@
 #include <gyrostat/diagnosis/diagnosed.hpp>
 #include <gyrostat/diagnosis/gap/spectral_bands.hpp>
 #include <gyrostat/diagnosis/starts/needs.hpp>
+#include <gyrostat/diagnosis/starts/still_line.hpp>
 #include <gyrostat/generators/effects/wandering_line.hpp>
 
 namespace gyrostat::gap {
@@ -43,9 +44,7 @@ struct Diagnosed<effects::WanderingLine> {
   /// Neither a line that stands still, its phase the same for as long as the recording, nor one
   /// that is anywhere, and one that samples have.
   static bool is_what_it_is_called(const effects::WanderingLine& effect, const Conditions& c) {
-    constexpr double fewest_memories = 10.0;
-    const double duration_s = c.interval_s() * static_cast<double>(c.size());
-    return effect.coherence(duration_s / fewest_memories) < std::exp(-1.0) &&
+    return effect.coherence(longest_memory_of_a_line_s(c)) < std::exp(-1.0) &&
            effect.wander_hz < 0.25 * effect.frequency_hz &&
            effect.frequency_hz <= 0.5 * c.rate_hz() &&
            effect.wander_hz > spectrum_resolution_hz(c.spans(Part::train), c.rate_hz());

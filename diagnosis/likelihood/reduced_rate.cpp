@@ -53,12 +53,12 @@ ReducedRate::ReducedRate(const Conditions& conditions, std::vector<double> error
       cluster_s_(conditions.slow_interval_s()),
       is_beside_motion_(conditions.has_motion()) {
   std::vector<double> values = std::move(error_dps);
-  const auto& masked = grid_->masked();
+  const auto& masked = grid_->counted().masked();
   for (std::size_t i = 0; i < values.size(); ++i)
     if (masked[i] != 0) values[i] = no_value;
   const auto means = conditions.slow_means(values);
   // Of a cluster, half the samples at least must count; of a slower clock, half of its own.
-  const double least_share = grid_->comes_evenly() ? 0.5 * grid_->kept() : 0.5;
+  const double least_share = grid_->counted().come_evenly() ? 0.5 * grid_->counted().share() : 0.5;
   const auto share_of = [&](std::size_t mean) {
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(mean * conditions.cluster());
     const auto there =
@@ -82,13 +82,14 @@ ReducedRate::ReducedRate(const Conditions& conditions, std::vector<double> error
           means[slow.points[k]] + (of_means_dps.empty() ? 0.0 : of_means_dps[slow.points[k]]);
   }
   if (points > 0.0)
-    noise_of_means_ = inverse_shares / points * (grid_->comes_evenly() ? grid_->kept() : 1.0);
-  if (grid_->hides_any()) {
+    noise_of_means_ =
+        inverse_shares / points * (grid_->counted().come_evenly() ? grid_->counted().share() : 1.0);
+  if (!grid_->counted().are_all()) {
     const auto level = smoothed(conditions, means);
     for (std::size_t i = 0; i < values.size(); ++i)
       values[i] = is_missing(values[i]) ? 0.0 : values[i] - level[i];
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (grid_->is_halfway(i)) values[i] = 0.5 * (values[i - 1] + values[i + 1]);
+      if (grid_->counted().is_halfway(i)) values[i] = 0.5 * (values[i - 1] + values[i + 1]);
   }
   reduce_fast(conditions, values);
 }
@@ -106,7 +107,7 @@ double ReducedRate::white_std_dps() const {
   for (std::size_t k = grid_->first_fast_bin(); k + 1 < density.size(); ++k)
     sum += density[k], bins += 1.0;
   const double nyquist_hz = grid_->resolution_hz() * static_cast<double>(density.size() - 1);
-  return std::sqrt(sum / bins * nyquist_hz / std::max(grid_->kept(), 0.05));
+  return std::sqrt(sum / bins * nyquist_hz / std::max(grid_->counted().share(), 0.05));
 }
 
 void ReducedRate::reduce_fast(const Conditions& conditions, const std::vector<double>& error_dps) {
@@ -119,7 +120,7 @@ void ReducedRate::reduce_fast(const Conditions& conditions, const std::vector<do
     samples += static_cast<double>(span.size());
   }
   periodogram_ = welch(stretches, conditions.rate_hz(), length, length / 2).density;
-  degrees_ = grid_->kept() * samples / static_cast<double>(length);
+  degrees_ = grid_->counted().share() * samples / static_cast<double>(length);
 }
 
 }  // namespace gyrostat::gap

@@ -61,7 +61,7 @@ void SetBench::mask_only(std::vector<char> samples) {
 }
 
 void SetBench::mask_too(const std::vector<char>& samples) {
-  auto masked = grid_->masked();
+  auto masked = grid_->counted().masked();
   for (std::size_t i = 0; i < masked.size(); ++i)
     if (samples[i] != 0) masked[i] = 1;
   mask_only(std::move(masked));

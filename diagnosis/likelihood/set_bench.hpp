@@ -52,7 +52,7 @@ class SetBench {
   void tell_of_line(std::optional<double> frequency_hz) { line_that_stands_out_hz_ = frequency_hz; }
 
   const RateGrid& grid() const { return *grid_; }
-  const std::vector<char>& masked() const { return grid_->masked(); }
+  const std::vector<char>& masked() const { return grid_->counted().masked(); }
   void mask_only(std::vector<char> samples);
   void mask_too(const std::vector<char>& samples);
 
