@@ -81,12 +81,16 @@ double common_step(const std::vector<double>& gaps, double resolution_dps) {
   for (const double parts : {1.0, 2.0, 3.0}) {
     double step = gaps.front() / parts, products = 0.0, squares = 0.0;
     double count = 0.0, whole = 0.0;
-    if (step < 4.0 * resolution_dps) return 0.0;
+    // A step of two or three units in which values are written is exactly so many, or none.
+    const bool is_of_few = step < 4.0 * resolution_dps;
+    const double units = is_of_few ? step / resolution_dps : 0.0;
+    if (is_of_few && (units < 1.5 || std::abs(units - std::nearbyint(units)) > 1e-6)) return 0.0;
     for (const double gap : gaps) {
       const double steps = std::nearbyint(gap / step);
       if (steps > farthest) break;
       count += 1.0;
-      if (std::abs(gap / step - steps) > aside + 0.6 * resolution_dps / step) continue;
+      if (std::abs(gap / step - steps) > aside + (is_of_few ? 0.0 : 0.6 * resolution_dps / step))
+        continue;
       whole += 1.0;
       products += gap * steps;
       squares += steps * steps;

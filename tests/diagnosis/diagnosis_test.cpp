@@ -37,7 +37,7 @@ TEST(Diagnosis, APartWithoutReadingsIsRefused) {
 /// A magnet that passes within the part that is held back, 2 deg for 20 s: a clear burst, once
 /// another part is held back. Without its name it stays unknown.
 TEST(Diagnosis, WhatIsInTheHeldOutPartAloneIsNamedWhereAnotherIsHeldOut) {
-  Scenario s = still();
+  Scenario s = still(ten_minutes_s);
   s.sampling.duration_s = 600.0;
   Series series = recorded(s, 7, false);
   DiagnosisOptions nameless;
@@ -178,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& known) { return known.param.name; });
 
 TEST(Diagnosis, NamesNothingElseWhenTheCauseIsNotInTheCatalogue) {
-  Scenario s = still();
+  Scenario s = still(ten_minutes_s);
   s.effects = {effects::Quantization{0.1}};
   DiagnosisOptions options;
   options.without = {"quantization"};
@@ -274,7 +274,7 @@ TEST(Diagnosis, RefusesWhatHoldsNothing) {
 /// either part of a recording.
 TEST(Diagnosis, AKnockIsUnknownAndToldWhen) {
   for (const double at_s : {520.0, 400.0}) {
-    auto series = recorded(still(), 31, false);
+    auto series = recorded(still(ten_minutes_s), 31, false);
     for (std::size_t i = 0; i < series.size(); ++i)
       if (const double since_s = series.t_s[i] - at_s; since_s >= 0.0)
         series.gyro_dps[i] += 0.4 * std::exp(-2.0 * since_s) * std::sin(38.0 * since_s);

@@ -28,7 +28,7 @@ Scenario turning_on_a_grid() {
 /// At rest, and turned by a rate that is a function of time.
 template <class Rate>
 Series turned(std::uint64_t seed, const Rate& rate_dps) {
-  Series series = recorded(still(), seed, false);
+  Series series = recorded(still(twenty_minutes_s), seed, false);
   for (const double t_s : series.t_s) series.rate_ref_dps.push_back(rate_dps(t_s));
   for (std::size_t i = 0; i < series.size(); ++i) series.gyro_dps[i] += series.rate_ref_dps[i];
   return series;
@@ -149,7 +149,7 @@ TEST(Marks, AGridMayBeOffZero) {
 /// A firmware that takes a slow bias out of rounded rates moves their grid by a millionth of a
 /// step: neighbours that are equal are so by chance.
 TEST(Marks, AGridThatIsMovedSlowlyMakesNoRepeats) {
-  Series series = recorded(still(), 43, false);
+  Series series = recorded(still(twenty_minutes_s), 43, false);
   effects::Quantization{0.06}.apply(series, {1, 0});
   for (std::size_t i = 0; i < series.size(); ++i)
     series.gyro_dps[i] += 1e-6 * std::nearbyint(2e3 * std::sin(2e-3 * series.t_s[i]));
@@ -346,9 +346,11 @@ TEST(Marks, AGridShowsThoughAMotionLeavesMostOfItsValuesOut) {
   s.motion = motion::Sinusoidal{30.0, 0.11};
   s.effects = {effects::Quantization{0.0061}};
   EXPECT_NEAR(marks_in(recorded(s, 72, true)).lsb_dps, 0.0061, 1e-6);
-  // To four decimals, as a log writes them, is no grid.
+  // To four decimals, as a log writes them, is no grid; every second hundredth is one.
   s.effects = {effects::Quantization{1e-4}};
   EXPECT_EQ(marks_in(recorded(s, 72, true)).lsb_dps, 0.0);
+  s.effects = {effects::Quantization{0.02}};
+  EXPECT_NEAR(marks_in(recorded(s, 72, true)).lsb_dps, 0.02, 1e-6);
 }
 
 /// Three gyros on grids, turned into another frame by an attitude that is known but for the first

@@ -66,7 +66,7 @@ TEST(NearForms, AFilterOfThreePolesIsOneEffect) {
 }
 
 TEST(NearForms, ALineWithAHarmonicIsOneEffect) {
-  Series series = recorded(still(), 62, false);
+  Series series = recorded(still(ten_minutes_s), 62, false);
   for (std::size_t i = 0; i < series.size(); ++i) {
     const double turn = 2.0 * std::numbers::pi * 3.1 * series.t_s[i];
     series.gyro_dps[i] += 0.02 * std::sin(turn) + 0.006 * std::sin(2.0 * turn + 1.0);
@@ -77,7 +77,7 @@ TEST(NearForms, ALineWithAHarmonicIsOneEffect) {
 /// An arm that turns is accelerated as it turns: the scale of its rate stood in for what is felt
 /// along one axis, beside what is felt along another.
 TEST(NearForms, WhatIsFeltAlongThreeAxesNeedsNoScale) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.acceleration = acceleration::Level{};
   Series series = recorded(s, 63, true);
   for (std::size_t i = 0; i < series.size(); ++i) {
@@ -243,7 +243,7 @@ TEST(NearForms, ALagFarBelowASampleMayBeAShift) {
 /// A filter whose poles ring is no vibration, and none that nearly do needs an average besides.
 TEST(NearForms, AFilterOfAnyDampingIsOneEffect) {
   for (const double damping_ratio : {0.35, 0.9}) {
-    Scenario s = still();
+    Scenario s = still(ten_minutes_s);
     s.random_error.measurement_noise_std_dps = 0.1;
     s.effects = {effects::NoiseBandwidth{
         .cutoff_hz = 3.0, .poles = 2.0, .after_dps = 0.012, .damping_ratio = damping_ratio}};
@@ -291,7 +291,7 @@ TEST(NearForms, ValuesThatAreCutOffUnderAMotionAreOneEffect) {
 /// nothing at a third of the rate. A filter of any damping, a line and an average of faster samples
 /// stood in for them.
 TEST(NearForms, AnAverageOfTheOutputsOwnSamplesIsOne) {
-  Scenario s = still();
+  Scenario s = still(ten_minutes_s);
   s.effects = {
       effects::NoiseAveraging{.length = 3.0, .stages = 2.0, .of_samples = 1.0, .after_dps = 0.003}};
   const Found found(recorded(s, 71, false));
@@ -364,7 +364,7 @@ TEST(NearForms, ALineThatComesThreeTimesIsOneEffect) {
 /// One band that is half as wide as its centre is high stood in for both, with a telegraph or
 /// without.
 TEST(NearForms, AnAnglesErrorsBesideFlickerAreNoBand) {
-  Scenario s = still();
+  Scenario s = still(ten_minutes_s);
   s.sampling = {1760.0, 30.0};
   s.random_error.measurement_noise_std_dps = 0.041;
   for (const double coefficient_deg : {8e-4, 1e-3}) {
@@ -403,7 +403,7 @@ TEST(NearForms, HysteresisOfARoomIsFound) {
 
 /// Whose end had been a dead zone and a limit.
 TEST(NearForms, AScaleThatIsNotLinearIsOne) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.effects = {effects::ScaleFactor{.error = 0.004, .cubic_per_dps2 = 2e-7}};
   const Found found(recorded(s, 81, true));
   ASSERT_EQ(found.names(), std::set<std::string>{"scale_factor"});
@@ -442,7 +442,7 @@ TEST(NearForms, AFractionOfASampleIsALag) {
 /// Simulators add up so many Gauss-Markov processes, from a time of their own on: a fourth of the
 /// coefficient, a telegraph and steps stood in for what is not faster.
 TEST(NearForms, FlickerThatEndsAtSomeFrequencyIsOneEffect) {
-  Scenario s = still();
+  Scenario s = still(ten_minutes_s);
   s.effects = {effects::BiasInstability{.coefficient_dps = 0.05, .shortest_s = 1.2}};
   const Series series = recorded(s, 68, false);
   const Found found(series);

@@ -95,7 +95,7 @@ TEST(SetSearch, ADeadZoneIsFoundWhereTheRateIsSensed) {
 /// The motion passes from one sample to the next by 0.8 dps, so that few are near the edge: those
 /// alone say where it is, to the next of them on either side, and the noise cannot mistake them.
 TEST(SetSearch, AThresholdIsBetweenItsSamples) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.effects = {effects::DeadZone{.half_width_dps = 2.0}};
   const auto series = recorded(s, 85, true);
   const Simulator simulator(series, 1);
@@ -227,7 +227,7 @@ TEST(SetSearch, AShiftBesideAScaleIsNoFilter) {
 /// A scale of its own each way, behind a limit that a third of the motion goes beyond: what is
 /// clipped says nothing of it.
 TEST(SetSearch, AnAsymmetryIsFoundBesideALimitThatIsReached) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.effects = {effects::ScaleAsymmetry{.error = 0.0175}, effects::Saturation{60.0}};
   EXPECT_EQ(found_in(recorded(s, 52, true)),
             (std::set<std::string>{"saturation", "scale_asymmetry"}));

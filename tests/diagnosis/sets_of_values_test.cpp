@@ -19,7 +19,7 @@ namespace {
 
 /// Rates in steps of an angle's grid an interval lie on a grid themselves, and are not rounded.
 TEST(SetSearch, AnAngleOnAGridIsOneEffect) {
-  Scenario s = still();
+  Scenario s = still(ten_minutes_s);
   s.effects = {effects::AngleQuantization{.coefficient_deg = 7e-4, .on_grid = 1.0}};
   EXPECT_EQ(found_in(recorded(s, 79, false)), std::set<std::string>{"angle_quantization"});
   s.effects = {effects::Quantization{0.05}};
@@ -56,7 +56,7 @@ TEST(SetSearch, RepeatsThatAMotionHardlyTellsAreNoOutliers) {
 
 /// Of 1,200 outliers on a grid some eighty fall on the value before, and as many on each beside it.
 TEST(SetSearch, OutliersThatFallOnTheValueBeforeAreNoRepeats) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.effects = {effects::Outliers{.probability = 0.05, .std_dps = 0.5}, effects::Quantization{0.1}};
   EXPECT_EQ(found_in(recorded(s, 90, true)), (std::set<std::string>{"outliers", "quantization"}));
 }
@@ -117,7 +117,7 @@ TEST(SetSearch, OutliersMayBeOfTwoKinds) {
 /// Rounded to 1.7 of its standard deviations, noise goes with where the level is between two
 /// values, and temperature moves the level; that it grows with temperature shows all the same.
 TEST(SetSearch, NoiseThatWarmsAndOutliersAreSeenThroughACoarseGrid) {
-  Scenario s = still();
+  Scenario s = still(ten_minutes_s);
   s.random_error = {
       .phi = 0.0, .delta1_dps = 1e-5, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.05};
   s.thermal_drift.a_dps_per_C = 0.01;
@@ -152,7 +152,7 @@ TEST(SetSearch, NoiseThatWarmsIsStatedAtItsReference) {
 /// Under a motion that is not yet explained a walk stands in for the noise, and a grid that is
 /// small to it looked coarse: nothing was sought in the noise.
 TEST(SetSearch, AGridBelowTheNoiseIsNotCoarseUnderAMotion) {
-  Scenario s = moving();
+  Scenario s = moving(ten_minutes_s);
   s.effects = {effects::ScaleFactor{0.05}, effects::Quantization{0.02},
                effects::NoiseBandwidth{.cutoff_hz = 4.0}};
   EXPECT_EQ(found_in(recorded(s, 46, true)),

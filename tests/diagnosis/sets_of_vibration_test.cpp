@@ -24,7 +24,7 @@ namespace {
 /// The accelerometer tells the strength of the vibration to a few percent only; the bias follows
 /// the strength itself.
 TEST(SetSearch, ABiasThatFollowsAShakerIsNoStep) {
-  Series series = recorded(still(), 78, false);
+  Series series = recorded(still(ten_minutes_s), 78, false);
   const NormalStream noise(78, 0, "shaker");
   constexpr std::array strengths = {2.0, 0.0, 5.0, 3.0, 4.0, 1.0, 0.0, 4.5};
   for (std::size_t i = 0; i < series.size(); ++i) {
@@ -108,7 +108,7 @@ TEST(SetSearch, LinesOfTenthsOfAHertzHaveTheirNames) {
 
 /// Where noise in a band is not in the catalogue, it is no line that wanders.
 TEST(SetSearch, NoiseInABandHasNoOtherName) {
-  Scenario s = still();
+  Scenario s = still(ten_minutes_s);
   s.effects = {effects::Vibration{0.04, 4.0, 0.4}};
   const auto series = recorded(s, 77, false);
   const Simulator simulator(series, 1);
