@@ -35,28 +35,32 @@ struct Diagnosed<effects::DeadZone> {
     // Before a filter, what a zone loses is spread over the samples behind it.
     for (const double of_element : {0.0, 1.0}) {
       if (of_element != 0.0 && !e.is_filtered()) continue;
-      const std::size_t first = found.size();
       for (const double dither : {0.0, 0.3})
         for (const double lost : {0.0, 1.0})
           found.push_back(shaped(
               e, Trace::rate, Zone{.lost_beyond = lost, .dither = dither, .of_element = of_element},
               &Zone::half_width_dps, narrowest_dps, widest_dps));
-      // One side after the other. A level that walks takes up what a zone begun from elsewhere is
-      // off by: only beside the right ones does it see either edge.
-      Evidence steady = e;
-      steady.level_gain = 0.0;
-      constexpr double near = 1.1;
-      for (const std::size_t even : {first, first + 1}) {
-        Zone zone = found[even];
-        zone.below_dps = zone.half_width_dps;
-        constexpr std::array sides = {&Zone::half_width_dps, &Zone::below_dps};
-        for (int pass = 0; pass < 2; ++pass)
-          for (const auto side : sides)
-            zone = shaped(steady, Trace::rate, zone, side, narrowest_dps, widest_dps);
+    }
+    // One side after the other, where the zone is. A level that walks takes up what a zone begun
+    // from elsewhere is off by: only beside the right ones does it see either edge.
+    Evidence steady = e;
+    steady.level_gain = 0.0;
+    constexpr double near = 1.1;
+    const auto left = left_by_each(e, Trace::rate, std::vector<Effect>(found.begin(), found.end()));
+    const auto clearest = std::min_element(left.begin(), left.end()) - left.begin();
+    constexpr std::ptrdiff_t shapes = 4;  // of a side
+    const auto first = static_cast<std::size_t>(clearest / shapes * shapes);
+    for (const std::size_t even : {first, first + 1}) {
+      Zone zone = found[even];
+      zone.below_dps = zone.half_width_dps;
+      constexpr std::array sides = {&Zone::half_width_dps, &Zone::below_dps};
+      for (int pass = 0; pass < 2; ++pass)
         for (const auto side : sides)
-          zone = shaped(e, Trace::rate, zone, side, zone.*side / near, zone.*side * near);
-        found.push_back(zone);
-      }
+          zone = shaped(steady, Trace::rate, zone, side, narrowest_dps, widest_dps);
+      for (const auto side : sides)
+        zone = shaped(e, Trace::rate, zone, side, zone.*side / near, zone.*side * near);
+      found.push_back(zone);
+      if (e.is_filtered()) found.push_back(across_a_filter(zone));
     }
     return found;
   }
