@@ -364,7 +364,7 @@ TEST(NearForms, ALineThatComesThreeTimesIsOneEffect) {
 /// One band that is half as wide as its centre is high stood in for both, with a telegraph or
 /// without.
 TEST(NearForms, AnAnglesErrorsBesideFlickerAreNoBand) {
-  Scenario s = still(ten_minutes_s);
+  Scenario s = still();
   s.sampling = {1760.0, 30.0};
   s.random_error.measurement_noise_std_dps = 0.041;
   for (const double coefficient_deg : {8e-4, 1e-3}) {

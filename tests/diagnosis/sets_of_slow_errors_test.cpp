@@ -128,7 +128,7 @@ TEST(SetSearch, ThermalErrorsOfOtherFormsAreOneEffect) {
 /// A scale of 80 nats under a thermal loop of many times its size: begun from least squares on what
 /// is not white, it was a scale of the other sign, and one direction's beside a dead zone stood in.
 TEST(SetSearch, AScaleUnderAThermalLoopIsOneEffect) {
-  Scenario s = moving(ten_minutes_s);
+  Scenario s = moving();
   s.sampling = {2400.0, 20.0};
   s.motion = motion::RateTable{100.0, 120.0};
   s.temperature = temperature::Cycle{23.0, 57.0, 1500.0};

@@ -56,7 +56,7 @@ TEST(SetSearch, RepeatsThatAMotionHardlyTellsAreNoOutliers) {
 
 /// Of 1,200 outliers on a grid some eighty fall on the value before, and as many on each beside it.
 TEST(SetSearch, OutliersThatFallOnTheValueBeforeAreNoRepeats) {
-  Scenario s = moving(ten_minutes_s);
+  Scenario s = moving();
   s.effects = {effects::Outliers{.probability = 0.05, .std_dps = 0.5}, effects::Quantization{0.1}};
   EXPECT_EQ(found_in(recorded(s, 90, true)), (std::set<std::string>{"outliers", "quantization"}));
 }
