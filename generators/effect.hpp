@@ -18,13 +18,15 @@ namespace gyrostat {
 struct EffectType : ParametricType {
   static constexpr std::string_view kind = "effect";
 
-  Stage stage;
+  Stage stage;                                          ///< unless `acts_at` says otherwise
   std::span<std::vector<double> Series::*const> needs;  ///< channels
   void (*apply)(const std::any& effect, Series& series, const Noise& noise) = nullptr;
   /// Whether it changes each sample of the gyro by the channels of that sample alone, without
   /// noise: then it may be given any samples, also those of several trials, in any order. Null: it
   /// does not.
   bool (*is_sample_by_sample)(const std::any& effect) = nullptr;
+  /// Null: at `stage`, whatever its parameters.
+  Stage (*acts_at)(const std::any& effect) = nullptr;
   /// Null: none.
   Response (*response)(const std::any& effect) = nullptr;
   /// Tells its code from another under the same name; empty for code of the program itself.
@@ -48,7 +50,9 @@ class Effect : public Chosen<EffectType> {
  public:
   using Chosen::Chosen;
 
-  Stage stage() const { return type().stage; }
+  Stage stage() const {
+    return type().acts_at != nullptr ? type().acts_at(plugin()) : type().stage;
+  }
   bool is_sample_by_sample() const {
     return type().is_sample_by_sample != nullptr && type().is_sample_by_sample(plugin());
   }
@@ -67,6 +71,13 @@ bool acts_sample_by_sample(const std::any& effect) {
   if constexpr (requires(const E& e) { e.is_sample_by_sample(); })
     return std::any_cast<E>(&effect)->is_sample_by_sample();
   return requires { E::sample_by_sample; };
+}
+
+/// An effect whose stage depends on its parameters has an `acts_at`.
+template <class E>
+Stage stage_of(const std::any& effect) {
+  if constexpr (requires(const E& e) { e.acts_at(); }) return std::any_cast<E>(&effect)->acts_at();
+  return E::stage;
 }
 
 /// An effect that may say how the rate is sensed has a `response`.
@@ -121,6 +132,7 @@ EffectType describe_effect(std::string_view id) {
             std::any_cast<E>(&effect)->apply(series, noise);
           },
           acts_sample_by_sample<E>,
+          stage_of<E>,
           response_of<E>};
 }
 

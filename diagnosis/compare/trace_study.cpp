@@ -76,7 +76,10 @@ void TraceStudy::prepare() const {
     if (repeats && !marks.repeats.empty()) bench_->mask_too(marks.repeats);
     if (clipped && !marks.clipped.empty()) bench_->mask_too(marks.clipped);
   }
-  if (has(set, "outliers")) {
+  const bool outliers = std::any_of(set.effects.begin(), set.effects.end(), [](const auto& e) {
+    return e.id() == "outliers" && e.stage() != Stage::noise;  // behind filters
+  });
+  if (outliers) {
     const auto left = bench_->rate_left_by(set, bench_->masked());
     bench_->mask_too(tails_of(conditions(), left, conditions().has_temperature()).outliers);
   }

@@ -14,7 +14,7 @@ Scenario SetSearcher::subset_of(const Scenario& whole, const std::vector<std::st
       is_in("stale_samples") || is_in("saturation") || bench_.is_marked("dead_zone");
   bench_.mask_only(repeats ? repeats_ : std::vector<char>(recording_.size(), 0));
   bench_.take_out_response(std::nullopt);
-  if (is_in("outliers")) bench_.mask_too(tails_.outliers);
+  if (is_in("outliers") && !tails_.innovational) bench_.mask_too(tails_.outliers);
   Scenario some = whole;
   some.effects.clear();
   for (const auto& effect : whole.effects)

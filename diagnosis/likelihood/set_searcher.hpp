@@ -193,7 +193,7 @@ class SetSearcher {
     return tails_.turns > 0.0 && has(set, "noise_averaging");
   }
   /// What the innovations say of outliers and of noise over temperature, beside the set.
-  void judge_tails(const Standing& standing);
+  void judge_tails(const Standing& standing, Past past);
   void add_tails(FoundSet& found) const;
   /// Of noise fitted to samples that are not far off, at all temperatures: without the outliers
   /// among them, and as it is at the reference temperature, where `set` has these effects.

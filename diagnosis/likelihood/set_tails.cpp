@@ -26,6 +26,10 @@ bool is_of_one_size(const Scenario& scenario, const std::vector<Span>& blocks) {
          walk * walk * static_cast<double>(blocks.front().size()) / 6.0 < white * white;
 }
 
+bool colours_noise(const Scenario& set) {
+  return has(set, "noise_bandwidth") || has(set, "noise_averaging");
+}
+
 }  // namespace
 
 /// The variance of rounded noise goes with the cosine of the level, in grids, by the first harmonic
@@ -63,7 +67,7 @@ SetSearcher::OfGrid SetSearcher::feigned_by_grid(double lsb_of_noise) const {
   return {.warmth = n / 8.0 * share * share, .tails = n / 24.0 * excess * excess};
 }
 
-void SetSearcher::judge_tails(const Standing& standing) {
+void SetSearcher::judge_tails(const Standing& standing, Past past) {
   auto hidden = edges_of_the_dead_zone(standing.scenario);
   const auto unknown = unknown_samples(standing.scenario);
   const auto beyond = samples_shifted_beyond(conditions_, standing.scenario);
@@ -86,7 +90,7 @@ void SetSearcher::judge_tails(const Standing& standing) {
     for (std::size_t i = 0; i < left.size(); ++i)
       if (beside[i] != 0) left[i] = no_value;
   }
-  tails_ = tails_of(conditions_, left, conditions_.has_temperature());
+  tails_ = tails_of(conditions_, left, conditions_.has_temperature(), past);
   // The less noise is left beside the set, the more of it goes with the level.
   if (undithered_lsb_dps_ > 0.0)
     feigned_.warmth = feigned_by_grid(undithered_lsb_dps_ / noise_about_levels(left)).warmth;
@@ -116,7 +120,10 @@ Standing SetSearcher::searched_beside_tails(Standing standing) {
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {
     const auto hidden = bench_.masked();
-    judge_tails(standing);
+    // At first it is not known what colours the noise.
+    const auto past =
+        round == 0 || colours_noise(standing.scenario) ? Past::may_be_of_outliers : Past::is_quiet;
+    judge_tails(standing, past);
     if (round == 0 && has_outliers_) {
       // What a motion leaves must not pass for outliers.
       const auto all = candidates_;
@@ -124,7 +131,7 @@ Standing SetSearcher::searched_beside_tails(Standing standing) {
                     [](const auto* cause) { return band_of(cause->id) != EffectBand::motion; });
       standing = searched(std::move(standing));
       candidates_ = all;
-      judge_tails(standing);
+      judge_tails(standing, past);
     }
     if (!is_of_one_size(standing.scenario, level_blocks(conditions_))) {
       tails_ = {};
@@ -133,7 +140,7 @@ Standing SetSearcher::searched_beside_tails(Standing standing) {
     // The largest samples would hide what else there is.
     bench_.mask_only(repeats_);
     bench_.mask_too(edges_of_the_dead_zone(standing.scenario));
-    if (has_outliers_) bench_.mask_too(tails_.outliers);
+    if (has_outliers_ && !tails_.innovational) bench_.mask_too(tails_.outliers);
     hidden_from_response_ = bench_.masked();
     bench_.mask_too(unknown_samples(standing.scenario));
     if (round > 0 && bench_.masked() == hidden) break;
@@ -166,8 +173,18 @@ void SetSearcher::add_tails(FoundSet& found) const {
         effect.value(field_of(effect, "slip")) = is_behind ? -tails_.turns : tails_.turns;
       }
   if (has_outliers_) {
-    for (const auto& population : tails_.populations)
-      found.scenario.effects.emplace_back(population);
+    const bool before = tails_.innovational && colours_noise(found.scenario);
+    // Sizes are of innovations, which a filter makes smaller.
+    const double scale = before ? tails_.quiet * std::sqrt(law.white) / tails_.deviation : 1.0;
+    auto& effects = found.scenario.effects;
+    for (auto population : tails_.populations) {
+      population.std_dps *= scale;
+      population.mean_size_dps *= scale;
+      population.before_filter = before ? 1.0 : 0.0;
+      effects.insert(before ? effects.begin() : effects.end(), Effect(population));
+      if (!before) continue;
+      for (auto& interval : found.intervals) ++interval.effect;
+    }
     found.members.push_back({"outliers", tails_.outlier_gain - feigned_.tails - 10.0});
   }
   if (has_warm_noise_) {

@@ -15,6 +15,8 @@ namespace gyrostat::gap {
 namespace {
 
 constexpr std::size_t order = 16;
+constexpr std::size_t fewest_innovations = 500;
+constexpr double looked_into = 10.0;  ///< log-likelihood of tails
 constexpr double cut = 4.0;  ///< standard deviations beyond which a sample does not count at first
 
 double robust_deviation(std::vector<double> values) {
@@ -45,6 +47,15 @@ Whitened whiten(const Conditions& conditions, const std::vector<double>& left, P
   return w;
 }
 
+std::vector<double> present_in_train(const Conditions& conditions,
+                                     const std::vector<double>& given) {
+  std::vector<double> present;
+  for (const auto& span : conditions.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i)
+      if (!is_missing(given[i])) present.push_back(given[i]);
+  return present;
+}
+
 /// How many samples before one foretell it: what all others add is little beside its error.
 std::size_t foretelling(const Autoregression& law) {
   constexpr double little = 0.02;
@@ -59,14 +70,13 @@ std::size_t foretelling(const Autoregression& law) {
   return count;
 }
 
-std::vector<double> covariances(const Conditions& conditions, const std::vector<double>& left,
-                                double limit) {
+std::vector<double> covariances(const Conditions& conditions, const std::vector<double>& left) {
   std::vector<double> sums(order + 1, 0.0), counts(order + 1, 0.0);
   for (const auto& span : conditions.spans(Part::train))
     for (std::size_t i = span.first; i < span.last; ++i) {
-      if (!(std::abs(left[i]) < limit)) continue;
+      if (is_missing(left[i])) continue;
       for (std::size_t lag = 0; lag <= order && i >= span.first + lag; ++lag)
-        if (std::abs(left[i - lag]) < limit) {
+        if (!is_missing(left[i - lag])) {
           sums[lag] += left[i] * left[i - lag];
           counts[lag] += 1.0;
         }
@@ -118,65 +128,190 @@ OutlierMixture of_the_scattered(const std::vector<std::size_t>& samples,
   return mixture;
 }
 
+/// Samples by those before them.
+struct Foretold {
+  Autoregression law;
+  std::vector<double> history;  ///< that they are foretold by
+  std::vector<double> ahead;    ///< deviation of a sample's error, of that of one step ahead
+  Whitened errors;              ///< of the train part, each as of one step ahead
+};
+
+Foretold foretold(const Conditions& conditions, const std::vector<double>& given,
+                  std::vector<double> history, std::vector<double> ahead) {
+  Foretold f{
+      autoregression(covariances(conditions, history)), std::move(history), std::move(ahead), {}};
+  // Where few have all before them, those that foretell them; and where few have these, none.
+  for (const std::size_t needed : {order, foretelling(f.law), std::size_t{0}}) {
+    f.errors = whiten(conditions, f.history, Part::train, f.law.coefficients, needed);
+    if (2 * f.errors.samples.size() >= present_in_train(conditions, given).size()) break;
+  }
+  for (std::size_t k = 0; k < f.errors.samples.size(); ++k) {
+    const std::size_t i = f.errors.samples[k];
+    f.errors.innovations[k] += given[i] - f.history[i];
+    f.errors.innovations[k] /= f.ahead[i];
+  }
+  return f;
+}
+
+/// From those before `i` in `history`; what is missing is as if it were zero.
+double prediction(const std::vector<double>& history, const std::vector<double>& coefficients,
+                  std::size_t i, std::size_t first) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < std::min(order, i - first); ++j)
+    if (const double before = history[i - 1 - j]; !is_missing(before))
+      sum -= coefficients[j] * before;
+  return sum;
+}
+
+/// Response of the autoregression to one innovation, until little is left of it.
+std::vector<double> response_to_one(const std::vector<double>& coefficients) {
+  constexpr double little = 0.01;
+  constexpr std::size_t most = 1000;
+  std::vector<double> response{1.0};
+  for (std::size_t k = 1, small = 0; k < most && small < order; ++k) {
+    double value = 0.0;
+    for (std::size_t j = 0; j < std::min(order, k); ++j)
+      value -= coefficients[j] * response[k - 1 - j];
+    response.push_back(value);
+    small = std::abs(value) < little ? small + 1 : 0;
+  }
+  return response;
+}
+
+/// What is far from its prediction is replaced by it (Martin and Thomson, Proc. IEEE 70, 1982), so
+/// that an outlier is one innovation and not seventeen. From samples replaced in a row the next is
+/// foretold as many steps ahead.
+Foretold cleaned(const Conditions& conditions, const std::vector<double>& given,
+                 const Foretold& by) {
+  const double limit = cut * robust_deviation(by.errors.innovations);
+  std::vector<double> deviations;  // so many steps ahead
+  double sum = 0.0;
+  for (const double r : response_to_one(by.law.coefficients))
+    deviations.push_back(std::sqrt(sum += r * r));
+  auto history = given;
+  std::vector<double> ahead(given.size(), 1.0);
+  for (const Part part : both_parts)
+    for (const auto& span : conditions.spans(part))
+      for (std::size_t i = span.first, replaced = 0; i < span.last; ++i) {
+        if (is_missing(given[i])) continue;
+        ahead[i] = deviations[std::min(replaced, deviations.size() - 1)];
+        const double expected = prediction(history, by.law.coefficients, i, span.first);
+        const bool is_far = std::abs(given[i] - expected) > limit * ahead[i];
+        if (is_far) history[i] = expected;
+        replaced = is_far ? replaced + 1 : 0;
+      }
+  return foretold(conditions, given, std::move(history), std::move(ahead));
+}
+
+Foretold beside_outliers(const Conditions& conditions, const std::vector<double>& given,
+                         double spread) {
+  const double limit = 5.0 * spread;
+  auto history = given;
+  for (double& v : history)
+    if (!is_missing(v)) v = std::clamp(v, -limit, limit);
+  const std::vector<double> one_step(given.size(), 1.0);
+  auto f = foretold(conditions, given, std::move(history), one_step);
+  constexpr int passes = 3;
+  for (int pass = 0; pass < passes && f.errors.samples.size() >= fewest_innovations; ++pass)
+    f = cleaned(conditions, given, f);
+  return f;
+}
+
+OutlierMixture mixture_of(const Whitened& w) {
+  const double deviation = robust_deviation(w.innovations);
+  std::vector<double> squares;
+  for (const double e : w.innovations) squares.push_back(e * e);
+  return outlier_mixture(squares, deviation * deviation);
+}
+
+/// Log-likelihood of a sample.
+double likelihood_of_one(const Whitened& w, const OutlierMixture& mixture) {
+  const auto n = static_cast<double>(w.innovations.size());
+  double total = 0.0;
+  for (const double e : w.innovations) total += e * e;
+  return mixture.gain / n - 0.5 * std::log(total / n);
+}
+
+/// Whether outliers are innovations, and what follows goes with them.
+bool is_innovational(const Foretold& whole, const Foretold& beside) {
+  const auto mixture = mixture_of(beside.errors);
+  if (mixture.gain < looked_into) return false;
+  const auto n = static_cast<double>(whole.errors.innovations.size());
+  return n * (likelihood_of_one(whole.errors, mixture_of(whole.errors)) -
+              likelihood_of_one(beside.errors, mixture)) >
+         looked_into;
+}
+
+void tell_warmth(const Conditions& conditions, const Whitened& w, Tails& tails,
+                 std::vector<double>& relative) {
+  const auto& T = conditions.series().temperature_C;
+  const auto n = static_cast<double>(w.innovations.size());
+  std::vector<double> off;
+  double mean = 0.0;
+  for (const std::size_t i : w.samples) mean += T[i] / n;
+  for (const std::size_t i : w.samples) off.push_back(T[i] - mean);
+  const auto warm = noise_over(off, w.innovations, tails.deviation, cut);
+  tails.deviation = warm.deviation;
+  tails.reference_C = mean;
+  tails.noise_per_C = warm.slope;
+  tails.noise_per_C2 = warm.curvature;
+  tails.temperature_gain = std::max(0.0, warm.gain);
+  tails.mean_square_of_warmth = 0.0;
+  for (const double o : off) tails.mean_square_of_warmth += std::pow(warm.gain_at(o), 2) / n;
+  // What does not show does not scale the others.
+  if (tails.temperature_gain >= 7.0)
+    std::transform(off.begin(), off.end(), relative.begin(),
+                   [&](double o) { return warm.gain_at(o); });
+}
+
+/// Samples whose error is of an outlier, and those that it moves by as much as the noise.
+std::vector<char> flagged(const Conditions& conditions, const std::vector<double>& given,
+                          const Foretold& f, double odd, double spread, bool innovational) {
+  std::vector<char> flags(given.size(), 0);
+  const auto response =
+      innovational ? response_to_one(f.law.coefficients) : std::vector<double>{1.0};
+  for (const Part part : both_parts)
+    for (const auto& span : conditions.spans(part))
+      for (std::size_t i = span.first; i < span.last; ++i) {
+        const double e = given[i] - prediction(f.history, f.law.coefficients, i, span.first);
+        if (!(std::abs(e) > odd * f.ahead[i])) continue;
+        flags[i] = 1;
+        for (std::size_t k = 1; k < std::min(response.size(), span.last - i); ++k)
+          if (std::abs(e * response[k]) > spread) flags[i + k] = 1;
+      }
+  return flags;
+}
+
 }  // namespace
 
-Tails tails_of(const Conditions& conditions, const std::vector<double>& given, bool temperature) {
+Tails tails_of(const Conditions& conditions, const std::vector<double>& given, bool temperature,
+               Past past) {
   Tails tails;
-  std::vector<double> present;
-  for (const auto& span : conditions.spans(Part::train))
-    for (std::size_t i = span.first; i < span.last; ++i)
-      if (!is_missing(given[i])) present.push_back(given[i]);
   tails.outliers.assign(given.size(), 0);
-  if (present.size() < 500) return tails;
-  const double limit = 5.0 * robust_deviation(present);
-  const auto law = autoregression(covariances(conditions, given, limit));
-  const auto& coefficients = law.coefficients;
-  // The predictions are from cut values, so that an outlier is one innovation and not seventeen.
-  std::vector<double> left = given;
-  for (double& v : left)
-    if (!is_missing(v)) v = std::clamp(v, -limit, limit);
-  // Where few have all before them, those that foretell them; and where few have these, none.
-  Whitened w;
-  for (const std::size_t needed : {order, foretelling(law), std::size_t{0}}) {
-    w = whiten(conditions, left, Part::train, coefficients, needed);
-    if (2 * w.samples.size() >= present.size()) break;
+  const auto present = present_in_train(conditions, given);
+  if (present.size() < fewest_innovations) return tails;
+  const double spread = robust_deviation(present);
+  auto f = beside_outliers(conditions, given, spread);
+  if (f.errors.innovations.size() < fewest_innovations) return tails;
+  if (past == Past::may_be_of_outliers) {
+    auto whole = foretold(conditions, given, given, std::vector<double>(given.size(), 1.0));
+    tails.innovational = is_innovational(whole, f);
+    if (tails.innovational) f = std::move(whole);
   }
-  for (std::size_t k = 0; k < w.samples.size(); ++k)
-    w.innovations[k] += given[w.samples[k]] - left[w.samples[k]];
-  if (w.innovations.size() < 500) return tails;
-  double deviation = robust_deviation(w.innovations);
-  const auto n = static_cast<double>(w.innovations.size());
-
+  const auto& w = f.errors;
+  tails.deviation = robust_deviation(w.innovations);
   std::vector<double> relative(w.innovations.size(), 1.0);
-  if (temperature) {
-    const auto& T = conditions.series().temperature_C;
-    std::vector<double> off;
-    double mean = 0.0;
-    for (const std::size_t i : w.samples) mean += T[i] / n;
-    for (const std::size_t i : w.samples) off.push_back(T[i] - mean);
-    const auto warm = noise_over(off, w.innovations, deviation, cut);
-    deviation = warm.deviation;
-    tails.reference_C = mean;
-    tails.noise_per_C = warm.slope;
-    tails.noise_per_C2 = warm.curvature;
-    tails.temperature_gain = std::max(0.0, warm.gain);
-    tails.mean_square_of_warmth = 0.0;
-    for (const double o : off) tails.mean_square_of_warmth += std::pow(warm.gain_at(o), 2) / n;
-    // What does not show does not scale the others.
-    if (tails.temperature_gain >= 7.0)
-      std::transform(off.begin(), off.end(), relative.begin(),
-                     [&](double o) { return warm.gain_at(o); });
-  }
+  if (temperature) tell_warmth(conditions, w, tails, relative);
 
   std::vector<double> squares(w.innovations.size());
   for (std::size_t k = 0; k < squares.size(); ++k) {
     const double e = w.innovations[k] / relative[k];
     squares[k] = e * e;
   }
-  const auto mixture = of_the_scattered(w.samples, squares, deviation * deviation);
+  const auto mixture = of_the_scattered(w.samples, squares, tails.deviation * tails.deviation);
   const double narrow = mixture.narrow;
+  tails.deviation = std::sqrt(narrow);
   tails.outlier_gain = mixture.gain;
-  constexpr double looked_into = 10.0;
   if (mixture.gain > looked_into) tails.turns = turns_of(w.samples, squares, narrow);
   // Each hits by itself: the last, which are widest, those that the others hit, too.
   double missed = 1.0;
@@ -186,19 +321,12 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
                                  .mean_size_dps = wide->size});
     missed -= wide->share;
   }
-  const double odd = 4.5 * std::sqrt(narrow);
+  const double odd = 4.5 * tails.deviation;
   double sum = 0.0, count = 0.0;
   for (const double s : squares)
-    if (s < odd * odd) sum += s, count += 1.0;
+    if (tails.innovational || s < odd * odd) sum += s, count += 1.0;
   tails.quiet = std::min(1.0, std::sqrt(narrow * count / sum));
-  for (const Part part : both_parts)
-    for (const auto& span : conditions.spans(part))
-      for (std::size_t i = span.first; i < span.last; ++i) {
-        double e = given[i];
-        for (std::size_t j = 0; j < std::min(order, i - span.first); ++j)
-          e += coefficients[j] * (is_missing(left[i - 1 - j]) ? 0.0 : left[i - 1 - j]);
-        if (std::abs(e) > odd) tails.outliers[i] = 1;
-      }
+  tails.outliers = flagged(conditions, given, f, odd, spread, tails.innovational);
   return tails;
 }
 

@@ -19,12 +19,20 @@ struct Tails {
   double turns = 0.0;
   std::vector<char> outliers;  ///< a flag a sample, of all samples: far off
   double quiet = 1.0;          ///< of the deviation of samples without a flag, what is no outliers'
+  /// Whether outliers pass what colours the noise, and all that comes after them with it (Fox, J.
+  /// Roy. Stat. Soc. B 34, 1972: type II). Then all samples count, and `quiet` is of them.
+  bool innovational = false;
+  double deviation = 0.0;  ///< of an innovation that is none, dps
 };
+
+/// Whether a sample may follow outliers before it, as behind a filter.
+enum class Past { is_quiet, may_be_of_outliers };
 
 /// Innovations of an autoregression fitted to the train part of `left_dps` (NaN: unknown): what a
 /// set of effects leaves of the rate, without its slow part. `temperature` says whether the noise
 /// may follow it.
-Tails tails_of(const Conditions& conditions, const std::vector<double>& left_dps, bool temperature);
+Tails tails_of(const Conditions& conditions, const std::vector<double>& left_dps, bool temperature,
+               Past past = Past::is_quiet);
 
 /// Flags the samples of blocks within which `left_dps` goes from one level to another.
 std::vector<char> samples_beside_jumps(const std::vector<double>& left_dps,

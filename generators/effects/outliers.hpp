@@ -16,6 +16,7 @@ struct Outliers {
   double probability = 1e-3;
   double std_dps = 1.0;
   double mean_size_dps = 0.0;
+  double before_filter = 0.0;
 
   static constexpr std::string_view title = "occasional gross errors";
   static constexpr Stage stage = Stage::electronics;
@@ -30,10 +31,15 @@ struct Outliers {
               "standard deviation of the gross error"},
         Field{"mean_size_dps", &P::mean_size_dps, "dps", ranges::non_negative,
               "mean size of the gross error, up or down, about which it has that deviation"},
+        Field{"before_filter", &P::before_filter, "1", Range{.from = 0, .to = 1, .whole = true},
+              "1: of the white noise, before what follows in the scenario and filters it; 0: behind "
+              "such a filter"},
     };
   }
 
   static constexpr Outliers absent() { return {.probability = 0.0}; }
+
+  Stage acts_at() const { return before_filter > 0.5 ? Stage::noise : stage; }
 
   void apply(Series& series, const Noise& noise) const {
     const auto chance = noise.stream("outliers/chance");

@@ -52,7 +52,8 @@ Curve added_by(const Effect& effect, const SensorModel& model,
   alone.effects = {effect};
   auto law = gap::law_of(alone, 1.0 / model.rate_hz);
   if (const auto* outliers = effect.as<effects::Outliers>())
-    law.rounding += outliers->probability * outliers->std_dps * outliers->std_dps;
+    (outliers->before_filter > 0.5 ? law.white : law.rounding) +=
+        outliers->probability * outliers->std_dps * outliers->std_dps;
   Curve curve;
   for (const auto m : clusters) {
     curve.tau_s.push_back(static_cast<double>(m) / model.rate_hz);
