@@ -97,30 +97,41 @@ double poisson_upper_tail(double events, double mean) {
   return std::max(0.0, 1.0 - below);
 }
 
-/// Outliers come one by one: where wide values crowd more than chance would have it, they are a
-/// burst, or what is left of a motion, and do not count.
+/// Flags those in blocks within which there are more wide ones than chance would have it.
+std::vector<char> crowded(const std::vector<std::size_t>& samples, const std::vector<char>& wide,
+                          double share) {
+  constexpr double rare = 1e-4;
+  std::vector<char> flags(samples.size(), 0);
+  for (const std::size_t length : {order, 8 * order})
+    for (std::size_t first = 0, last = 0; first < samples.size(); first = last) {
+      double hits = 0.0;
+      const std::size_t block = samples[first] / length;
+      for (; last < samples.size() && samples[last] / length == block; ++last) hits += wide[last];
+      const double mean = share * static_cast<double>(last - first);
+      if (hits > 1.0 && poisson_upper_tail(hits, mean) < rare)
+        std::fill(flags.begin() + static_cast<std::ptrdiff_t>(first),
+                  flags.begin() + static_cast<std::ptrdiff_t>(last), char{1});
+    }
+  return flags;
+}
+
+/// Outliers come one by one: where wide values crowd, they are a burst, or what is left of a
+/// motion, and do not count.
 OutlierMixture of_the_scattered(const std::vector<std::size_t>& samples,
                                 const std::vector<double>& squares, double narrow) {
-  constexpr double rare = 1e-4;
   constexpr int most_rounds = 4;
   OutlierMixture mixture = outlier_mixture(squares, narrow);
-  std::vector<char> crowded(squares.size(), 0);
+  std::vector<char> left_out(squares.size(), 0);
   std::size_t kept = squares.size();
   for (int round = 0; round < most_rounds; ++round) {
-    for (const std::size_t length : {order, 8 * order})
-      for (std::size_t first = 0, last = 0; first < samples.size(); first = last) {
-        double hits = 0.0;
-        const std::size_t block = samples[first] / length;
-        for (; last < samples.size() && samples[last] / length == block; ++last)
-          hits += mixture.is_wide(squares[last]) ? 1.0 : 0.0;
-        const double mean = mixture.share() * static_cast<double>(last - first);
-        if (hits > 1.0 && poisson_upper_tail(hits, mean) < rare)
-          std::fill(crowded.begin() + static_cast<std::ptrdiff_t>(first),
-                    crowded.begin() + static_cast<std::ptrdiff_t>(last), char{1});
-      }
+    std::vector<char> wide;
+    for (const double s : squares) wide.push_back(mixture.is_wide(s));
+    const auto crowds = crowded(samples, wide, mixture.share());
     std::vector<double> scattered;
-    for (std::size_t k = 0; k < squares.size(); ++k)
-      if (crowded[k] == 0) scattered.push_back(squares[k]);
+    for (std::size_t k = 0; k < squares.size(); ++k) {
+      left_out[k] |= crowds[k];
+      if (left_out[k] == 0) scattered.push_back(squares[k]);
+    }
     if (scattered.size() == kept || 2 * scattered.size() < squares.size()) break;
     kept = scattered.size();
     mixture = outlier_mixture(scattered, mixture.narrow);
@@ -264,21 +275,32 @@ void tell_warmth(const Conditions& conditions, const Whitened& w, Tails& tails,
                    [&](double o) { return warm.gain_at(o); });
 }
 
-/// Samples whose error is of an outlier, and those that it moves by as much as the noise.
+/// Samples whose error is of an outlier, and those that it moves by as much as the noise. Errors
+/// that crowd are of none.
 std::vector<char> flagged(const Conditions& conditions, const std::vector<double>& given,
                           const Foretold& f, double odd, double spread, bool innovational) {
-  std::vector<char> flags(given.size(), 0);
-  const auto response =
-      innovational ? response_to_one(f.law.coefficients) : std::vector<double>{1.0};
+  std::vector<std::size_t> samples;
+  std::vector<double> errors;
+  std::vector<char> wide;
   for (const Part part : both_parts)
     for (const auto& span : conditions.spans(part))
       for (std::size_t i = span.first; i < span.last; ++i) {
         const double e = given[i] - prediction(f.history, f.law.coefficients, i, span.first);
-        if (!(std::abs(e) > odd * f.ahead[i])) continue;
-        flags[i] = 1;
-        for (std::size_t k = 1; k < std::min(response.size(), span.last - i); ++k)
-          if (std::abs(e * response[k]) > spread) flags[i + k] = 1;
+        if (is_missing(e)) continue;
+        samples.push_back(i);
+        errors.push_back(e);
+        wide.push_back(std::abs(e) > odd * f.ahead[i]);
       }
+  const auto all = static_cast<double>(std::count(wide.begin(), wide.end(), char{1}));
+  const auto crowds = crowded(samples, wide, all / static_cast<double>(samples.size()));
+  const auto response =
+      innovational ? response_to_one(f.law.coefficients) : std::vector<double>{1.0};
+  std::vector<char> flags(given.size(), 0);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (wide[k] == 0 || crowds[k] != 0) continue;
+    for (std::size_t j = 0; j < std::min(response.size(), given.size() - samples[k]); ++j)
+      if (j == 0 || std::abs(errors[k] * response[j]) > spread) flags[samples[k] + j] = 1;
+  }
   return flags;
 }
 
@@ -308,7 +330,10 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
     const double e = w.innovations[k] / relative[k];
     squares[k] = e * e;
   }
-  const auto mixture = of_the_scattered(w.samples, squares, tails.deviation * tails.deviation);
+  const double variance = tails.deviation * tails.deviation;
+  // What follows one that is an innovation is foretold not quite, and is no crowd.
+  const auto mixture = tails.innovational ? outlier_mixture(squares, variance)
+                                          : of_the_scattered(w.samples, squares, variance);
   const double narrow = mixture.narrow;
   tails.deviation = std::sqrt(narrow);
   tails.outlier_gain = mixture.gain;

@@ -163,5 +163,28 @@ TEST(NoiseBandwidth, DoesNotFilterSlowErrorsOrOutliers) {
     EXPECT_NEAR(both[i] - filtered[i], other[i] - none[i], 1e-12);
 }
 
+TEST(NoiseBandwidth, FiltersOutliersThatAreBeforeIt) {
+  const effects::NoiseBandwidth filter{.cutoff_hz = 1.0};
+  const auto gyro = [](const std::vector<Effect>& effects) {
+    Scenario scenario;
+    scenario.sampling = {.duration_s = 20.0, .rate_hz = 100.0};
+    scenario.effects = effects;
+    Series series;
+    synthesise(scenario, {1, 0}, series);
+    return series.gyro_dps;
+  };
+  const effects::Outliers before{.probability = 0.1, .before_filter = 1.0};
+  const auto none = gyro({}), hit = gyro({before}), filtered = gyro({filter}),
+             passed = gyro({before, filter}), behind = gyro({filter, before});
+  const double pole = std::exp(-2.0 * std::numbers::pi * 0.01);
+  for (std::size_t i = 1; i < none.size(); ++i) {
+    EXPECT_NEAR(passed[i] - filtered[i],
+                pole * (passed[i - 1] - filtered[i - 1]) + (1.0 - pole) * (hit[i] - none[i]),
+                1e-12);
+    // In a scenario's own order.
+    EXPECT_NEAR(behind[i] - filtered[i], hit[i] - none[i], 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace gyrostat::noise_bandwidth_test
