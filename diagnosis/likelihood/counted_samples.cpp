@@ -1,15 +1,58 @@
 #include <gyrostat/diagnosis/likelihood/counted_samples.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
-#include <numbers>
 #include <utility>
 
 #include <gyrostat/analysis/spectra/cosine_sums.hpp>
 
 namespace gyrostat::gap {
 namespace {
+
+/// A bit a sample, span by span. Shares of pairs are counted all: what a steep density has least of
+/// is what is left where they cancel.
+class Flags {
+ public:
+  template <class IsSet>
+  Flags(const std::vector<Span>& spans, const IsSet& is_set) {
+    for (const auto& span : spans) {
+      auto& words = spans_.emplace_back(span.size() / bits + 1, 0);
+      for (std::size_t i = 0; i < span.size(); ++i)
+        if (is_set(span.first + i)) words[i / bits] |= std::uint64_t{1} << (i % bits);
+    }
+  }
+
+  /// How many are so many samples before one of the others.
+  double pairs_with(const Flags& others, std::size_t lag) const {
+    const std::size_t whole = lag / bits, rest = lag % bits;
+    std::int64_t count = 0;
+    for (std::size_t s = 0; s < spans_.size(); ++s) {
+      const auto& later = others.spans_[s];
+      for (std::size_t k = 0; k + whole < later.size(); ++k) {
+        std::uint64_t word = later[k + whole] >> rest;
+        if (rest != 0 && k + whole + 1 < later.size())
+          word |= later[k + whole + 1] << (bits - rest);
+        count += std::popcount(spans_[s][k] & word);
+      }
+    }
+    return static_cast<double>(count);
+  }
+
+ private:
+  static constexpr std::size_t bits = 64;
+  std::vector<std::vector<std::uint64_t>> spans_;
+};
+
+std::vector<double> pairs_of_all(const std::vector<Span>& spans, std::size_t lags) {
+  std::vector<double> pairs(lags, 0.0);
+  for (const auto& span : spans)
+    for (std::size_t lag = 0; lag < std::min(lags, span.size()); ++lag)
+      pairs[lag] += static_cast<double>(span.size() - lag);
+  return pairs;
+}
 
 /// Whether pairs of samples that count, of which so many were looked at, are as likely far apart as
 /// evenly hidden ones make them.
@@ -41,48 +84,34 @@ CountedSamples::CountedSamples(const Conditions& conditions, std::vector<char> m
 }
 
 void CountedSamples::count_pairs(const Conditions& conditions, std::size_t lags) {
-  // Some of the pairs tell their shares well enough; where one of seven samples counts, or of
-  // fourteen, it must not be that one.
-  const double every = share_ < 0.2 ? 7.0 + 1.0 / std::numbers::phi : 7.0;
-  pairs_.assign(lags, 0.0);
-  std::vector<double> pairs_of_all(lags, 0.0);
-  for (const auto& span : conditions.spans(Part::train))
-    for (double at = 0.0; at < static_cast<double>(span.size()); at += every) {
-      const std::size_t i = span.first + static_cast<std::size_t>(at);
-      for (std::size_t lag = 0; lag < lags && i + lag < span.last; ++lag) {
-        pairs_of_all[lag] += 1.0;
-        pairs_[lag] += masked_[i] == 0 && masked_[i + lag] == 0 ? 1.0 : 0.0;
-      }
-    }
-  for (std::size_t lag = 0; lag < lags; ++lag) pairs_[lag] /= std::max(pairs_of_all[lag], 1.0);
-  come_evenly_ = are_even(pairs_, pairs_of_all.back());
+  const auto& train = conditions.spans(Part::train);
+  const Flags counted(train, [&](std::size_t i) { return masked_[i] == 0; });
+  const auto all = pairs_of_all(train, lags);
+  pairs_.resize(lags);
+  for (std::size_t lag = 0; lag < lags; ++lag)
+    pairs_[lag] = counted.pairs_with(counted, lag) / std::max(all[lag], 1.0);
+  come_evenly_ = are_even(pairs_, all.back());
 }
 
 void CountedSamples::put_halfway(const Conditions& conditions) {
   halfway_.assign(masked_.size(), 0);
-  const std::size_t lags = pairs_.size();
-  beside_halfway_.assign(lags, 0.0);
-  both_halfway_.assign(lags, 0.0);
-  std::vector<double> pairs_of_all(lags, 0.0);
   for (const Part part : both_parts)
-    for (const auto& span : conditions.spans(part)) {
+    for (const auto& span : conditions.spans(part))
       for (std::size_t i = span.first + 1; i + 1 < span.last; ++i)
         halfway_[i] = masked_[i] != 0 && masked_[i - 1] == 0 && masked_[i + 1] == 0 ? 1 : 0;
-      if (part != Part::train) continue;
-      for (std::size_t lag = 0; lag < std::min(lags, span.size()); ++lag)
-        pairs_of_all[lag] += static_cast<double>(span.size() - lag);
-      for (std::size_t i = span.first; i < span.last; ++i) {
-        if (halfway_[i] == 0) continue;
-        for (std::size_t lag = 0; lag < lags && i + lag < span.last; ++lag) {
-          both_halfway_[lag] += halfway_[i + lag] != 0 ? 1.0 : 0.0;
-          beside_halfway_[lag] += masked_[i + lag] == 0 ? 0.5 : 0.0;
-        }
-        for (std::size_t lag = 0; lag < lags && i >= span.first + lag; ++lag)
-          beside_halfway_[lag] += masked_[i - lag] == 0 ? 0.5 : 0.0;
-      }
-    }
-  for (auto* shares : {&beside_halfway_, &both_halfway_})
-    for (std::size_t lag = 0; lag < lags; ++lag) (*shares)[lag] /= std::max(pairs_of_all[lag], 1.0);
+  const auto& train = conditions.spans(Part::train);
+  const Flags counted(train, [&](std::size_t i) { return masked_[i] == 0; });
+  const Flags halfway(train, [&](std::size_t i) { return halfway_[i] != 0; });
+  const std::size_t lags = pairs_.size();
+  const auto all = pairs_of_all(train, lags);
+  beside_halfway_.resize(lags);
+  both_halfway_.resize(lags);
+  for (std::size_t lag = 0; lag < lags; ++lag) {
+    const double pairs = std::max(all[lag], 1.0);
+    beside_halfway_[lag] =
+        0.5 * (counted.pairs_with(halfway, lag) + halfway.pairs_with(counted, lag)) / pairs;
+    both_halfway_[lag] = halfway.pairs_with(halfway, lag) / pairs;
+  }
 }
 
 std::vector<double> CountedSamples::density(std::vector<double> of_all) const {

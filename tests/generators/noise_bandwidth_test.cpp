@@ -145,15 +145,16 @@ TEST(NoiseBandwidth, HasUnitGainAtRestAndLeavesRateAndDriftAlone) {
     EXPECT_NEAR(series.gyro_dps[i] - series.rate_ref_dps[i], 0.25, 1e-12);
 }
 
+std::vector<double> gyro(const std::vector<Effect>& effects) {
+  Scenario scenario;
+  scenario.sampling = {.duration_s = 20.0, .rate_hz = 100.0};
+  scenario.effects = effects;
+  Series series;
+  synthesise(scenario, {1, 0}, series);
+  return series.gyro_dps;
+}
+
 TEST(NoiseBandwidth, DoesNotFilterSlowErrorsOrOutliers) {
-  const auto gyro = [](const std::vector<Effect>& effects) {
-    Scenario scenario;
-    scenario.sampling = {.duration_s = 20.0, .rate_hz = 100.0};
-    scenario.effects = effects;
-    Series series;
-    synthesise(scenario, {1, 0}, series);
-    return series.gyro_dps;
-  };
   const effects::NoiseBandwidth filter{.cutoff_hz = 1.0};
   const effects::Vibration vibration{};
   const effects::Outliers outliers{.probability = 0.1};
@@ -165,14 +166,6 @@ TEST(NoiseBandwidth, DoesNotFilterSlowErrorsOrOutliers) {
 
 TEST(NoiseBandwidth, FiltersOutliersThatAreBeforeIt) {
   const effects::NoiseBandwidth filter{.cutoff_hz = 1.0};
-  const auto gyro = [](const std::vector<Effect>& effects) {
-    Scenario scenario;
-    scenario.sampling = {.duration_s = 20.0, .rate_hz = 100.0};
-    scenario.effects = effects;
-    Series series;
-    synthesise(scenario, {1, 0}, series);
-    return series.gyro_dps;
-  };
   const effects::Outliers before{.probability = 0.1, .before_filter = 1.0};
   const auto none = gyro({}), hit = gyro({before}), filtered = gyro({filter}),
              passed = gyro({before, filter}), behind = gyro({filter, before});
