@@ -31,11 +31,12 @@ KeptApart kept_apart_by_motion(const Conditions& conditions, const std::vector<d
     return 2.0 * std::abs(z[to] - z[from]) >= std::abs(reference[to] - reference[from]);
   };
   const auto each = [&](const auto& look) {
-    for (const auto& span : conditions.spans(Part::train))
-      for (std::size_t i = span.first + 1 + around; i + around < span.last; ++i)
-        if (!is_missing(z[i]) && !is_missing(z[i - 1]) && follows(i) &&
-            (marks.limit_dps == 0.0 || std::abs(z[i]) < marks.limit_at(z[i])))
-          look(i, z[i] - z[i - 1], reference[i] - reference[i - 1]);
+    for (const Part part : both_parts)
+      for (const auto& span : conditions.spans(part))
+        for (std::size_t i = span.first + 1 + around; i + around < span.last; ++i)
+          if (!is_missing(z[i]) && !is_missing(z[i - 1]) && follows(i) &&
+              (marks.limit_dps == 0.0 || std::abs(z[i]) < marks.limit_at(z[i])))
+            look(i, z[i] - z[i - 1], reference[i] - reference[i - 1]);
   };
   std::vector<double> errors;
   each([&](std::size_t /*i*/, double step, double turned) {

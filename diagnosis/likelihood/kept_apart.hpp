@@ -27,7 +27,8 @@ struct KeptApart {
   }
 };
 
-/// Of the train part, beside the marks of grid and limits; no pairs without a reference.
+/// Of both parts, since a repeat is certain where it shows, and may show but a few times; beside the
+/// marks of grid and limits. No pairs without a reference.
 KeptApart kept_apart_by_motion(const Conditions& conditions, const std::vector<double>& gyro_dps,
                                const Marks& marks, double resolution_dps);
 

@@ -55,6 +55,21 @@ TEST(Marks, RepeatsBesideAGridShowWhereTheMotionTurns) {
   EXPECT_GE(seen, recordings - 2);
 }
 
+/// Three samples, of a hundred turns, are off by all of a turn: a filter, a scale and telegraph
+/// noise of 4 dps stood in for them where hardly one was in the half that is fitted.
+TEST(Marks, FewRepeatsShowWhereverTheMotionTurns) {
+  auto series = recorded(turning_on_a_grid(), 40, true);
+  const Conditions conditions(series);
+  int repeated = 0;
+  for (std::size_t i = 1; i < series.size() && repeated < 3; ++i)
+    if (series.rate_ref_dps[i] != series.rate_ref_dps[i - 1] &&
+        conditions.part_of(i) != Part::train) {
+      series.gyro_dps[i] = series.gyro_dps[i - 1];
+      ++repeated;
+    }
+  EXPECT_GT(marks_in(series).stale_probability, 0.0);
+}
+
 /// A table that ramps from rest to rest, rounded to three standard deviations of the noise: between
 /// ramps neighbours are equal as often as the rate lies near a value, and within them steps of
 /// little more than the grid's are undone by noise.

@@ -16,32 +16,32 @@
 namespace gyrostat::gap::rate_grid_test {
 namespace {
 
-/// One in twenty samples alone, and a few runs of five: the first are halfway between their
-/// neighbours, the others zeros.
-std::vector<char> hidden_in(std::size_t samples) {
+/// A share of the samples alone, and runs of five: the first are halfway between their neighbours,
+/// the others zeros.
+std::vector<char> hidden_in(std::size_t samples, double of_alone, double of_runs) {
   const NormalStream alone(3, 0, "alone"), runs(3, 0, "runs");
   std::vector<char> hidden(samples, 0);
   for (std::size_t i = 0; i < samples; ++i) {
-    if (alone.uniform(i) < 0.05) hidden[i] = 1;
-    if (runs.uniform(i) < 0.001)
+    if (alone.uniform(i) < of_alone) hidden[i] = 1;
+    if (runs.uniform(i) < of_runs)
       for (std::size_t k = i; k < std::min(i + 5, samples); ++k) hidden[k] = 1;
   }
   return hidden;
 }
 
-/// Bands of eight bins of forty recordings of smooth noise: a share of their ratio to the law has a
-/// standard error of at most 0.7 % (sqrt(1.5 / (8 x 40 x 110 segments))); to five of them, which
+/// Bands of eight bins of forty recordings of filtered noise: a share of their ratio to the law has
+/// a standard error of at most 0.7 % (sqrt(1.5 / (8 x 40 x 110 segments))); to five of them, which
 /// one band in a million passes, come 3 % for the level that is taken out and for windows that
 /// leak.
-TEST(RateGrid, ShowsOfSmoothNoiseWhatPeriodogramsDo) {
+void expect_shown(const effects::NoiseBandwidth& filter, double alone, double runs) {
   Scenario s = still();
   s.random_error = {
       .phi = 0.0, .delta1_dps = 0.0, .delta2_dps = 0.0, .measurement_noise_std_dps = 0.05};
   s.thermal_drift = {.a_dps_per_C = 0.0, .b_dps_s_per_C = 0.0, .c_dps = 0.0};
-  s.effects = {effects::NoiseBandwidth{.cutoff_hz = 2.0, .poles = 2.0}};
+  s.effects = {filter};
   const Conditions conditions(recorded(s, 1, false));
-  const auto grid =
-      std::make_shared<const RateGrid>(conditions, hidden_in(conditions.series().size()));
+  const auto grid = std::make_shared<const RateGrid>(
+      conditions, hidden_in(conditions.series().size(), alone, runs));
   const auto law = grid->shown(density_of(law_of(s, conditions.interval_s()), grid->angles()));
   std::vector<double> seen(law.size(), 0.0);
   constexpr int recordings = 40;
@@ -55,6 +55,15 @@ TEST(RateGrid, ShowsOfSmoothNoiseWhatPeriodogramsDo) {
     for (std::size_t k = first; k < first + band; ++k) ratio += seen[k] / law[k] / band;
     EXPECT_NEAR(ratio, 1.0, 5.0 * 0.007 + 0.03) << "from bin " << first;
   }
+}
+
+TEST(RateGrid, ShowsOfSmoothNoiseWhatPeriodogramsDo) {
+  expect_shown({.cutoff_hz = 2.0, .poles = 2.0}, 0.05, 0.001);
+}
+
+/// Of whose density the last octave has a thousandth, and repeats alone are what is seen there.
+TEST(RateGrid, ShowsOfSteepNoiseBesideRepeatsWhatPeriodogramsDo) {
+  expect_shown({.cutoff_hz = 2.0, .poles = 2.0, .maximally_flat = 1.0}, 0.01, 0.0);
 }
 
 }  // namespace
