@@ -54,6 +54,22 @@ double log_likelihood(const NoiseOver& noise, const std::vector<double>& off_C,
   return -0.5 * count * std::log(squares / std::max(1.0, count)) - logs;
 }
 
+/// Variance of the squares of samples that are not far out, of that of normal noise: as much less
+/// does each say of its size (McCullagh and Nelder, "Generalized Linear Models", 2nd ed., 4.5).
+double dispersion(const NoiseOver& noise, const std::vector<double>& off_C,
+                  const std::vector<double>& innovations, double cut) {
+  double squares = 0.0, fourths = 0.0, count = 0.0;
+  for (std::size_t k = 0; k < innovations.size(); ++k) {
+    const double size = noise.deviation * noise.gain_at(off_C[k]);
+    if (std::abs(innovations[k]) > cut * size) continue;
+    const double square = std::pow(innovations[k] / size, 2);
+    squares += square;
+    fourths += square * square;
+    count += 1.0;
+  }
+  return std::max(1.0, 0.5 * (fourths * count / std::max(squares * squares, 1e-300) - 1.0));
+}
+
 }  // namespace
 
 double NoiseOver::gain_at(double off_C) const {
@@ -63,8 +79,9 @@ double NoiseOver::gain_at(double off_C) const {
 NoiseOver noise_over(const std::vector<double>& off_C, const std::vector<double>& innovations,
                      double deviation, double cut) {
   const auto gain = [&](const NoiseOver& more, const NoiseOver& less) {
-    return log_likelihood(more, off_C, innovations, more, cut) -
-           log_likelihood(less, off_C, innovations, more, cut);
+    return (log_likelihood(more, off_C, innovations, more, cut) -
+            log_likelihood(less, off_C, innovations, more, cut)) /
+           dispersion(more, off_C, innovations, cut);
   };
   auto noise = fitted(off_C, innovations, deviation, cut, false);
   // Half the logarithm of the samples that a value costs, and what makes chance rare.

@@ -9,7 +9,7 @@ namespace gyrostat::gap {
 struct NoiseOver {
   double deviation;
   double slope = 0.0, curvature = 0.0;
-  double gain = 0.0;  ///< log-likelihood beyond noise of one size
+  double gain = 0.0;  ///< log-likelihood beyond noise of one size, were all as normal
 
   double gain_at(double off_C) const;
 };

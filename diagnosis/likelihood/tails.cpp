@@ -253,6 +253,16 @@ bool is_innovational(const Foretold& whole, const Foretold& beside) {
          looked_into;
 }
 
+/// Of the noise with those that are too many to be left out: without them, means of what is left
+/// would go farther than by chance with the level that it is left about.
+double common_variance(const OutlierMixture& mixture) {
+  constexpr double too_many = 0.05;
+  double variance = mixture.narrow;
+  for (const auto& w : mixture.wide)
+    if (w.share > too_many) variance += w.share * (w.variance + w.size * w.size - mixture.narrow);
+  return variance;
+}
+
 void tell_warmth(const Conditions& conditions, const Whitened& w, Tails& tails,
                  std::vector<double>& relative) {
   const auto& T = conditions.series().temperature_C;
@@ -346,7 +356,7 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
                                  .mean_size_dps = wide->size});
     missed -= wide->share;
   }
-  const double odd = 4.5 * tails.deviation;
+  const double odd = 4.5 * std::sqrt(common_variance(mixture));
   double sum = 0.0, count = 0.0;
   for (const double s : squares)
     if (tails.innovational || s < odd * odd) sum += s, count += 1.0;

@@ -65,6 +65,24 @@ TEST(Tails, TellWhatPassesAFilter) {
   EXPECT_FALSE(tails_of(made.conditions, made.passed, false).innovational);
 }
 
+/// Four samples in ten are four times as wide: by chance a slope gains half a unit of the
+/// logarithm, of 40 draws with a standard error of 0.11, and five of these are allowed.
+TEST(Tails, OfManyWideOnesAreNoWarmth) {
+  const Series series = recorded(still(ten_minutes_s), 1, false);
+  const Conditions conditions(series);
+  constexpr int draws = 40;
+  double gain = 0.0;
+  for (std::uint32_t trial = 0; trial < draws; ++trial) {
+    const NormalStream white(5, trial, "white"), wide(5, trial, "wide");
+    std::vector<double> noise(series.size());
+    white.fill(0, noise);
+    for (std::size_t i = 0; i < noise.size(); ++i)
+      if (wide.uniform(i) < 0.4) noise[i] *= 4.0;
+    gain += tails_of(conditions, noise, true).temperature_gain / draws;
+  }
+  EXPECT_LT(gain, 0.5 + 5.0 * 0.11);
+}
+
 /// Cut at five deviations of the noise, each was many innovations, and the answer `unknown`.
 TEST(SetSearch, OutliersBehindAnAverageAreNoPartOfIt) {
   Scenario s = still(ten_minutes_s);
