@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <gyrostat/core/random.hpp>
+#include <gyrostat/diagnosis/likelihood/noise_over.hpp>
 #include <gyrostat/diagnosis/likelihood/set_search.hpp>
 #include <gyrostat/generators/effects/list.hpp>
 #include <gyrostat/tests/diagnosis/found_in.hpp>
@@ -67,18 +68,19 @@ TEST(Tails, TellWhatPassesAFilter) {
 
 /// Four samples in ten are four times as wide: by chance a slope gains half a unit of the
 /// logarithm, of 40 draws with a standard error of 0.11, and five of these are allowed.
-TEST(Tails, OfManyWideOnesAreNoWarmth) {
-  const Series series = recorded(still(ten_minutes_s), 1, false);
-  const Conditions conditions(series);
+TEST(NoiseOver, OfManyWideOnesIsEven) {
+  constexpr std::size_t samples = 12000;
   constexpr int draws = 40;
+  std::vector<double> off_C(samples), noise(samples);
+  for (std::size_t i = 0; i < samples; ++i)
+    off_C[i] = 17.0 * std::sin(1e-3 * static_cast<double>(i));
   double gain = 0.0;
   for (std::uint32_t trial = 0; trial < draws; ++trial) {
     const NormalStream white(5, trial, "white"), wide(5, trial, "wide");
-    std::vector<double> noise(series.size());
     white.fill(0, noise);
-    for (std::size_t i = 0; i < noise.size(); ++i)
+    for (std::size_t i = 0; i < samples; ++i)
       if (wide.uniform(i) < 0.4) noise[i] *= 4.0;
-    gain += tails_of(conditions, noise, true).temperature_gain / draws;
+    gain += noise_over(off_C, noise, 1.5, 4.0).gain / draws;
   }
   EXPECT_LT(gain, 0.5 + 5.0 * 0.11);
 }
