@@ -22,13 +22,15 @@ struct KeptApart {
   /// Where the gyro only lags, they stand still without being equal, but for as many as a coarse
   /// grid makes equal by chance.
   bool shows_repeats() const {
-    constexpr double fewest = 2.0, nearly_all = 0.95;
-    return equal >= fewest && equal >= nearly_all * still;
+    // One is enough where nearly all others go with the motion: no lag holds back one of many.
+    constexpr double enough_pairs = 50.0, most_still = 0.1, nearly_all = 0.95;
+    const bool others_follow = pairs >= enough_pairs && still <= most_still * pairs;
+    return equal >= (others_follow ? 1.0 : 2.0) && equal >= nearly_all * still;
   }
 };
 
-/// Of both parts, since a repeat is certain where it shows, and may show but a few times; beside the
-/// marks of grid and limits. No pairs without a reference.
+/// Of both parts, since a repeat is certain where it shows, and may show but a few times; beside
+/// the marks of grid and limits. No pairs without a reference.
 KeptApart kept_apart_by_motion(const Conditions& conditions, const std::vector<double>& gyro_dps,
                                const Marks& marks, double resolution_dps);
 
