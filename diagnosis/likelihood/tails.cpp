@@ -5,90 +5,15 @@
 #include <utility>
 
 #include <gyrostat/core/step.hpp>
-#include <gyrostat/diagnosis/likelihood/autoregression.hpp>
+#include <gyrostat/diagnosis/likelihood/foretold.hpp>
 #include <gyrostat/diagnosis/likelihood/noise_over.hpp>
 #include <gyrostat/diagnosis/likelihood/outlier_mixture.hpp>
 #include <gyrostat/diagnosis/likelihood/size_turns.hpp>
-#include <gyrostat/diagnosis/starts/quantile.hpp>
 
 namespace gyrostat::gap {
 namespace {
 
-constexpr std::size_t order = 16;
-constexpr std::size_t fewest_innovations = 500;
 constexpr double looked_into = 10.0;  ///< log-likelihood of tails
-constexpr double cut = 4.0;  ///< standard deviations beyond which a sample does not count at first
-
-double robust_deviation(std::vector<double> values) {
-  for (double& v : values) v = std::abs(v);
-  return quantile(std::move(values), 0.5) / normal_quartile;
-}
-
-struct Whitened {
-  std::vector<std::size_t> samples;
-  std::vector<double> innovations;
-};
-
-/// Of samples of which so many before are there; those further back that are missing are as if they
-/// were zero.
-Whitened whiten(const Conditions& conditions, const std::vector<double>& left, Part part,
-                const std::vector<double>& coefficients, std::size_t present) {
-  Whitened w;
-  for (const auto& span : conditions.spans(part))
-    for (std::size_t i = span.first + order; i < span.last; ++i) {
-      double e = left[i];
-      for (std::size_t j = 0; j < order; ++j)
-        if (const double before = left[i - 1 - j]; j < present || !is_missing(before))
-          e += coefficients[j] * before;
-      if (is_missing(e)) continue;
-      w.samples.push_back(i);
-      w.innovations.push_back(e);
-    }
-  return w;
-}
-
-std::vector<double> present_in_train(const Conditions& conditions,
-                                     const std::vector<double>& given) {
-  std::vector<double> present;
-  for (const auto& span : conditions.spans(Part::train))
-    for (std::size_t i = span.first; i < span.last; ++i)
-      if (!is_missing(given[i])) present.push_back(given[i]);
-  return present;
-}
-
-/// How many samples before one foretell it: what all others add is little beside its error.
-std::size_t foretelling(const Autoregression& law) {
-  constexpr double little = 0.02;
-  const auto& a = law.coefficients;
-  double others = 0.0;
-  std::size_t count = a.size();
-  while (count > 0) {
-    others += a[count - 1] * a[count - 1] * law.errors.front();
-    if (others > little * law.errors.back()) break;
-    --count;
-  }
-  return count;
-}
-
-std::vector<double> covariances(const Conditions& conditions, const std::vector<double>& left) {
-  std::vector<double> sums(order + 1, 0.0), counts(order + 1, 0.0);
-  for (const auto& span : conditions.spans(Part::train))
-    for (std::size_t i = span.first; i < span.last; ++i) {
-      if (is_missing(left[i])) continue;
-      for (std::size_t lag = 0; lag <= order && i >= span.first + lag; ++lag)
-        if (!is_missing(left[i - lag])) {
-          sums[lag] += left[i] * left[i - lag];
-          counts[lag] += 1.0;
-        }
-    }
-  // Of samples that are missing evenly, hardly any are at some lags.
-  constexpr double fewest = 100.0;
-  for (std::size_t lag = 0; lag <= order; ++lag)
-    sums[lag] = counts[lag] < fewest
-                    ? 0.0
-                    : sums[lag] / (counts[lag] * (1.0 + 1e-3 * (lag > 0 ? 1.0 : 0.0)));
-  return sums;
-}
 
 /// Probability of so many events or more of a Poisson law.
 double poisson_upper_tail(double events, double mean) {
@@ -102,7 +27,7 @@ std::vector<char> crowded(const std::vector<std::size_t>& samples, const std::ve
                           double share) {
   constexpr double rare = 1e-4;
   std::vector<char> flags(samples.size(), 0);
-  for (const std::size_t length : {order, 8 * order})
+  for (const std::size_t length : {samples_before, 8 * samples_before})
     for (std::size_t first = 0, last = 0; first < samples.size(); first = last) {
       double hits = 0.0;
       const std::size_t block = samples[first] / length;
@@ -137,95 +62,6 @@ OutlierMixture of_the_scattered(const std::vector<std::size_t>& samples,
     mixture = outlier_mixture(scattered, mixture.narrow);
   }
   return mixture;
-}
-
-/// Samples by those before them.
-struct Foretold {
-  Autoregression law;
-  std::vector<double> history;  ///< that they are foretold by
-  std::vector<double> ahead;    ///< deviation of a sample's error, of that of one step ahead
-  Whitened errors;              ///< of the train part, each as of one step ahead
-};
-
-Foretold foretold(const Conditions& conditions, const std::vector<double>& given,
-                  std::vector<double> history, std::vector<double> ahead) {
-  Foretold f{
-      autoregression(covariances(conditions, history)), std::move(history), std::move(ahead), {}};
-  // Where few have all before them, those that foretell them; and where few have these, none.
-  for (const std::size_t needed : {order, foretelling(f.law), std::size_t{0}}) {
-    f.errors = whiten(conditions, f.history, Part::train, f.law.coefficients, needed);
-    if (2 * f.errors.samples.size() >= present_in_train(conditions, given).size()) break;
-  }
-  for (std::size_t k = 0; k < f.errors.samples.size(); ++k) {
-    const std::size_t i = f.errors.samples[k];
-    f.errors.innovations[k] += given[i] - f.history[i];
-    f.errors.innovations[k] /= f.ahead[i];
-  }
-  return f;
-}
-
-/// From those before `i` in `history`; what is missing is as if it were zero.
-double prediction(const std::vector<double>& history, const std::vector<double>& coefficients,
-                  std::size_t i, std::size_t first) {
-  double sum = 0.0;
-  for (std::size_t j = 0; j < std::min(order, i - first); ++j)
-    if (const double before = history[i - 1 - j]; !is_missing(before))
-      sum -= coefficients[j] * before;
-  return sum;
-}
-
-/// Response of the autoregression to one innovation, until little is left of it.
-std::vector<double> response_to_one(const std::vector<double>& coefficients) {
-  constexpr double little = 0.01;
-  constexpr std::size_t most = 1000;
-  std::vector<double> response{1.0};
-  for (std::size_t k = 1, small = 0; k < most && small < order; ++k) {
-    double value = 0.0;
-    for (std::size_t j = 0; j < std::min(order, k); ++j)
-      value -= coefficients[j] * response[k - 1 - j];
-    response.push_back(value);
-    small = std::abs(value) < little ? small + 1 : 0;
-  }
-  return response;
-}
-
-/// What is far from its prediction is replaced by it (Martin and Thomson, Proc. IEEE 70, 1982), so
-/// that an outlier is one innovation and not seventeen. From samples replaced in a row the next is
-/// foretold as many steps ahead.
-Foretold cleaned(const Conditions& conditions, const std::vector<double>& given,
-                 const Foretold& by) {
-  const double limit = cut * robust_deviation(by.errors.innovations);
-  std::vector<double> deviations;  // so many steps ahead
-  double sum = 0.0;
-  for (const double r : response_to_one(by.law.coefficients))
-    deviations.push_back(std::sqrt(sum += r * r));
-  auto history = given;
-  std::vector<double> ahead(given.size(), 1.0);
-  for (const Part part : both_parts)
-    for (const auto& span : conditions.spans(part))
-      for (std::size_t i = span.first, replaced = 0; i < span.last; ++i) {
-        if (is_missing(given[i])) continue;
-        ahead[i] = deviations[std::min(replaced, deviations.size() - 1)];
-        const double expected = prediction(history, by.law.coefficients, i, span.first);
-        const bool is_far = std::abs(given[i] - expected) > limit * ahead[i];
-        if (is_far) history[i] = expected;
-        replaced = is_far ? replaced + 1 : 0;
-      }
-  return foretold(conditions, given, std::move(history), std::move(ahead));
-}
-
-Foretold beside_outliers(const Conditions& conditions, const std::vector<double>& given,
-                         double spread) {
-  const double limit = 5.0 * spread;
-  auto history = given;
-  for (double& v : history)
-    if (!is_missing(v)) v = std::clamp(v, -limit, limit);
-  const std::vector<double> one_step(given.size(), 1.0);
-  auto f = foretold(conditions, given, std::move(history), one_step);
-  constexpr int passes = 3;
-  for (int pass = 0; pass < passes && f.errors.samples.size() >= fewest_innovations; ++pass)
-    f = cleaned(conditions, given, f);
-  return f;
 }
 
 OutlierMixture mixture_of(const Whitened& w) {
@@ -271,7 +107,7 @@ void tell_warmth(const Conditions& conditions, const Whitened& w, Tails& tails,
   double mean = 0.0;
   for (const std::size_t i : w.samples) mean += T[i] / n;
   for (const std::size_t i : w.samples) off.push_back(T[i] - mean);
-  const auto warm = noise_over(off, w.innovations, tails.deviation, cut);
+  const auto warm = noise_over(off, w.innovations, tails.deviation, far_off);
   tails.deviation = warm.deviation;
   tails.reference_C = mean;
   tails.noise_per_C = warm.slope;
@@ -295,7 +131,7 @@ std::vector<char> flagged(const Conditions& conditions, const std::vector<double
   for (const Part part : both_parts)
     for (const auto& span : conditions.spans(part))
       for (std::size_t i = span.first; i < span.last; ++i) {
-        const double e = given[i] - prediction(f.history, f.law.coefficients, i, span.first);
+        const double e = given[i] - prediction(f, i, span.first);
         if (is_missing(e)) continue;
         samples.push_back(i);
         errors.push_back(e);
@@ -303,8 +139,7 @@ std::vector<char> flagged(const Conditions& conditions, const std::vector<double
       }
   const auto all = static_cast<double>(std::count(wide.begin(), wide.end(), char{1}));
   const auto crowds = crowded(samples, wide, all / static_cast<double>(samples.size()));
-  const auto response =
-      innovational ? response_to_one(f.law.coefficients) : std::vector<double>{1.0};
+  const auto response = innovational ? response_to_one(f.law) : std::vector<double>{1.0};
   std::vector<char> flags(given.size(), 0);
   for (std::size_t k = 0; k < samples.size(); ++k) {
     if (wide[k] == 0 || crowds[k] != 0) continue;
@@ -323,10 +158,10 @@ Tails tails_of(const Conditions& conditions, const std::vector<double>& given, b
   const auto present = present_in_train(conditions, given);
   if (present.size() < fewest_innovations) return tails;
   const double spread = robust_deviation(present);
-  auto f = beside_outliers(conditions, given, spread);
+  auto f = foretold_beside_outliers(conditions, given);
   if (f.errors.innovations.size() < fewest_innovations) return tails;
   if (past == Past::may_be_of_outliers) {
-    auto whole = foretold(conditions, given, given, std::vector<double>(given.size(), 1.0));
+    auto whole = foretold(conditions, given);
     tails.innovational = is_innovational(whole, f);
     if (tails.innovational) f = std::move(whole);
   }
