@@ -68,10 +68,11 @@ Foretold foretold(const Conditions& conditions, const std::vector<double>& given
                   std::vector<double> history, std::vector<double> ahead) {
   Foretold f{
       autoregression(covariances(conditions, history)), std::move(history), std::move(ahead), {}};
+  const std::size_t present = present_in_train(conditions, given).size();
   // Where few have all before them, those that foretell them; and where few have these, none.
   for (const std::size_t needed : {order, foretelling(f.law), std::size_t{0}}) {
     f.errors = whiten(conditions, f.history, Part::train, f.law.coefficients, needed);
-    if (2 * f.errors.samples.size() >= present_in_train(conditions, given).size()) break;
+    if (2 * f.errors.samples.size() >= present) break;
   }
   for (std::size_t k = 0; k < f.errors.samples.size(); ++k) {
     const std::size_t i = f.errors.samples[k];

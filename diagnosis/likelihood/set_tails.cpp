@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include <gyrostat/diagnosis/likelihood/arima_law.hpp>
+#include <gyrostat/diagnosis/likelihood/beside_jumps.hpp>
 #include <gyrostat/diagnosis/likelihood/block_level.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/line_names.hpp>

@@ -34,8 +34,4 @@ enum class Past { is_quiet, may_be_of_outliers };
 Tails tails_of(const Conditions& conditions, const std::vector<double>& left_dps, bool temperature,
                Past past = Past::is_quiet);
 
-/// Flags the samples of blocks within which `left_dps` goes from one level to another.
-std::vector<char> samples_beside_jumps(const std::vector<double>& left_dps,
-                                       const std::vector<Span>& blocks);
-
 }  // namespace gyrostat::gap
