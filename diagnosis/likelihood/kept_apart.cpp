@@ -55,8 +55,10 @@ KeptApart kept_apart_by_motion(const Conditions& conditions, const std::vector<d
   double back = 0.0, forth = 0.0;
   const double widest_zone_dps = 0.5 * fastest_dps(conditions);
   each([&](std::size_t i, double step, double turned) {
-    // About zero, a dead zone may hold them together.
-    const bool may_be_held = std::abs(z[i]) <= far && std::abs(reference[i]) <= widest_zone_dps;
+    // About zero, a dead zone may hold them together. Whether this one is a repeat must not matter.
+    const bool may_be_held =
+        std::abs(z[i - 1]) <= far &&
+        std::max(std::abs(reference[i - 1]), std::abs(reference[i])) <= widest_zone_dps;
     if (std::abs(turned) <= far || may_be_held) return;
     apart.pairs += 1.0;
     apart.still += std::abs(step) <= far ? 1.0 : 0.0;

@@ -92,10 +92,13 @@ void read_repeats(const Simulator& simulator, const std::vector<double>& z, cons
   double beyond = equal - by_chance;
   // So many pairs say that there are none, too.
   constexpr double enough_pairs = 1000.0;
+  // Where hardly any are equal by chance, all say more than a few that a motion keeps apart.
+  constexpr double hardly_any = 0.05;
+  const bool all_say_more = grid == 0.0 && by_chance < hardly_any * equal;
   const auto apart =
       back > 1 ? KeptApart{}
                : kept_apart_by_motion(simulator.conditions(), z, marks, simulator.resolution_dps());
-  if (apart.pairs >= enough_pairs || apart.shows_repeats()) {
+  if (apart.pairs >= enough_pairs || (apart.shows_repeats() && !all_say_more)) {
     marks.turns_through_grid = apart.pairs > 0.5 * count;
     by_chance = apart.by_chance / apart.pairs * count;
     beyond = apart.equal / apart.pairs * count - by_chance;

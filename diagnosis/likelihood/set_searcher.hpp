@@ -198,6 +198,8 @@ class SetSearcher {
   /// Of noise fitted to samples that are not far off, at all temperatures: without the outliers
   /// among them, and as it is at the reference temperature, where `set` has these effects.
   void leave_to_tails(const Scenario& set, Arima111<double>& fitted) const;
+  /// Variance of the error of rounding, which no temperature makes larger, over that of the noise.
+  double rounding_over_noise(const Scenario& set) const;
   void add_nameless_tails(FoundSet& found) const;
   /// The set, and what only the sizes of innovations say, in turn.
   Standing searched_beside_tails(Standing standing);

@@ -11,12 +11,15 @@
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
 #include <gyrostat/diagnosis/likelihood/line_names.hpp>
 #include <gyrostat/generators/effects/noise_averaging.hpp>
+#include <gyrostat/generators/effects/quantization.hpp>
 
 namespace gyrostat::gap {
 namespace {
 
 /// Sizes of innovations are odd in more ways than the catalogue has effects for.
 constexpr double prior_of_sizes = 4.0;
+/// Of noise that is next to nothing beside its rounding, no size is known.
+constexpr double most_rounding = 30.0;
 
 /// Whether what is left beside the level of a block has one size: a walk that shows within it is
 /// larger at its ends than in its middle.
@@ -29,6 +32,15 @@ bool is_of_one_size(const Scenario& scenario, const std::vector<Span>& blocks) {
 
 bool colours_noise(const Scenario& set) {
   return has(set, "noise_bandwidth") || has(set, "noise_averaging");
+}
+
+/// Variance of the error of rounding.
+double rounding_of(const Scenario& set) {
+  double sum = 0.0;
+  for (const auto& effect : set.effects)
+    if (const auto* grid = effect.as<effects::Quantization>())
+      sum += grid->lsb_dps * grid->lsb_dps / 12.0;
+  return sum;
 }
 
 }  // namespace
@@ -98,11 +110,8 @@ void SetSearcher::judge_tails(const Standing& standing, Past past) {
   const double value = 0.5 * std::log(static_cast<double>(recording_.size()));
   has_outliers_ = bench_.is_allowed("outliers") && !slips(standing.scenario) &&
                   tails_.outlier_gain > prior_of_sizes + 2.0 * value + 4.0 + feigned_.tails;
-  // Of noise that is next to nothing beside its rounding, no size is known.
-  constexpr double next_to_nothing = 0.03;
-  const auto law = law_of(standing.scenario, conditions_.interval_s());
   has_warm_noise_ = bench_.is_allowed("noise_temperature") &&
-                    law.white > next_to_nothing * law.rounding &&
+                    rounding_over_noise(standing.scenario) < most_rounding &&
                     tails_.temperature_gain > prior_of_sizes + value + feigned_.warmth;
 }
 
@@ -151,13 +160,21 @@ Standing SetSearcher::searched_beside_tails(Standing standing) {
   return standing;
 }
 
+double SetSearcher::rounding_over_noise(const Scenario& set) const {
+  const double rounding = rounding_of(set);
+  if (rounding == 0.0) return 0.0;
+  // Of noise that is coloured, an innovation has a part, with all that comes after what colours it.
+  const double noise = colours_noise(set) ? std::pow(tails_.deviation, 2) - rounding
+                                          : law_of(set, conditions_.interval_s()).white;
+  return std::min(most_rounding, rounding / std::max(noise, 1e-300));
+}
+
 void SetSearcher::leave_to_tails(const Scenario& set, Arima111<double>& fitted) const {
   double& deviation = fitted.measurement_noise_std_dps;
   if (has(set, "outliers")) deviation *= tails_.quiet;
   if (!has(set, "noise_temperature")) return;
   // The error of rounding stays as it is.
-  const auto law = law_of(set, conditions_.interval_s());
-  const double rounding = law.white > 0.0 ? law.rounding / law.white : 0.0;
+  const double rounding = rounding_over_noise(set);
   const double at_reference = (1.0 + rounding) / tails_.mean_square_of_warmth - rounding;
   deviation *= std::sqrt(std::max(0.0, at_reference));
 }
@@ -190,7 +207,7 @@ void SetSearcher::add_tails(FoundSet& found) const {
   }
   if (has_warm_noise_) {
     // The error of rounding stays as it is.
-    const double of_what_warms = law.white > 0.0 ? 1.0 + law.rounding / law.white : 1.0;
+    const double of_what_warms = 1.0 + rounding_over_noise(found.scenario);
     found.scenario.effects.push_back(with_values(
         "noise_temperature", {{"relative_per_C", tails_.noise_per_C * of_what_warms},
                               {"reference_C", tails_.reference_C},
