@@ -34,6 +34,10 @@ bool colours_noise(const Scenario& set) {
   return has(set, "noise_bandwidth") || has(set, "noise_averaging");
 }
 
+bool is_any(const std::vector<char>& flags) {
+  return std::find(flags.begin(), flags.end(), char{1}) != flags.end();
+}
+
 /// Variance of the error of rounding.
 double rounding_of(const Scenario& set) {
   double sum = 0.0;
@@ -91,10 +95,16 @@ void SetSearcher::judge_tails(const Standing& standing, Past past) {
   }
   auto left = bench_.rate_left_by(standing.scenario, hidden);
   // Neither may outliers pass for a burst, nor the samples of a burst for outliers.
-  auto without_outliers = left;
-  for (std::size_t i = 0; i < tails_.outliers.size(); ++i)
-    if (tails_.outliers[i] != 0) without_outliers[i] = no_value;
-  const auto bursts = samples_in_bursts(bench_, standing.scenario, without_outliers);
+  const auto bursts_beside = [&](const std::vector<char>& outliers) {
+    auto others = left;
+    for (std::size_t i = 0; i < outliers.size(); ++i)
+      if (outliers[i] != 0) others[i] = no_value;
+    return samples_in_bursts(bench_, standing.scenario, others);
+  };
+  auto bursts = bursts_beside(tails_.outliers);
+  if (tails_.outliers.empty() && is_any(bursts))
+    bursts =
+        bursts_beside(tails_of(conditions_, left, conditions_.has_temperature(), past).outliers);
   for (std::size_t i = 0; i < left.size(); ++i)
     if (bursts[i] != 0) left[i] = no_value;
   // Nor the level on either side of a jump.

@@ -113,8 +113,14 @@ void tell_warmth(const Conditions& conditions, const Whitened& w, Tails& tails,
   tails.noise_per_C = warm.slope;
   tails.noise_per_C2 = warm.curvature;
   tails.temperature_gain = std::max(0.0, warm.gain);
-  tails.mean_square_of_warmth = 0.0;
-  for (const double o : off) tails.mean_square_of_warmth += std::pow(warm.gain_at(o), 2) / n;
+  // Of all samples, as the noise is fitted to all: those in bursts may be the warm ones.
+  double squares = 0.0, count = 0.0;
+  for (const auto& span : conditions.spans(Part::train))
+    for (std::size_t i = span.first; i < span.last; ++i) {
+      squares += std::pow(warm.gain_at(T[i] - mean), 2);
+      count += 1.0;
+    }
+  tails.mean_square_of_warmth = squares / count;
   // What does not show does not scale the others.
   if (tails.temperature_gain >= 7.0)
     std::transform(off.begin(), off.end(), relative.begin(),
