@@ -98,23 +98,15 @@ LineShape shape_in_blocks(const Conditions& conditions, const std::vector<double
   shape.wandering = independent * (best - exponential);
 
   const auto two = two_exponentials(squares, {0.2, 3.0 * mean, 0.4 * mean}, 0.9, 80);
-  const auto [share, on, off] = two;
-  const double mixed = two.log_likelihood(squares);
-  shape.bursts = on > 3.0 * off ? independent * (mixed - exponential) : 0.0;
-  shape.share_on = share;
-  shape.on_std_dps = std::sqrt(std::max(0.5 * (on - off), 0.0));
-  const double limit = std::sqrt(on * off);
+  if (!(two.on > 3.0 * two.off)) return shape;
+  shape.bursts = independent * (two.log_likelihood(squares) - exponential);
+  // A block is weak within a burst as often as its own line is.
+  shape.course = on_and_off(envelopes, two, independent);
+  shape.on_std_dps = std::sqrt(std::max(0.5 * (shape.course.on - shape.course.off), 0.0));
   shape.block = block;
-  shape.limit_dps2 = limit;
-  double begun = 0.0, with = 0.0;
-  for (const auto& e : envelopes)
-    for (std::size_t k = 0; k < e.size(); ++k) {
-      with += e[k] > limit;
-      begun += e[k] > limit && (k == 0 || !(e[k - 1] > limit));
-    }
   const double seconds = static_cast<double>(block) * conditions.interval_s();
-  shape.on_s = begun > 0.0 ? with / begun * seconds : seconds;
-  shape.off_s = begun > 0.0 ? (n - with) / begun * seconds : n * seconds;
+  shape.on_s = seconds / shape.course.ends;
+  shape.off_s = seconds / shape.course.begins;
   return shape;
 }
 
@@ -136,19 +128,22 @@ LineShape line_shape(const Conditions& conditions, const std::vector<double>& le
 std::vector<char> samples_in_bursts(const Conditions& conditions,
                                     const std::vector<double>& left_dps, const Resonance& line,
                                     const LineShape& shape) {
+  constexpr double may_be_on = 0.1;
   std::vector<char> inside(left_dps.size(), 0);
   for (const Part part : both_parts) {
     const auto envelopes = squared_envelopes(conditions, part, left_dps, line, shape.block);
     const auto& spans = conditions.spans(part);
-    for (std::size_t s = 0; s < spans.size(); ++s)
-      for (std::size_t k = 0; k < envelopes[s].size(); ++k) {
-        if (!(envelopes[s][k] > shape.limit_dps2)) continue;
+    for (std::size_t s = 0; s < spans.size(); ++s) {
+      const auto chances = shape.course.chance_of_on(envelopes[s]);
+      for (std::size_t k = 0; k < chances.size(); ++k) {
+        if (chances[k] < may_be_on) continue;
         const std::size_t middle = spans[s].first + k * shape.block;
         const std::size_t from = std::max(spans[s].first + shape.block, middle) - shape.block;
         const std::size_t to = std::min(middle + 2 * shape.block, spans[s].last);
         std::fill(inside.begin() + static_cast<std::ptrdiff_t>(from),
                   inside.begin() + static_cast<std::ptrdiff_t>(to), char{1});
       }
+    }
   }
   return inside;
 }
