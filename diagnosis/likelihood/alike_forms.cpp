@@ -32,7 +32,8 @@ std::string form_of(const Effects& effects) {
   return form;
 }
 
-/// The axis' effects of a part with one of them exchanged for a rival of the same part.
+/// The axis' effects of a part with a rival of the same part, in the place of one of them or beside
+/// them.
 std::vector<Effects> rivals_of_part(const FoundSet& axis, std::string_view part) {
   std::vector<Effects> all;
   for (const auto& rival : axis.rivals) {
@@ -41,8 +42,13 @@ std::vector<Effects> rivals_of_part(const FoundSet& axis, std::string_view part)
     const auto place = std::find_if(effects.begin(), effects.end(), [&](const auto& effect) {
       return effect.id() == rival.instead_of;
     });
-    if (cause == nullptr || cause->part != part || place == effects.end()) continue;
-    *place = rival.found;
+    if (cause == nullptr || cause->part != part) continue;
+    if (rival.instead_of.empty())
+      effects.push_back(rival.found);
+    else if (place != effects.end())
+      *place = rival.found;
+    else
+      continue;
     std::sort(effects.begin(), effects.end(),
               [](const auto& a, const auto& b) { return a.id() < b.id(); });
     all.push_back(std::move(effects));

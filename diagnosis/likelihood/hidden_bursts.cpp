@@ -7,9 +7,11 @@
 
 #include <tbb/parallel_for.h>
 
+#include <gyrostat/core/step.hpp>
 #include <gyrostat/diagnosis/likelihood/block_powers.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_band.hpp>
 #include <gyrostat/diagnosis/likelihood/effect_values.hpp>
+#include <gyrostat/diagnosis/likelihood/on_and_off.hpp>
 #include <gyrostat/diagnosis/likelihood/two_exponentials.hpp>
 #include <gyrostat/generators/effects/vibration_bursts.hpp>
 
@@ -35,24 +37,15 @@ Mixture mixture_of(const BlockPowers& powers, std::size_t bin) {
   return {means, are_two ? means.log_likelihood(values) + n * (std::log(mean) + 1.0) : 0.0};
 }
 
-/// Of blocks in which a bin has more than the limit: how long they last, and how long they do not.
-struct Course {
-  double on_s, off_s;
-};
-Course course_of(const BlockPowers& powers, std::size_t bin, double limit) {
-  double begun = 0.0, with = 0.0, all = 0.0;
+/// How the bin comes and goes; blocks of which too little is known say nothing.
+OnAndOff course_of(const BlockPowers& powers, std::size_t bin, const TwoExponentials& means) {
+  std::vector<std::vector<double>> stretches;
   for (const auto& span : powers.spans) {
-    bool was_on = false;
-    for (const auto& block : span) {
-      const bool is_on = !block.empty() && block[bin] > limit;
-      begun += is_on && !was_on ? 1.0 : 0.0;
-      with += is_on ? 1.0 : 0.0;
-      all += 1.0;
-      was_on = is_on;
-    }
+    stretches.emplace_back();
+    for (const auto& block : span)
+      stretches.back().push_back(block.empty() ? no_value : block[bin]);
   }
-  begun = std::max(begun, 1.0);
-  return {with / begun * powers.interval_s, (all - with) / begun * powers.interval_s};
+  return on_and_off(stretches, means, 1.0);
 }
 
 }  // namespace
@@ -89,15 +82,14 @@ std::optional<HiddenLine> hidden_bursts(const SetBench& bench, const Scenario& s
         beside = std::max({beside, mixtures[k - by].gain, mixtures[k + by].gain});
       const double log_odds = gain - std::max(price, 2.0 * beside) - places;
       if (log_odds < clear || (best && log_odds <= best->log_odds)) continue;
-      const auto course =
-          course_of(powers, k, std::sqrt(means.on * means.off) * std::log(means.on / means.off));
+      const auto course = course_of(powers, k, means);
       const Effect bursts = effects::VibrationBursts{
-          .std_dps = std::sqrt(2.0 * powers.noise_dps2[k] * (means.on - means.off) /
+          .std_dps = std::sqrt(2.0 * powers.noise_dps2[k] * (course.on - course.off) /
                                static_cast<double>(length)),
           .centre_hz = powers.resolution_hz * static_cast<double>(powers.first + k),
           .bandwidth_hz = powers.resolution_hz,
-          .mean_duration_s = 1.01 * course.on_s,  // a block, at least
-          .mean_interval_s = course.off_s};
+          .mean_duration_s = 1.01 * powers.interval_s / course.ends,  // a block, at least
+          .mean_interval_s = powers.interval_s / course.begins};
       const Resonance band = band_of_line(bursts);
       const auto is_beside = [&](const Effect& effect) {
         return is_line(effect.id()) && are_neighbours(band_of_line(effect), band);

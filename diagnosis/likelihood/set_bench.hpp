@@ -13,8 +13,8 @@
 
 namespace gyrostat::gap {
 
-/// Log prior odds against any one effect more: of some thirty one is there (30 e^-3.5 = 0.9).
-constexpr double prior = 3.5;
+/// Log prior odds against any one effect more: of some thirty one or two are there (30 e^-3 = 1.5).
+constexpr double prior = 3.0;
 
 /// A set with its fit.
 struct Standing {

@@ -148,7 +148,8 @@ Standing SetSearcher::concluded(Standing standing, FoundSet& found) {
       if (!member.read_off && !has(other.scenario, member.effect))
         member.log_odds = std::min(member.log_odds, standing.score - other.score);
   }
-  return beside_a_line_within(without_what_others_are(std::move(standing), found), found);
+  standing = without_the_doubtful(without_what_others_are(std::move(standing), found), found);
+  return beside_a_line_within(std::move(standing), found);
 }
 
 FoundSet SetSearcher::described(Standing standing, FoundSet found) {

@@ -133,6 +133,8 @@ class SetSearcher {
   /// before a filter or a shift of time has followed the rate, beside which the search finds more,
   /// and sines of a line that they are part of.
   Standing without_what_others_are(Standing standing, FoundSet& found) const;
+  /// Without those that are hardly likelier than nothing in their place; they are rivals of that.
+  Standing without_the_doubtful(Standing standing, FoundSet& found) const;
   /// With a sine that stands out from a vibration in whose band it is: until it is known to, it has
   /// no price.
   Standing beside_a_line_within(Standing standing, FoundSet& found);
