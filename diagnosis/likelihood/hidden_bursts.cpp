@@ -45,7 +45,7 @@ OnAndOff course_of(const BlockPowers& powers, std::size_t bin, const TwoExponent
     for (const auto& block : span)
       stretches.back().push_back(block.empty() ? no_value : block[bin]);
   }
-  return on_and_off(stretches, means, 1.0);
+  return on_and_off(stretches, OnAndOff::in_any_order(means, 1.0));
 }
 
 }  // namespace

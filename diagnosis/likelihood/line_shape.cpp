@@ -98,15 +98,10 @@ LineShape shape_in_blocks(const Conditions& conditions, const std::vector<double
   shape.wandering = independent * (best - exponential);
 
   const auto two = two_exponentials(squares, {0.2, 3.0 * mean, 0.4 * mean}, 0.9, 80);
-  if (!(two.on > 3.0 * two.off)) return shape;
-  shape.bursts = independent * (two.log_likelihood(squares) - exponential);
-  // A block is weak within a burst as often as its own line is.
-  shape.course = on_and_off(envelopes, two, independent);
-  shape.on_std_dps = std::sqrt(std::max(0.5 * (shape.course.on - shape.course.off), 0.0));
+  if (two.on > 3.0 * two.off)
+    shape.bursts = independent * (two.log_likelihood(squares) - exponential);
   shape.block = block;
-  const double seconds = static_cast<double>(block) * conditions.interval_s();
-  shape.on_s = seconds / shape.course.ends;
-  shape.off_s = seconds / shape.course.begins;
+  shape.course = OnAndOff::in_any_order(two, independent);
   return shape;
 }
 
@@ -122,6 +117,14 @@ LineShape line_shape(const Conditions& conditions, const std::vector<double>& le
   for (const auto& shape : shapes)
     if (std::max(shape.wandering, shape.bursts) > std::max(best.wandering, best.bursts))
       best = shape;
+  if (best.bursts == 0.0) return best;
+  // A block is weak within a burst as often as its own line is.
+  best.course = on_and_off(squared_envelopes(conditions, Part::train, left_dps, line, best.block),
+                           best.course);
+  best.on_std_dps = std::sqrt(std::max(0.5 * (best.course.on - best.course.off), 0.0));
+  const double seconds = static_cast<double>(best.block) * conditions.interval_s();
+  best.on_s = seconds / best.course.ends;
+  best.off_s = seconds / best.course.begins;
   return best;
 }
 

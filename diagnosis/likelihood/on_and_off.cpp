@@ -17,13 +17,12 @@ struct Expected {
   double before_off = 0.0, begun = 0.0, before_on = 0.0, ended = 0.0;
 };
 
-OffAndOn likelihood(const OnAndOff& chain, double value) {
+/// Of a value, relative to the likelier of both.
+OffAndOn likelihood(const OnAndOff& chain, double log_of_means, double value) {
   if (is_missing(value)) return {1.0, 1.0};
-  // Relative to the likelier.
-  const double off = -std::log(chain.off) - value / chain.off;
-  const double on = -std::log(chain.on) - value / chain.on;
-  const double most = std::max(off, on);
-  return {std::exp(chain.weight * (off - most)), std::exp(chain.weight * (on - most))};
+  const double for_on = chain.weight * (value * (1.0 / chain.off - 1.0 / chain.on) - log_of_means);
+  const double other = std::exp(-std::abs(for_on));
+  return for_on > 0.0 ? OffAndOn{other, 1.0} : OffAndOn{1.0, other};
 }
 
 OffAndOn normalised(OffAndOn x) {
@@ -37,8 +36,9 @@ std::vector<double> smoothed(const OnAndOff& chain, const std::vector<double>& v
   const std::size_t n = values.size();
   std::vector<OffAndOn> seen(n), ahead(n);
   OffAndOn foretold = normalised({chain.ends, chain.begins});
+  const double log_of_means = std::log(chain.on / chain.off);
   for (std::size_t k = 0; k < n; ++k) {
-    seen[k] = likelihood(chain, values[k]);
+    seen[k] = likelihood(chain, log_of_means, values[k]);
     ahead[k] = normalised({foretold[0] * seen[k][0], foretold[1] * seen[k][1]});
     foretold = {ahead[k][0] * (1.0 - chain.begins) + ahead[k][1] * chain.ends,
                 ahead[k][0] * chain.begins + ahead[k][1] * (1.0 - chain.ends)};
@@ -79,11 +79,11 @@ std::vector<double> OnAndOff::chance_of_on(const std::vector<double>& values) co
   return smoothed(*this, values, unused);
 }
 
-OnAndOff on_and_off(const std::vector<std::vector<double>>& stretches, const TwoExponentials& start,
-                    double weight) {
-  OnAndOff chain{.on = start.on, .off = start.off, .weight = weight};
-  chain.begins = 0.5 * start.share_on;
-  chain.ends = 0.5 * (1.0 - start.share_on);
+OnAndOff OnAndOff::in_any_order(const TwoExponentials& means, double weight) {
+  return {means.on, means.off, 0.5 * means.share_on, 0.5 * (1.0 - means.share_on), weight};
+}
+
+OnAndOff on_and_off(const std::vector<std::vector<double>>& stretches, OnAndOff chain) {
   constexpr int passes = 60;
   constexpr double least = 1e-4, most = 0.9;
   for (int pass = 0; pass < passes; ++pass) {

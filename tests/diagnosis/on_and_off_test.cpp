@@ -36,7 +36,7 @@ std::vector<std::vector<double>> stretches(std::uint64_t seed) {
 /// each; four of these are allowed. 1,600 values on have one of 2.5 %, and 8,000 off of 1 %.
 TEST(OnAndOff, AreToldWithTheirChancesAndMeans) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const auto chain = on_and_off(stretches(seed), {0.3, 20.0, 0.5}, 1.0);
+    const auto chain = on_and_off(stretches(seed), {.on = 20.0, .off = 0.5});
     EXPECT_NEAR(chain.begins / begins, 1.0, 0.4) << seed;
     EXPECT_NEAR(chain.ends / ends, 1.0, 0.4) << seed;
     EXPECT_NEAR(chain.on / on, 1.0, 0.15) << seed;
