@@ -74,6 +74,18 @@ TEST(SetSearch, NoiseBehindAFilterWarmsAsThatBeforeIt) {
     }
 }
 
+/// Where a filter of the rate is found first, no outlier has been told before the line has: they
+/// were bursts of it in six of six recordings.
+TEST(SetSearch, OutliersBesideALineAreNoBurstsOfIt) {
+  Scenario s = moving(ten_minutes_s);
+  s.effects = {effects::SensorBandwidth{.cutoff_hz = 1.0}, effects::Vibration{0.04, 4.0, 0.4},
+               effects::Outliers{0.005, 0.5}};
+  for (const std::uint64_t seed : {62, 63})
+    EXPECT_EQ(found_in(recorded(s, seed, true)),
+              (std::set<std::string>{"outliers", "sensor_bandwidth", "vibration"}))
+        << seed;
+}
+
 /// Of 1,200 outliers on a grid some eighty fall on the value before, and as many on each beside it.
 TEST(SetSearch, OutliersThatFallOnTheValueBeforeAreNoRepeats) {
   Scenario s = moving();
