@@ -170,13 +170,16 @@ std::string next_in_words(const Diagnosis& d) {
   if (d.next.what.empty()) return "";
   if (d.next.expected_power == 0.0) return fmt::format("Record next: {}.", d.next.what);
   const double percent = 100.0 * d.next.expected_power;
+  const auto question = d.next.first == Verdict::none().text()
+                            ? fmt::format("whether {} is there", d.next.second)
+                            : fmt::format("{} from {}", d.next.first, d.next.second);
   if (!d.next.tells_apart())
     return fmt::format(
-        "No recording that was tried in simulation tells {} from {}; the best, {}, "
+        "No recording that was tried in simulation tells {}; the best, {}, "
         "is right in {:.0f} %.",
-        d.next.first, d.next.second, d.next.what, percent);
-  return fmt::format("To tell {} from {}: {} (right in {:.0f} % of simulated recordings).",
-                     d.next.first, d.next.second, d.next.what, percent);
+        question, d.next.what, percent);
+  return fmt::format("To tell {}: {} (right in {:.0f} % of simulated recordings).", question,
+                     d.next.what, percent);
 }
 
 std::string detectable_in_words(const Diagnosis& d) {

@@ -169,35 +169,39 @@ Scenario Diagnosing::with_effects(std::vector<std::string> names) {
 
 /// Only where something is open: a rival, or what nothing explains.
 void Diagnosing::look_ahead() {
-  const Cause *first = nullptr, *second = nullptr;
-  const auto cause_of = [&](const std::string& effect) -> const Cause* {
+  std::optional<Scenario> first, second;
+  const auto scenario_of = [&](const std::string& effect) -> std::optional<Scenario> {
     const auto at = std::find_if(result_.causes.begin(), result_.causes.end(),
                                  [&](const auto& cause) { return cause.effect == effect; });
-    return at == result_.causes.end() ? nullptr : &*at;
+    return at == result_.causes.end() ? std::nullopt : std::optional(at->scenario);
   };
   const auto closest =
       std::max_element(found_.rivals.begin(), found_.rivals.end(),
                        [](const auto& a, const auto& b) { return a.log_odds < b.log_odds; });
   if (closest != found_.rivals.end() &&
       probability_of(closest->log_odds) >= thresholds::member_probability) {
-    first = cause_of(closest->instead_of);
-    second = cause_of(closest->effect);
+    first = scenario_of(closest->instead_of);
+    second = scenario_of(closest->effect);
+    // What may be there or not is held against nothing in its place.
+    if (closest->instead_of.empty() && second) {
+      first = second;
+      first->effects.clear();
+    }
   }
-  const bool is_apart = first != nullptr && second != nullptr && first != second;
-  if (!is_apart) {
+  if (!first || !second || closest->instead_of == closest->effect) {
     const auto& set = result_.verdict_set;
     const bool may_be_unknown = std::find(set.begin(), set.end(), Verdict::unknown()) != set.end();
     const std::string nearest = result_.causes.empty() ? "" : result_.causes.front().effect;
     if (result_.transient)
       result_.next = undisturbed_recording(nearest);
-    else if (second != nullptr || may_be_unknown)
+    else if (second || may_be_unknown)
       result_.next = wider_recording(simulator_.conditions(), result_.duration_s, nearest,
                                      is_left_in_the_compass_alone());
     return;
   }
   tell("looking for the next experiment", 0.95);
-  result_.next = next_experiment(first->scenario, second->scenario, result_.duration_s,
-                                 options_.seed, simulator_.interrupt());
+  result_.next =
+      next_experiment(*first, *second, result_.duration_s, options_.seed, simulator_.interrupt());
 }
 
 Diagnosis Diagnosing::run() {

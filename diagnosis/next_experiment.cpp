@@ -73,9 +73,11 @@ double power(const Scenario& conditions, const Scenario& first, const Scenario& 
 
 NextExperiment next_experiment(const Scenario& first, const Scenario& second, double recorded_s,
                                std::uint64_t seed, const Interrupt& interrupt) {
-  NextExperiment best{.what = "",
-                      .first = std::string(first.effects.back().id()),
-                      .second = std::string(second.effects.back().id())};
+  const auto last_of = [](const Scenario& scenario) {
+    return scenario.effects.empty() ? Verdict::none().text()
+                                    : std::string(scenario.effects.back().id());
+  };
+  NextExperiment best{.what = "", .first = last_of(first), .second = last_of(second)};
   for (const auto& proposal : proposals(first, recorded_s))
     if (const double p = power(proposal.conditions, first, second, seed, interrupt);
         p > best.expected_power) {

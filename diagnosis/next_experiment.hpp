@@ -24,7 +24,8 @@ struct NextExperiment {
 
 /// Of longer static recordings, one of a night, slower and faster temperature cycles, a rate table
 /// and turns on the spot, the one that best separates two enriched scenarios whose last effects are
-/// the causes: recordings are simulated under each and scored under both.
+/// the causes, `none` where there is none: recordings are simulated under each and scored under
+/// both.
 NextExperiment next_experiment(const Scenario& first, const Scenario& second, double recorded_s,
                                std::uint64_t seed, const Interrupt& interrupt = {});
 

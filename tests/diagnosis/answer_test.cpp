@@ -83,6 +83,19 @@ TEST(Answer, SaysWhereNamesLeaveMoreThanChance) {
   EXPECT_THAT(answer(d), HasSubstr("still misses the recording by more than chance"));
 }
 
+TEST(Answer, SaysWhatTheNextRecordingWouldTell) {
+  auto d = with_two_effects();
+  d.next = {.what = "a night at rest",
+            .first = "vibration",
+            .second = "sinusoidal",
+            .expected_power = 0.9};
+  EXPECT_THAT(next_in_words(d), HasSubstr("To tell vibration from sinusoidal: a night at rest"));
+  d.next.first = "none";
+  EXPECT_THAT(next_in_words(d), HasSubstr("To tell whether sinusoidal is there: a night at rest"));
+  d.next.expected_power = 0.6;
+  EXPECT_THAT(next_in_words(d), HasSubstr("tells whether sinusoidal is there; the best, a night"));
+}
+
 TEST(Answer, NothingCloserIsNotCalledCloser) {
   auto d = with_two_effects();
   d.closed = -0.2;
